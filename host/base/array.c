@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Doubling growth for ARRAY and allocations that report exhaustion as a world fault.
+#include "base/array.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+
+bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error)
+{
+    if (count <= *capacity)
+        return true;
+    size_t wanted = *capacity < 8 ? 8 : *capacity;
+    while (wanted < count && wanted <= SIZE_MAX / 2)
+        wanted *= 2;
+    if (wanted < count || wanted > SIZE_MAX / size)
+        return error_out_of_memory(error, SIZE_MAX);
+    void *grown = realloc(*memory, wanted * size);
+    if (grown == NULL)
+        return error_out_of_memory(error, wanted * size);
+    *memory = grown;
+    *capacity = wanted;
+    return true;
+}
+
+static size_t byte_count(size_t count, size_t size)
+{
+    if (count > SIZE_MAX / size)
+        return SIZE_MAX;
+    return count == 0 ? size : count * size;
+}
+
+void *memory_zeroed(size_t count, size_t size, Error *error)
+{
+    const size_t bytes = byte_count(count, size);
+    void *memory = bytes > PTRDIFF_MAX ? NULL : calloc(1, bytes);
+    if (memory == NULL)
+        error_out_of_memory(error, bytes);
+    return memory;
+}
+
+void *memory_raw(size_t count, size_t size, Error *error)
+{
+    const size_t bytes = byte_count(count, size);
+    void *memory = bytes > PTRDIFF_MAX ? NULL : malloc(bytes);
+    if (memory == NULL)
+        error_out_of_memory(error, bytes);
+    return memory;
+}

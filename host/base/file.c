@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Reads files whole: the parsers want one span of bytes and never see a stream.
+#include "base/file.h"
+
+#include "base/array.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// Pipes have no size to believe, so the buffer grows with what really arrives.
+static bool read_stream(File *file, FILE *stream, size_t expected, Error *error)
+{
+    void *memory = NULL;
+    size_t capacity = 0;
+    bool ok = array_reserve(&memory, &capacity, expected + 2, 1, error);
+    while (ok) {
+        file->size += fread((char *)memory + file->size, 1, capacity - file->size - 1, stream);
+        if (file->size < capacity - 1)
+            break;
+        ok = array_reserve(&memory, &capacity, capacity + 1, 1, error);
+    }
+    file->bytes = memory;
+    if (ok)
+        file->bytes[file->size] = '\0';
+    return ok;
+}
+
+bool file_read(File *file, const char *path, Error *error)
+{
+    *file = (File){0};
+    FILE *stream = fopen(path, "rb");
+    struct stat status;
+    if (stream == NULL || fstat(fileno(stream), &status) != 0) {
+        error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+        if (stream != NULL)
+            fclose(stream);
+        return false;
+    }
+    const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;
+    bool ok = read_stream(file, stream, expected, error);
+    if (ok && ferror(stream))
+        ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+    fclose(stream);
+    if (!ok)
+        file_free(file);
+    return ok;
+}
+
+void file_free(File *file)
+{
+    free(file->bytes);
+    *file = (File){0};
+}
+
+char *file_path_beside(const char *beside, const char *path, Error *error)
+{
+    const char *slash = strrchr(beside, '/');
+    const size_t folder = path[0] == '/' || slash == NULL ? 0 : (size_t)(slash - beside) + 1;
+    char *joined = memory_raw(folder + strlen(path) + 1, 1, error);
+    if (joined != NULL) {
+        memcpy(joined, beside, folder);
+        strcpy(joined + folder, path);
+    }
+    return joined;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Whole files in memory, and paths relative to other files.
+#pragma once
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+typedef struct {
+    char *bytes; // size bytes and a terminating zero beyond them; owned
+    size_t size;
+} File;
+
+// Reads all of path.  False when it cannot be opened or read, or is a folder; the message names
+// the path and the system's reason.
+bool file_read(File *file, const char *path, Error *error);
+void file_free(File *file);
+
+// Returns path as seen from the folder of the file beside: beside's folder and path joined, or
+// path itself when it is absolute.  The caller frees it; NULL when memory ran out.
+char *file_path_beside(const char *beside, const char *path, Error *error);

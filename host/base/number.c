@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Decimal text -> int64_t or correctly rounded double, whatever the locale.
+// Up to 19 digits are gathered in a 64-bit integer; where that integer and the power of ten are
+// both exact doubles, one multiplication or division rounds once and so rounds correctly
+// (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).  The rest is
+// spelled anew as DIGITSeEXPONENT for strtod: without a decimal point no locale can misread it.
+#include "base/number.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+_Static_assert(FLT_EVAL_METHOD == 0, "wider intermediate results would be rounded twice");
+
+#define EXACT_MANTISSA    ((uint64_t)1 << 53)
+#define MANTISSA_DIGITS   19    // any so many digits fit in 64 bits
+#define SUFFICIENT_DIGITS 800   // a tie between two doubles is decided within 768 digits
+#define EXPONENT_BOUND    10000 // with so many digits already an infinity or zero
+
+static const double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+#define EXACT_POWER ((int64_t)(sizeof powers_of_ten / sizeof *powers_of_ten) - 1)
+
+static bool is_digit(char character)
+{
+    return character >= '0' && character <= '9';
+}
+
+static const char *skip_sign(const char *text, const char *end, bool *negative)
+{
+    *negative = text < end && *text == '-';
+    return text < end && (*text == '-' || *text == '+') ? text + 1 : text;
+}
+
+// Appends the digits at text to mantissa, which wraps when there are too many of them.
+static const char *gather_digits(const char *text, const char *end, uint64_t *mantissa)
+{
+    for (; text < end && is_digit(*text); text++)
+        *mantissa = *mantissa * 10 + (uint64_t)(*text - '0');
+    return text;
+}
+
+// An "e" without digits is no exponent and stays unread.
+static const char *scan_exponent(const char *text, const char *end, int64_t *exponent)
+{
+    if (text == end || (*text != 'e' && *text != 'E'))
+        return text;
+    bool negative;
+    const char *digits = skip_sign(text + 1, end, &negative);
+    const char *stop = digits;
+    int64_t size = 0;
+    for (; stop < end && is_digit(*stop); stop++) {
+        if (size < INT64_MAX / 100) // far beyond what the digits of any file could balance
+            size = size * 10 + (*stop - '0');
+    }
+    if (stop == digits)
+        return text;
+    *exponent += negative ? -size : size;
+    return stop;
+}
+
+// The digits from text to end, read as one integer, times ten to the exponent.  Digits that can
+// no longer matter are replaced by one that says whether all of them were zero.
+static double round_slowly(const char *text, const char *end, int64_t exponent)
+{
+    char spelled[SUFFICIENT_DIGITS + 32];
+    size_t count = 0;
+    bool inexact = false;
+    for (; text < end; text++) {
+        if (*text == '.' || (count == 0 && *text == '0'))
+            continue;
+        if (count < SUFFICIENT_DIGITS) {
+            spelled[count++] = *text;
+        } else {
+            inexact = inexact || *text != '0';
+            exponent++;
+        }
+    }
+    if (count == 0)
+        return 0;
+    if (exponent > EXPONENT_BOUND || exponent < -EXPONENT_BOUND)
+        exponent = exponent > 0 ? EXPONENT_BOUND : -EXPONENT_BOUND;
+    snprintf(spelled + count, sizeof spelled - count, "%se%" PRId64, inexact ? "1" : "",
+             inexact ? exponent - 1 : exponent);
+    return strtod(spelled, NULL);
+}
+
+const char *number_parse(const char *text, const char *end, double *value)
+{
+    bool negative;
+    uint64_t mantissa = 0;
+    int64_t exponent = 0;
+    const char *first = skip_sign(text, end, &negative);
+    const char *stop = gather_digits(first, end, &mantissa);
+    ptrdiff_t digit_count = stop - first;
+    if (stop < end && *stop == '.') {
+        const char *fraction = stop + 1;
+        stop = gather_digits(fraction, end, &mantissa);
+        exponent = fraction - stop;
+        digit_count += stop - fraction;
+    }
+    if (digit_count == 0)
+        return NULL;
+    const char *after = scan_exponent(stop, end, &exponent);
+
+    double magnitude;
+    if (digit_count > MANTISSA_DIGITS || mantissa > EXACT_MANTISSA || exponent > EXACT_POWER ||
+        exponent < -EXACT_POWER)
+        magnitude = round_slowly(first, stop, exponent);
+    else if (exponent < 0)
+        magnitude = (double)mantissa / powers_of_ten[-exponent];
+    else
+        magnitude = (double)mantissa * powers_of_ten[exponent];
+    *value = negative ? -magnitude : magnitude;
+    return after;
+}
+
+const char *integer_parse(const char *text, const char *end, int64_t *value)
+{
+    bool negative;
+    const char *first = skip_sign(text, end, &negative);
+    const char *stop = first;
+    int64_t sum = 0; // kept below zero, where INT64_MIN has room
+    for (; stop < end && is_digit(*stop); stop++) {
+        const int digit = *stop - '0';
+        if (sum < (INT64_MIN + digit) / 10)
+            return NULL;
+        sum = sum * 10 - digit;
+    }
+    if (stop == first || (!negative && sum == INT64_MIN))
+        return NULL;
+    *value = negative ? sum : -sum;
+    return stop;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Reduces to at most 45 degrees (exactly, since degrees are what is reduced) and sums the Taylor
+// series, whose first left-out term is below 2^-55 there.
+#include "base/trigonometry.h"
+
+#include <math.h>
+
+#define RADIANS_PER_DEGREE 0.017453292519943295
+
+static double sine_series(double x)
+{
+    const double s = x * x;
+    double sum = 1.0 / 355687428096000.0;
+    sum = sum * s - 1.0 / 1307674368000.0;
+    sum = sum * s + 1.0 / 6227020800.0;
+    sum = sum * s - 1.0 / 39916800.0;
+    sum = sum * s + 1.0 / 362880.0;
+    sum = sum * s - 1.0 / 5040.0;
+    sum = sum * s + 1.0 / 120.0;
+    sum = sum * s - 1.0 / 6.0;
+    return x + x * s * sum;
+}
+
+static double cosine_series(double x)
+{
+    const double s = x * x;
+    double sum = 1.0 / 20922789888000.0;
+    sum = sum * s - 1.0 / 87178291200.0;
+    sum = sum * s + 1.0 / 479001600.0;
+    sum = sum * s - 1.0 / 3628800.0;
+    sum = sum * s + 1.0 / 40320.0;
+    sum = sum * s - 1.0 / 720.0;
+    sum = sum * s + 1.0 / 24.0;
+    sum = sum * s - 1.0 / 2.0;
+    return 1.0 + s * sum;
+}
+
+double sine_of_degrees(double degrees)
+{
+    const double turns = rint(degrees / 90.0);
+    const double radians = (degrees - turns * 90.0) * RADIANS_PER_DEGREE;
+    switch ((long long)turns & 3) {
+    case 0:
+        return sine_series(radians);
+    case 1:
+        return cosine_series(radians);
+    case 2:
+        return -sine_series(radians);
+    default:
+        return -cosine_series(radians);
+    }
+}
+
+double cosine_of_degrees(double degrees)
+{
+    return sine_of_degrees(degrees + 90.0);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Three-component vectors in fp64, for parsing and set-up on the host.
+#pragma once
+
+#include <math.h>
+
+typedef struct {
+    double x, y, z;
+} Vec3;
+
+static inline Vec3 vec3(double x, double y, double z)
+{
+    return (Vec3){x, y, z};
+}
+
+static inline Vec3 vec3_add(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline Vec3 vec3_sub(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline Vec3 vec3_scale(Vec3 a, double s)
+{
+    return (Vec3){a.x * s, a.y * s, a.z * s};
+}
+
+static inline double vec3_dot(Vec3 a, Vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// The largest absolute component.
+static inline double vec3_extent(Vec3 a)
+{
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
+
+// a scaled to length 1, whatever its magnitude; the zero vector stays zero.  A power of two is
+// taken out first, so that no square over- or underflows.
+static inline Vec3 vec3_normalize(Vec3 a)
+{
+    const double extent = vec3_extent(a);
+    if (!(extent > 0))
+        return (Vec3){0, 0, 0};
+    const int exponent = ilogb(extent);
+    const Vec3 unit = {scalbn(a.x, -exponent), scalbn(a.y, -exponent), scalbn(a.z, -exponent)};
+    return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
+}
