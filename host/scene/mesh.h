@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A triangle mesh as a file gave it: indexed, in fp64, in the file's own coordinates.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    double (*positions)[3]; // vertex_count finite points, each component below 1e30 in size
+    float (*normals)[3];    // vertex_count finite vectors of any length, zero where the file
+                            // gives none for that vertex; NULL when the file has none at all
+    uint32_t (
+        *triangles)[3]; // triangle_count triples below vertex_count, counter-clockwise in front
+    size_t vertex_count, triangle_count;
+    size_t dropped_count; // triangles with two equal corners, left out
+} Mesh;
+
+// Frees what the mesh owns and leaves a valid empty mesh.
+void mesh_free(Mesh *mesh);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Finds center and scale from bounds, and refuses what does not fit the frame.
+#include "scene/normalize.h"
+
+#define LARGEST_RATIO 0x1p40
+
+typedef struct {
+    Vec3 low, high;
+} Bounds;
+
+static void bounds_add(Bounds *bounds, Vec3 point)
+{
+    bounds->low.x = fmin(bounds->low.x, point.x);
+    bounds->low.y = fmin(bounds->low.y, point.y);
+    bounds->low.z = fmin(bounds->low.z, point.z);
+    bounds->high.x = fmax(bounds->high.x, point.x);
+    bounds->high.y = fmax(bounds->high.y, point.y);
+    bounds->high.z = fmax(bounds->high.z, point.z);
+}
+
+// Only vertices that triangles use count: a stray one must not move the frame.
+static void bounds_add_mesh(Bounds *bounds, const Mesh *mesh)
+{
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++) {
+            const double *p = mesh->positions[mesh->triangles[triangle][corner]];
+            bounds_add(bounds, vec3(p[0], p[1], p[2]));
+        }
+}
+
+static Bounds bounds_of(const Scene *scene)
+{
+    Bounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < scene->objects.count; i++)
+        bounds_add_mesh(&bounds, &scene->objects.data[i].mesh);
+    if (scene_triangle_count(scene) > 0)
+        return bounds;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        const Sphere *sphere = &scene->spheres.data[i];
+        const Vec3 reach = {sphere->radius, sphere->radius, sphere->radius};
+        bounds_add(&bounds, vec3_sub(sphere->center, reach));
+        bounds_add(&bounds, vec3_add(sphere->center, reach));
+    }
+    return bounds;
+}
+
+Normalization normalization_of(const Scene *scene)
+{
+    const Bounds bounds = bounds_of(scene);
+    if (!(bounds.low.x <= bounds.high.x))
+        return (Normalization){{0, 0, 0}, 1};
+    const double extent = vec3_extent(vec3_sub(bounds.high, bounds.low));
+    return (Normalization){vec3_scale(vec3_add(bounds.low, bounds.high), 0.5),
+                           extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
+}
+
+Vec3 normalize_point(const Normalization *normalization, Vec3 point)
+{
+    return vec3_scale(vec3_sub(point, normalization->center), normalization->scale);
+}
+
+static bool is_near(const Normalization *normalization, Vec3 point)
+{
+    return vec3_extent(normalize_point(normalization, point)) <= LARGEST_RATIO;
+}
+
+static bool sphere_fits(const Normalization *normalization, const Sphere *sphere)
+{
+    const double radius = sphere->radius * normalization->scale;
+    return is_near(normalization, sphere->center) && radius <= LARGEST_RATIO &&
+           radius >= 1 / LARGEST_RATIO;
+}
+
+bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error)
+{
+    for (size_t i = 0; i < scene->lights.count; i++)
+        if (!is_near(normalization, scene->lights.data[i].position))
+            return error_set(error, "light %zu is more than 1e12 times the scene's size away",
+                             i + 1);
+    for (size_t i = 0; i < scene->viewpoints.count; i++)
+        if (!is_near(normalization, scene->viewpoints.data[i].eye))
+            return error_set(error, "camera %zu is more than 1e12 times the scene's size away",
+                             i + 1);
+    for (size_t i = 0; i < scene->spheres.count; i++)
+        if (!sphere_fits(normalization, &scene->spheres.data[i]))
+            return error_set(error,
+                             "sphere %zu is more than 1e12 times the scene's size away, or its "
+                             "radius differs from that size by more than that",
+                             i + 1);
+    return true;
+}

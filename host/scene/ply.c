@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// PLY elements -> vertices and triangles.  The header says what each value is; faces may stand
+// before the vertices, so triangles that turn out to have equal corners are dropped at the end.
+#include "scene/ply.h"
+
+#include "scene/ply_header.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COORDINATE_BOUND 1e30 // leaves room for the products of fp32 geometry
+
+typedef uint32_t Triangle[3];
+
+typedef struct {
+    PlyReader reader;
+    PlyHeader header;
+    Mesh *mesh;
+    ARRAY(Triangle) triangles;
+} Loader;
+
+static bool read_component(Loader *loader, const PlyProperty *property)
+{
+    static const char *const names[] = {"x", "y", "z", "nx", "ny", "nz"};
+    const char *name = names[property->role];
+    PlyReader *reader = &loader->reader;
+    double value;
+    if (!ply_reader_read_number(reader, property->type, &value))
+        return false;
+    if (property->role <= PLY_Z) {
+        if (!(fabs(value) < COORDINATE_BOUND))
+            return ply_reader_fail(reader, "%s is %g, not a finite number below 1e30 in size", name,
+                                   value);
+        loader->mesh->positions[reader->index][property->role - PLY_X] = value;
+        return true;
+    }
+    const float narrowed = (float)value;
+    if (!isfinite(narrowed))
+        return ply_reader_fail(reader, "%s is %g, not a finite single precision number", name,
+                               value);
+    loader->mesh->normals[reader->index][property->role - PLY_NORMAL_X] = narrowed;
+    return true;
+}
+
+static bool read_length(PlyReader *reader, const PlyProperty *property, int64_t *length)
+{
+    if (!ply_reader_read_integer(reader, property->length_type, length))
+        return false;
+    return *length >= 0 ||
+           ply_reader_fail(reader, "list length %lld is negative", (long long)*length);
+}
+
+static bool read_corner(Loader *loader, const PlyProperty *property, uint32_t *corner)
+{
+    PlyReader *reader = &loader->reader;
+    int64_t vertex;
+    if (!ply_reader_read_integer(reader, property->type, &vertex))
+        return false;
+    if (vertex < 0)
+        return ply_reader_fail(reader, "vertex index %lld is negative", (long long)vertex);
+    if (vertex >= loader->header.vertex_count)
+        return ply_reader_fail(reader, "vertex index %lld is not below the vertex count %lld",
+                               (long long)vertex, (long long)loader->header.vertex_count);
+    *corner = (uint32_t)vertex;
+    return true;
+}
+
+// Makes room for the triangles of a polygon with that many corners.
+static bool reserve_fan(Loader *loader, const PlyProperty *property, int64_t length)
+{
+    PlyReader *reader = &loader->reader;
+    const size_t count = loader->triangles.count;
+    if (length < 3)
+        return ply_reader_fail(reader, "a face needs 3 or more corners, not %lld",
+                               (long long)length);
+    if (length - 2 > PLY_COUNT_LIMIT - (int64_t)count)
+        return ply_reader_fail(reader, "its %lld corners bring the triangle count above %lld",
+                               (long long)length, (long long)PLY_COUNT_LIMIT);
+    return ply_reader_check_room(reader, length, ply_reader_value_size(reader, property->type)) &&
+           array_reserve(&loader->triangles.memory, &loader->triangles.capacity,
+                         count + (size_t)length - 2, sizeof(Triangle), reader->error);
+}
+
+static bool read_polygon(Loader *loader, const PlyProperty *property)
+{
+    int64_t length;
+    uint32_t first, previous, corner;
+    if (!read_length(&loader->reader, property, &length) ||
+        !reserve_fan(loader, property, length) || !read_corner(loader, property, &first) ||
+        !read_corner(loader, property, &previous))
+        return false;
+    for (int64_t index = 2; index < length; index++) {
+        if (!read_corner(loader, property, &corner))
+            return false;
+        uint32_t *triangle = loader->triangles.data[loader->triangles.count++];
+        triangle[0] = first;
+        triangle[1] = previous;
+        triangle[2] = corner;
+        previous = corner;
+    }
+    return true;
+}
+
+static bool skip_property(PlyReader *reader, const PlyProperty *property)
+{
+    const size_t size = ply_reader_value_size(reader, property->type);
+    int64_t length = 1;
+    if (property->is_list &&
+        (!read_length(reader, property, &length) || !ply_reader_check_room(reader, length, size)))
+        return false;
+    return ply_reader_skip_values(reader, property->type, length);
+}
+
+static bool read_property(Loader *loader, const PlyProperty *property)
+{
+    if (property->role == PLY_UNUSED)
+        return skip_property(&loader->reader, property);
+    if (property->role == PLY_CORNERS)
+        return read_polygon(loader, property);
+    return read_component(loader, property);
+}
+
+static bool allocate_vertices(Loader *loader)
+{
+    Mesh *mesh = loader->mesh;
+    Error *error = loader->reader.error;
+    mesh->vertex_count = (size_t)loader->header.vertex_count;
+    mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);
+    if (mesh->positions != NULL && loader->header.has_normals)
+        mesh->normals = memory_raw(mesh->vertex_count, sizeof *mesh->normals, error);
+    return mesh->positions != NULL && (mesh->normals != NULL || !loader->header.has_normals);
+}
+
+// The fewest bytes one element takes: lists may be empty.
+static size_t smallest_size(const PlyReader *reader, const PlyProperty *properties, size_t count)
+{
+    size_t size = 0;
+    for (size_t index = 0; index < count; index++) {
+        const PlyProperty *property = &properties[index];
+        size += ply_reader_value_size(reader,
+                                      property->is_list ? property->length_type : property->type);
+    }
+    return size;
+}
+
+static bool read_element(Loader *loader, const PlyElement *element)
+{
+    PlyReader *reader = &loader->reader;
+    if (element->property_count == 0) // then the file may claim any number of them
+        return true;
+    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
+    reader->element = element->name;
+    reader->index = -1;
+    const size_t size = smallest_size(reader, properties, element->property_count);
+    if (!ply_reader_check_room(reader, element->count, size))
+        return false;
+    if (element->kind == PLY_VERTEX && element->count > 0 && !allocate_vertices(loader))
+        return false;
+    for (reader->index = 0; reader->index < element->count; reader->index++) {
+        for (size_t index = 0; index < element->property_count; index++) {
+            if (!read_property(loader, &properties[index]))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool read_elements(Loader *loader)
+{
+    for (size_t index = 0; index < loader->header.elements.count; index++) {
+        if (!read_element(loader, &loader->header.elements.data[index]))
+            return false;
+    }
+    return true;
+}
+
+static bool is_same_point(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+// Closes the gaps that dropped triangles leave.
+static void drop_slivers(Mesh *mesh)
+{
+    size_t kept = 0;
+    for (size_t index = 0; index < mesh->triangle_count; index++) {
+        const uint32_t *triangle = mesh->triangles[index];
+        const double *a = mesh->positions[triangle[0]];
+        const double *b = mesh->positions[triangle[1]];
+        const double *c = mesh->positions[triangle[2]];
+        if (!is_same_point(a, b) && !is_same_point(b, c) && !is_same_point(c, a))
+            memmove(mesh->triangles[kept++], triangle, sizeof(Triangle));
+    }
+    mesh->dropped_count = mesh->triangle_count - kept;
+    mesh->triangle_count = kept;
+}
+
+bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
+{
+    *mesh = (Mesh){0};
+    Loader loader = {
+        .reader = {.name = name,
+                   .start = bytes,
+                   .end = size == 0 ? bytes : bytes + size,
+                   .error = error},
+        .mesh = mesh,
+    };
+    const bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
+    mesh->triangles = loader.triangles.data;
+    mesh->triangle_count = loader.triangles.count;
+    ply_header_free(&loader.header);
+    if (ok)
+        drop_slivers(mesh);
+    else
+        mesh_free(mesh);
+    return ok;
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// PLY file -> Mesh: ascii and binary of either byte order.
+// Format: Greg Turk, "The PLY Polygon File Format", Stanford 1994.
+#pragma once
+
+#include "base/error.h"
+#include "scene/mesh.h"
+
+// Fills mesh from the size bytes of a PLY file; name stands in messages.  Elements and properties
+// other than vertex x y z nx ny nz and face vertex_indices (or vertex_index) are passed over,
+// polygons become fans of triangles, triangles with two equal corners are dropped and counted.
+// False on anything truncated, lying, non-finite or out of range: the message gives the line
+// (ascii) or byte offset (binary), and nothing is allocated before the file has proved its size.
+bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The course's constants (research: the course framework, sections 3 and 4) and a scene's memory.
+#include "scene/scene.h"
+
+#include "base/trigonometry.h"
+
+#include <stdlib.h>
+#include <xxhash.h>
+
+Material material_of_shader(Shader shader)
+{
+    Material material = {.diffuse = {1, 1, 1}, .kd = 1, .shader = shader, .exponent = UINT32_MAX};
+    if (shader != SHADER_MATTE)
+        material.diffuse[1] = material.diffuse[2] = 0;
+    if (shader == SHADER_BLINN_PHONG) {
+        material.kd = 0.8f;
+        material.ks = 0.5f;
+        material.specular[0] = material.specular[1] = material.specular[2] = 1;
+        material.shininess = 50;
+        material.exponent = 50;
+    }
+    return material;
+}
+
+bool scene_init(Scene *scene, Error *error)
+{
+    *scene = (Scene){
+        .background = {1, 1, 1}, .ambient = 0.05, .width = 512, .height = 512, .max_level = 3};
+    Material mirror = material_of_shader(SHADER_MATTE);
+    mirror.reflectivity = 0.25f;
+    return array_push(&scene->materials, material_of_shader(SHADER_SILHOUETTE), error) &&
+           array_push(&scene->materials, material_of_shader(SHADER_MATTE), error) &&
+           array_push(&scene->materials, material_of_shader(SHADER_BLINN_PHONG), error) &&
+           array_push(&scene->materials, mirror, error);
+}
+
+// Azimuth and rotation in degrees and distance from the origin, as the course's viewer keeps them.
+static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
+{
+    const double level = distance * cosine_of_degrees(azimuth);
+    return (Viewpoint){.eye = {level * cosine_of_degrees(rotation),
+                               level * sine_of_degrees(rotation),
+                               -distance * sine_of_degrees(azimuth)},
+                       .look_at = {0, 0, 0.5},
+                       .up = {0, 0, 1},
+                       .fov_degrees = 45};
+}
+
+bool scene_complete(Scene *scene, Error *error)
+{
+    static const double course[6][3] = {{-40, 25, 6.5}, {-27.5, -30.5, 2},  {-73.8, 37, 3.8},
+                                        {46.2, 0, 6.2}, {-35, -187.2, 2.8}, {-80.3, 27, 1.1}};
+    if (scene->viewpoints.count > 0)
+        return true;
+    for (int view = 0; view < 6; view++) {
+        const double *orbit = course[view];
+        if (!array_push(&scene->viewpoints, course_viewpoint(orbit[0], orbit[1], orbit[2]), error))
+            return false;
+    }
+    return true;
+}
+
+void scene_hash_input(Scene *scene, const void *bytes, size_t size)
+{
+    const XXH128_hash_t input = XXH3_128bits(bytes, size);
+    const uint64_t chain[4] = {scene->hash[0], scene->hash[1], input.low64, input.high64};
+    const XXH128_hash_t mixed = XXH3_128bits(chain, sizeof chain);
+    scene->hash[0] = mixed.low64;
+    scene->hash[1] = mixed.high64;
+}
+
+size_t scene_triangle_count(const Scene *scene)
+{
+    size_t count = 0;
+    for (size_t object = 0; object < scene->objects.count; object++)
+        count += scene->objects.data[object].mesh.triangle_count;
+    return count;
+}
+
+void scene_free(Scene *scene)
+{
+    for (size_t object = 0; object < scene->objects.count; object++)
+        mesh_free(&scene->objects.data[object].mesh);
+    free(scene->lights.memory);
+    free(scene->spheres.memory);
+    free(scene->objects.memory);
+    free(scene->materials.memory);
+    free(scene->viewpoints.memory);
+    *scene = (Scene){0};
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// A scene as its file describes it, in the file's own coordinates and in fp64.
+// Elements refer to each other by index, so that the arrays may move while they grow.
+#pragma once
+
+#include "../kernels/shared.h"
+#include "base/array.h"
+#include "base/vec.h"
+#include "scene/mesh.h"
+
+// Limits that keep sample coordinates exact in float and loops bounded.
+#define PICTURE_SIZE_MAX 65536
+#define MAX_LEVEL_LIMIT  1000
+
+typedef struct {
+    Vec3 position;
+    double intensity; // 0 or more; white, without attenuation
+} Light;
+
+typedef struct {
+    Vec3 center;
+    double radius; // above 0
+    uint32_t material;
+} Sphere;
+
+typedef struct {
+    Mesh mesh;
+    uint32_t material;
+    bool two_sided;
+    bool smooth; // shade with the vertex normals where there are any
+} MeshObject;
+
+// A camera: up and look_at - eye are neither zero nor parallel.
+typedef struct {
+    Vec3 eye, look_at, up;
+    double fov_degrees; // vertical, between 0 and 180
+} Viewpoint;
+
+typedef struct {
+    ARRAY(Light) lights;
+    ARRAY(Sphere) spheres;
+    ARRAY(MeshObject) objects;
+    ARRAY(Material) materials; // the first four are the course's
+    ARRAY(Viewpoint) viewpoints;
+    Vec3 background; // each component in [0, 1]
+    double ambient;  // in [0, 1]
+    uint32_t width, height;
+    uint32_t max_level;
+    double mesh_seconds; // of the loading spent on reading meshes
+    uint64_t hash[2];    // XXH3 of the bytes of the scene file and its meshes, in the order read
+} Scene;
+
+// Fills scene with what a scene file starts from: the course's constants and four materials.
+bool scene_init(Scene *scene, Error *error);
+
+// Takes the course's six viewpoints where the scene has none of its own.
+bool scene_complete(Scene *scene, Error *error);
+
+// Mixes size bytes of input into scene->hash.
+void scene_hash_input(Scene *scene, const void *bytes, size_t size);
+
+size_t scene_triangle_count(const Scene *scene);
+void scene_free(Scene *scene);
+
+// The material of a define statement that gives nothing but its kind.
+Material material_of_shader(Shader shader);

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Reads a scene file statement by statement.  The table at the end is the grammar: each statement
+// has its keyword, the form that messages quote, and a function named after what it reads.
+#include "scene/scn.h"
+
+#include "base/file.h"
+#include "base/word.h"
+#include "scene/define.h"
+#include "scene/mesh_statement.h"
+#include "scene/tokens.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    Tokens tokens;
+    Scene *scene;
+    Materials materials;
+    uint32_t material; // of the objects that follow
+    MeshObject object; // the sides and normals of the objects that follow
+    Vec3 up;           // of the cameras that follow
+    Token waiting_up;  // the latest `up` while no camera has followed it
+    Error *error;
+} Parser;
+
+static bool read_light(Parser *parser)
+{
+    double position[3], intensity;
+    return tokens_numbers(&parser->tokens, 3, position) &&
+           tokens_number_within(&parser->tokens, &intensity, 0, 1e30) &&
+           array_push(&parser->scene->lights,
+                      ((Light){{position[0], position[1], position[2]}, intensity}), parser->error);
+}
+
+static bool read_sphere(Parser *parser)
+{
+    double center[3], radius;
+    if (!tokens_numbers(&parser->tokens, 3, center) ||
+        !tokens_number_within(&parser->tokens, &radius, 0, 1e30))
+        return false;
+    if (radius < 1e-30)
+        return tokens_fail(&parser->tokens, parser->tokens.last, "expected a radius above zero");
+    const Sphere sphere = {{center[0], center[1], center[2]}, radius, parser->material};
+    return array_push(&parser->scene->spheres, sphere, parser->error);
+}
+
+static bool read_material(Parser *parser)
+{
+    return materials_select(&parser->materials, &parser->tokens, &parser->material);
+}
+
+static bool read_define(Parser *parser)
+{
+    return materials_define(&parser->materials, &parser->tokens, parser->scene);
+}
+
+static bool read_mesh(Parser *parser)
+{
+    MeshObject object = parser->object;
+    object.material = parser->material;
+    return mesh_statement_read(parser->scene, &parser->tokens, object);
+}
+
+static bool read_camera(Parser *parser)
+{
+    double numbers[6], fov;
+    const Token start = parser->tokens.last;
+    if (!tokens_numbers(&parser->tokens, 6, numbers) ||
+        !tokens_number_within(&parser->tokens, &fov, 1e-6, 179.9999))
+        return false;
+    const Viewpoint viewpoint = {.eye = {numbers[0], numbers[1], numbers[2]},
+                                 .look_at = {numbers[3], numbers[4], numbers[5]},
+                                 .up = parser->up,
+                                 .fov_degrees = fov};
+    const Vec3 forward = vec3_normalize(vec3_sub(viewpoint.look_at, viewpoint.eye));
+    const Vec3 right = vec3_cross(forward, vec3_normalize(viewpoint.up));
+    if (!(vec3_extent(forward) > 0))
+        return tokens_fail(&parser->tokens, start, "the camera looks at its own place");
+    if (!(vec3_extent(right) > 1e-9))
+        return tokens_fail(&parser->tokens, start,
+                           "the camera looks along its 'up', which must point elsewhere");
+    parser->waiting_up.text = NULL;
+    return array_push(&parser->scene->viewpoints, viewpoint, parser->error);
+}
+
+static bool read_up(Parser *parser)
+{
+    double up[3];
+    parser->waiting_up = parser->tokens.last;
+    if (!tokens_numbers(&parser->tokens, 3, up))
+        return false;
+    parser->up = vec3(up[0], up[1], up[2]);
+    return vec3_extent(parser->up) > 0 ||
+           tokens_fail(&parser->tokens, parser->tokens.last, "'up' must not be zero");
+}
+
+static bool read_size(Parser *parser)
+{
+    int64_t width, height;
+    if (!tokens_integer(&parser->tokens, &width, 1, PICTURE_SIZE_MAX) ||
+        !tokens_integer(&parser->tokens, &height, 1, PICTURE_SIZE_MAX))
+        return false;
+    parser->scene->width = (uint32_t)width;
+    parser->scene->height = (uint32_t)height;
+    return true;
+}
+
+static bool read_background(Parser *parser)
+{
+    Vec3 *background = &parser->scene->background;
+    return tokens_number_within(&parser->tokens, &background->x, 0, 1) &&
+           tokens_number_within(&parser->tokens, &background->y, 0, 1) &&
+           tokens_number_within(&parser->tokens, &background->z, 0, 1);
+}
+
+static bool read_ambient(Parser *parser)
+{
+    return tokens_number_within(&parser->tokens, &parser->scene->ambient, 0, 1);
+}
+
+static bool read_max_level(Parser *parser)
+{
+    int64_t level;
+    if (!tokens_integer(&parser->tokens, &level, 0, MAX_LEVEL_LIMIT))
+        return false;
+    parser->scene->max_level = (uint32_t)level;
+    return true;
+}
+
+static bool read_choice(Parser *parser, const char *yes, const char *no, bool *chosen)
+{
+    const Token token = tokens_next(&parser->tokens);
+    *chosen = token_is(token, yes);
+    return *chosen || token_is(token, no) ||
+           tokens_fail(&parser->tokens, token, "expected '%s' or '%s'", yes, no);
+}
+
+static bool read_sides(Parser *parser)
+{
+    return read_choice(parser, "two", "one", &parser->object.two_sided);
+}
+
+static bool read_normals(Parser *parser)
+{
+    return read_choice(parser, "smooth", "flat", &parser->object.smooth);
+}
+
+static const struct {
+    const char *keyword;
+    const char *usage;
+    bool (*read)(Parser *);
+} statements[] = {
+    {"ambient", "ambient INTENSITY", read_ambient},
+    {"background", "background R G B", read_background},
+    {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES", read_camera},
+    {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
+    {"light", "light X Y Z INTENSITY", read_light},
+    {"material", "material NUMBER|NAME", read_material},
+    {"max_level", "max_level N", read_max_level},
+    {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},
+    {"normals", "normals smooth|flat", read_normals},
+    {"ply_file", "ply_file PATH", read_mesh},
+    {"sides", "sides one|two", read_sides},
+    {"size", "size WIDTH HEIGHT", read_size},
+    {"sphere", "sphere X Y Z RADIUS", read_sphere},
+    {"up", "up X Y Z", read_up},
+};
+#define STATEMENT_COUNT (sizeof statements / sizeof statements[0])
+
+static bool unknown_statement(const Tokens *tokens, Token token)
+{
+    const char *keywords[STATEMENT_COUNT];
+    for (size_t i = 0; i < STATEMENT_COUNT; i++)
+        keywords[i] = statements[i].keyword;
+    const char *nearest = word_nearest(token.text, token.length, keywords, STATEMENT_COUNT);
+    if (nearest == NULL)
+        return tokens_fail(tokens, token, "expected a statement");
+    return tokens_fail(tokens, token, "unknown statement, perhaps '%s'", nearest);
+}
+
+static bool read_statement(Parser *parser, Token keyword)
+{
+    for (size_t i = 0; i < STATEMENT_COUNT; i++) {
+        if (token_is(keyword, statements[i].keyword)) {
+            parser->tokens.usage = statements[i].usage;
+            return statements[i].read(parser) && tokens_end(&parser->tokens);
+        }
+    }
+    return unknown_statement(&parser->tokens, keyword);
+}
+
+static bool read_statements(Parser *parser)
+{
+    for (;;) {
+        const Token keyword = tokens_next_statement(&parser->tokens);
+        if (keyword.text == NULL)
+            break;
+        if (!read_statement(parser, keyword))
+            return false;
+    }
+    parser->tokens.usage = "up X Y Z";
+    return parser->waiting_up.text == NULL ||
+           tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
+}
+
+bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error)
+{
+    Parser parser = {.tokens = tokens_of(text, size, name, error),
+                     .scene = scene,
+                     .object = {.smooth = true},
+                     .up = {0, 0, 1},
+                     .error = error};
+    bool ok = scene_init(scene, error);
+    scene_hash_input(scene, text, size);
+    ok = ok && read_statements(&parser) && scene_complete(scene, error);
+    materials_free(&parser.materials);
+    if (!ok)
+        scene_free(scene);
+    return ok;
+}
+
+bool scn_load(Scene *scene, const char *path, Error *error)
+{
+    File file = {0};
+    const bool ok =
+        file_read(&file, path, error) && scn_parse(scene, file.bytes, file.size, path, error);
+    file_free(&file);
+    return ok;
+}

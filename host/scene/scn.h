@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Scene text -> Scene.  The grammar is the course's four statements and clrt's extension; the
+// table in scn.c is its definition.
+#pragma once
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+// Parses the size bytes of a scene file; meshes are read from beside the file called name.
+// False with "name:line:column: ..." at the first thing that is not understood.
+bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
+
+// The same from a file.
+bool scn_load(Scene *scene, const char *path, Error *error);
