@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Looks at what primitives really use: a material that is defined but selected by nothing costs
+// nothing.
+#include "accel/traits.h"
+
+#include <stdio.h>
+
+static void add_material(SceneTraits *traits, const Material *material)
+{
+    traits->mirrors |= material->reflectivity > 0;
+    traits->specular |= material->shader == SHADER_BLINN_PHONG;
+}
+
+SceneTraits traits_of(const FlatScene *flat, bool statistics)
+{
+    SceneTraits traits = {.spheres = flat->sphere_count > 0,
+                          .triangles = flat->triangle_count > 0,
+                          .bvh = flat->node_count > 0,
+                          .statistics = statistics};
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        add_material(&traits, &flat->materials[flat->spheres[i].material]);
+    for (uint32_t i = 0; i < flat->triangle_count; i++) {
+        const uint32_t material = flat->triangles[i].material & ~TRIANGLE_TWO_SIDED;
+        add_material(&traits, &flat->materials[material]);
+    }
+    return traits;
+}
+
+SceneTraits traits_general(bool statistics)
+{
+    return (SceneTraits){true, true, true, true, true, statistics};
+}
+
+void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])
+{
+    snprintf(options, TRAITS_OPTIONS_SIZE,
+             "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
+             "-DCLRT_SPECULAR=%d -DCLRT_STATISTICS=%d",
+             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->specular,
+             traits->statistics);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Scene -> Triangles: the corners of all triangles in id order, as the floats that are traced.
+// Equal points give equal floats, which watertightness and the builders rest on.
+#pragma once
+
+#include "scene/normalize.h"
+
+typedef struct {
+    float (*corners)[3][3]; // [triangle][corner][axis], in [-1, 1]; owned
+    size_t count;
+} Triangles;
+
+// The n-th triangle here is the scene's n-th in file order.
+bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
+                    Error *error);
+void triangles_free(Triangles *triangles);
