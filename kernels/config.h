@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The switches a program is specialized by, each a constant that plain `if`s test: all code stays
+// compiled and the optimizer removes what a scene lacks.  The defaults make the general program,
+// which renders every scene.  host/accel/traits.c sets them.
+#ifndef CLRT_CONFIG_H
+#define CLRT_CONFIG_H
+
+#ifndef CLRT_SPHERES
+#define CLRT_SPHERES 1 // the scene has spheres
+#endif
+#ifndef CLRT_TRIANGLES
+#define CLRT_TRIANGLES 1 // the scene has triangles
+#endif
+#ifndef CLRT_BVH
+#define CLRT_BVH 1 // triangles are found through a tree (0: each is tested)
+#endif
+#ifndef CLRT_MIRRORS
+#define CLRT_MIRRORS 1 // some material reflects
+#endif
+#ifndef CLRT_SPECULAR
+#define CLRT_SPECULAR 1 // some material has highlights
+#endif
+#ifndef CLRT_STATISTICS
+#define CLRT_STATISTICS 0 // rays and tests are counted
+#endif
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The vocabulary host and kernels share: compiled twice, as C17 and as OpenCL C, and meaning the
+// same bytes in both.  Members are float, uint and arrays of them; every struct is a multiple of
+// 16 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout on the
+// device.  All positions are in the normalized frame (host/scene/frame.h).
+#ifndef CLRT_SHARED_H
+#define CLRT_SHARED_H
+
+#ifdef __OPENCL_C_VERSION__
+#define CLRT_SAME_SIZE(type, bytes)
+#else
+#include <stdint.h>
+typedef uint32_t uint;
+#define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
+#endif
+
+// The id of no primitive.  Ids number spheres in file order, then triangles in file order.
+#define NOTHING 0xffffffffu
+
+// Entries of the traversal stack.  Depth-first descent keeps one waiting sibling a level, and
+// pushes the child it enters next as well; builders keep trees within BVH_MAX_DEPTH levels.
+#define BVH_MAX_DEPTH  62
+#define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
+
+// How far boxes and origins are grown, relative to their largest coordinate: 64 units of rounding
+// (2^-24).  A triangle accepted by triangle.cl lies within 22.1 units of the ray, 34 where division
+// is only good to 2.5 ulp, and the slab arithmetic adds at most 8.  Measured, 64 costs what 32 does.
+#define BVH_SLACK 0x1p-18f
+
+typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
+
+// Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected.
+typedef struct {
+    float diffuse[3];
+    float kd;
+    float specular[3];
+    float ks;
+    uint shader;    // a Shader
+    uint exponent;  // the shininess where it is an integer up to 1024, else UINT_MAX
+    float shininess;
+    float reflectivity;
+} Material;
+CLRT_SAME_SIZE(Material, 48)
+
+typedef struct {
+    float position[3];
+    float intensity;
+} PointLight;
+CLRT_SAME_SIZE(PointLight, 16)
+
+// Center and radius as unevaluated sums high + low, 48 bits of each.
+typedef struct {
+    float center[3];
+    float radius;
+    float center_low[3];
+    float radius_low;
+    uint material;
+    uint padding[3]; // keeps the array stride a multiple of 16
+} SphereData;
+CLRT_SAME_SIZE(SphereData, 48)
+
+// A triangle's corners as they are tested, in the order of the leaves.
+typedef struct {
+    float a[3];
+    uint id;
+    float b[3];
+    uint material; // index; TRIANGLE_TWO_SIDED may be set
+    float c[3];
+    uint normals; // index of its CornerNormals, NOTHING where it is flat
+} TriangleData;
+CLRT_SAME_SIZE(TriangleData, 48)
+#define TRIANGLE_TWO_SIDED 0x80000000u
+
+// Vertex normals of a smooth triangle, corner by corner, of a common arbitrary length.
+typedef struct {
+    float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
+} CornerNormals;
+CLRT_SAME_SIZE(CornerNormals, 48)
+
+// An inner node holds both its children's boxes, axis by axis as {low, high} planes, so that one
+// read decides about both.  A child with a count is a leaf: triangles [first, first + count);
+// one without is the inner node `first`.  A missing child has an inverted box, which no ray meets.
+typedef struct {
+    float planes[3][2][2]; // [axis][low, high][child], grown by the slack of traverse.cl
+    uint first[2];
+    uint count[2];
+} BvhPair;
+CLRT_SAME_SIZE(BvhPair, 64)
+
+// A camera ray's direction is forward + x * right_step + y * down_step, where x and y are the odd
+// numbers 2 * sample + 1 - samples across the picture: exact in float and mirror symmetric.
+typedef struct {
+    float eye[4];
+    float forward[4];
+    float right_step[4];
+    float down_step[4];
+} CameraData;
+CLRT_SAME_SIZE(CameraData, 64)
+
+// Everything about one tile of one picture that is no array.
+typedef struct {
+    CameraData camera;
+    float background[3];
+    float ambient;
+    uint width, height; // of the whole picture, in pixels
+    uint samples;       // per pixel and axis
+    uint max_level;     // rays of this level return the background
+    uint tile_x, tile_y, tile_width, tile_height;
+    uint light_count, sphere_count, triangle_count;
+    uint uses_bvh; // zero tests every triangle
+} FrameData;
+CLRT_SAME_SIZE(FrameData, 128)
+
+// What one pixel cost, where statistics are asked for.
+typedef enum {
+    TALLY_CAMERA_RAYS,
+    TALLY_SHADOW_RAYS,
+    TALLY_REFLECTED_RAYS,
+    TALLY_SHADED_POINTS,
+    TALLY_CAMERA_HITS,
+    TALLY_TRIANGLE_TESTS,
+    TALLY_BOX_TESTS,
+    TALLY_SPHERE_TESTS,
+    TALLY_KINDS
+} TallyKind;
+
+#endif
