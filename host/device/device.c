@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Asks the ICD loader for every device of every platform and picks one.
+#include "device/device.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#define MOST_DEVICES 64
+
+typedef struct {
+    cl_device_id id;
+    cl_device_type type;
+    unsigned platform, device;
+    char platform_name[256], name[256];
+} Candidate;
+
+typedef struct {
+    Candidate data[MOST_DEVICES];
+    unsigned count;
+} Candidates;
+
+static void add_devices(Candidates *candidates, cl_platform_id platform, unsigned number)
+{
+    cl_device_id ids[MOST_DEVICES];
+    cl_uint count = 0;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, MOST_DEVICES, ids, &count) != CL_SUCCESS)
+        return;
+    for (cl_uint i = 0; i < count && i < MOST_DEVICES && candidates->count < MOST_DEVICES; i++) {
+        Candidate *candidate = &candidates->data[candidates->count++];
+        *candidate = (Candidate){.id = ids[i], .platform = number, .device = i};
+        clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof candidate->platform_name - 1,
+                          candidate->platform_name, NULL);
+        clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof candidate->name - 1, candidate->name, NULL);
+        clGetDeviceInfo(ids[i], CL_DEVICE_TYPE, sizeof candidate->type, &candidate->type, NULL);
+    }
+}
+
+static bool find_candidates(Candidates *candidates, Error *error)
+{
+    cl_platform_id platforms[MOST_DEVICES];
+    cl_uint count = 0;
+    candidates->count = 0;
+    if (clGetPlatformIDs(MOST_DEVICES, platforms, &count) != CL_SUCCESS)
+        count = 0;
+    for (cl_uint i = 0; i < count && i < MOST_DEVICES; i++)
+        add_devices(candidates, platforms[i], i);
+    if (candidates->count == 0)
+        return error_set(error,
+                         "no OpenCL device was found: install pocl-opencl-icd (any CPU) or the "
+                         "OpenCL driver of your GPU; clinfo lists what the system sees");
+    return true;
+}
+
+// Appends to text, which stays terminated however little room is left.
+static void append(char *text, size_t size, const char *prefix, const char *name)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", prefix, name);
+}
+
+static void write_list(const Candidates *candidates, char *text, size_t size)
+{
+    text[0] = '\0';
+    for (unsigned i = 0; i < candidates->count; i++) {
+        const Candidate *candidate = &candidates->data[i];
+        const bool last =
+            i + 1 == candidates->count || candidates->data[i + 1].platform != candidate->platform;
+        char prefix[64];
+        if (candidate->device == 0) {
+            snprintf(prefix, sizeof prefix, "Platform #%u: ", candidate->platform);
+            append(text, size, prefix, candidate->platform_name);
+            append(text, size, "\n", "");
+        }
+        snprintf(prefix, sizeof prefix, " %s Device #%u: ", last ? "`--" : "+--",
+                 candidate->device);
+        append(text, size, prefix, candidate->name);
+        append(text, size, "\n", "");
+    }
+}
+
+bool device_list(char *text, size_t size, Error *error)
+{
+    Candidates candidates;
+    if (!find_candidates(&candidates, error))
+        return false;
+    write_list(&candidates, text, size);
+    return true;
+}
+
+static bool contains_ignoring_case(const char *text, const char *part)
+{
+    const size_t length = strlen(part);
+    for (; *text != '\0'; text++)
+        if (strncasecmp(text, part, length) == 0)
+            return true;
+    return false;
+}
+
+static bool type_matches(const char *spec, cl_device_type type)
+{
+    return (strcasecmp(spec, "cpu") == 0 && (type & CL_DEVICE_TYPE_CPU)) ||
+           (strcasecmp(spec, "gpu") == 0 && (type & CL_DEVICE_TYPE_GPU)) ||
+           (strcasecmp(spec, "accelerator") == 0 && (type & CL_DEVICE_TYPE_ACCELERATOR)) ||
+           strcasecmp(spec, "all") == 0;
+}
+
+static bool is_type(const char *spec)
+{
+    return strcasecmp(spec, "cpu") == 0 || strcasecmp(spec, "gpu") == 0 ||
+           strcasecmp(spec, "accelerator") == 0 || strcasecmp(spec, "all") == 0;
+}
+
+static bool matches(const Candidate *candidate, const char *spec)
+{
+    unsigned platform, device;
+    int length = 0;
+    if (sscanf(spec, "%u:%u%n", &platform, &device, &length) == 2 && spec[length] == '\0')
+        return candidate->platform == platform && candidate->device == device;
+    if (is_type(spec))
+        return type_matches(spec, candidate->type);
+    return contains_ignoring_case(candidate->name, spec) ||
+           contains_ignoring_case(candidate->platform_name, spec);
+}
+
+static const Candidate *choose(const Candidates *candidates, const char *spec)
+{
+    const char *wanted = spec == NULL ? "gpu" : spec;
+    for (unsigned i = 0; i < candidates->count; i++)
+        if (matches(&candidates->data[i], wanted))
+            return &candidates->data[i];
+    return spec == NULL ? &candidates->data[0] : NULL;
+}
+
+static void describe(Device *device)
+{
+    cl_device_fp_config config = 0;
+    clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
+    clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof device->version - 1, device->version,
+                    NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof device->type, &device->type, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof device->largest_allocation,
+                    &device->largest_allocation, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof device->compute_units,
+                    &device->compute_units, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, NULL);
+    device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+}
+
+bool device_open(Device *device, const char *spec, Error *error)
+{
+    Candidates candidates;
+    *device = (Device){0};
+    if (!find_candidates(&candidates, error))
+        return false;
+    const Candidate *chosen = choose(&candidates, spec);
+    if (chosen == NULL) {
+        char list[2048];
+        write_list(&candidates, list, sizeof list);
+        return error_set(error, "no device matches '%s'; there are:\n%s", spec, list);
+    }
+    device->id = chosen->id;
+    describe(device);
+    cl_int status;
+    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &status);
+    if (!cl_succeeded(status, "create an OpenCL context", error))
+        return false;
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
+    if (cl_succeeded(status, "create an OpenCL queue", error))
+        return true;
+    device_close(device);
+    return false;
+}
+
+void device_close(Device *device)
+{
+    if (device->queue != NULL)
+        clReleaseCommandQueue(device->queue);
+    if (device->context != NULL)
+        clReleaseContext(device->context);
+    *device = (Device){0};
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Chooses an OpenCL device and opens a context and a queue on it.
+#pragma once
+
+#include "device/cl_error.h"
+
+typedef struct {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    char name[256];    // as the driver gives it
+    char version[256]; // of the driver
+    cl_device_type type;
+    cl_ulong largest_allocation; // bytes
+    cl_uint compute_units;
+    bool correct_division; // offers correctly rounded divide and square root
+} Device;
+
+// Opens the device that spec names: "PLATFORM:DEVICE" (as device_list prints them), a type (cpu,
+// gpu, accelerator, all), or part of a device's or platform's name in any case.  NULL takes the
+// first GPU, else the first device.  Where nothing matches, the message says what there is.
+bool device_open(Device *device, const char *spec, Error *error);
+void device_close(Device *device);
+
+// Writes all devices into text as `clinfo -l` prints them; false where there is none.
+bool device_list(char *text, size_t size, Error *error);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// One clBuildProgram of one source: PoCL's cache holds that, but not what is compiled and linked
+// in steps (a warm start is 0.02 s against 0.37 s).
+#include "device/program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#define OPTIONS_SIZE 2048
+
+static bool write_options(char options[OPTIONS_SIZE], const Device *device,
+                          const ProgramSource *source, const SceneTraits *traits)
+{
+    char switches[TRAITS_OPTIONS_SIZE];
+    traits_write_options(traits, switches);
+    const char *folder = source->kernel_folder;
+    const int length =
+        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s%s%s%s%s%s%s", switches,
+                 device->correct_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
+                 folder != NULL ? " -I\"" : "", folder != NULL ? folder : "",
+                 folder != NULL ? "\"" : "", source->extra_options != NULL ? " " : "",
+                 source->extra_options != NULL ? source->extra_options : "");
+    return length > 0 && length < OPTIONS_SIZE;
+}
+
+static bool create_program(Program *program, const Device *device, const ProgramSource *source,
+                           Error *error)
+{
+    const char *from_folder = "#include \"render.cl\"\n";
+    const char *texts[2] = {source->kernel_folder != NULL ? from_folder : kernel_source,
+                            source->appended};
+    cl_int status;
+    program->handle = clCreateProgramWithSource(device->context, source->appended != NULL ? 2 : 1,
+                                                texts, NULL, &status);
+    return cl_succeeded(status, "create the kernel program", error);
+}
+
+static bool report_build_log(const Program *program, const Device *device, cl_int status,
+                             const char *options, Error *error)
+{
+    size_t size = 0;
+    clGetProgramBuildInfo(program->handle, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
+    char *log = calloc(size + 1, 1);
+    if (log != NULL)
+        clGetProgramBuildInfo(program->handle, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+    error_set(error, "the kernels do not build with '%s' on %s: %s\n%s", options, device->name,
+              cl_error_name(status), log != NULL ? log : "");
+    free(log);
+    return false;
+}
+
+bool program_build(Program *program, const Device *device, const ProgramSource *source,
+                   const SceneTraits *traits, Error *error)
+{
+    char options[OPTIONS_SIZE];
+    *program = (Program){.traits = *traits};
+    if (!write_options(options, device, source, traits))
+        return error_set(error, "the kernel folder's path is too long");
+    if (!create_program(program, device, source, error))
+        return false;
+    const cl_int status = clBuildProgram(program->handle, 1, &device->id, options, NULL, NULL);
+    if (status == CL_SUCCESS)
+        return true;
+    report_build_log(program, device, status, options, error);
+    program_free(program);
+    return false;
+}
+
+void program_free(Program *program)
+{
+    if (program->handle != NULL)
+        clReleaseProgram(program->handle);
+    *program = (Program){0};
+}
+
+void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
+                 char key[PROGRAM_KEY_SIZE])
+{
+    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + 4];
+    char options[OPTIONS_SIZE] = "";
+    write_options(options, device, source, traits);
+    const int length =
+        snprintf(text, sizeof text, "%s|%s|%s", device->name, device->version, options);
+    const XXH128_hash_t code = XXH3_128bits(kernel_source, kernel_source_size);
+    const XXH128_hash_t hash =
+        XXH3_128bits_withSeed(text, (size_t)length, code.low64 ^ code.high64);
+    snprintf(key, PROGRAM_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
+             (unsigned long long)hash.low64);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Embedded kernel source and SceneTraits -> a built program on a device.
+#pragma once
+
+#include "accel/traits.h"
+#include "device/device.h"
+
+// All kernel files in the order of their includes, joined at build time.
+extern const char kernel_source[];
+extern const size_t kernel_source_size;
+
+typedef struct {
+    cl_program handle;
+    SceneTraits traits; // what it was built for
+} Program;
+
+typedef struct {
+    const char *kernel_folder; // read the sources from there; NULL for the embedded ones
+    const char *extra_options; // for the compiler, after clrt's own; NULL for none
+    const char *appended;      // source to add behind the kernels, for tests; NULL for none
+} ProgramSource;
+
+// The message of a failure holds the compiler's log.  The caller holds the cache's lock around
+// this and the first run of each kernel: drivers finish compiling then.
+bool program_build(Program *program, const Device *device, const ProgramSource *source,
+                   const SceneTraits *traits, Error *error);
+void program_free(Program *program);
+
+#define PROGRAM_KEY_SIZE 33
+
+// Names the program that these inputs make, for cache_has_mark.
+void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
+                 char key[PROGRAM_KEY_SIZE]);

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Keeps two tiles in flight: while one is traced, the one before is read back and copied into the
+// picture.  Every tile uses the same padded grid with offset 0, since PoCL compiles a kernel again
+// for each local size and each new kind of grid.
+#include "render/draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SLOTS 2
+
+// One tile in flight.
+typedef struct {
+    cl_mem pixels, tallies; // on the device
+    float (*host_pixels)[3];
+    uint (*host_tallies)[TALLY_KINDS];
+    cl_event done;
+    uint32_t x, y, width, height;
+} Slot;
+
+typedef struct {
+    Renderer *renderer;
+    Framebuffer *framebuffer;
+    Slot slots[SLOTS];
+} Drawing;
+
+static uint32_t smaller(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+static uint32_t tile_width(const RenderSettings *settings)
+{
+    return smaller(settings->tile_width, settings->width);
+}
+
+static uint32_t tile_height(const RenderSettings *settings)
+{
+    return smaller(settings->tile_height, settings->height);
+}
+
+static size_t padded(uint32_t size, uint32_t group)
+{
+    return ((size_t)size + group - 1) / group * group;
+}
+
+static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
+{
+    const RenderSettings *settings = &renderer->settings;
+    const size_t count = (size_t)tile_width(settings) * tile_height(settings);
+    const size_t tallies = settings->statistics ? count : 1;
+    cl_int status;
+    slot->pixels = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
+                                  count * sizeof *slot->host_pixels, NULL, &status);
+    if (!cl_succeeded(status, "allocate a tile", error))
+        return false;
+    slot->tallies = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
+                                   tallies * sizeof *slot->host_tallies, NULL, &status);
+    if (!cl_succeeded(status, "allocate a tile's counters", error))
+        return false;
+    slot->host_pixels = memory_raw(count, sizeof *slot->host_pixels, error);
+    slot->host_tallies = memory_raw(tallies, sizeof *slot->host_tallies, error);
+    return slot->host_pixels != NULL && slot->host_tallies != NULL;
+}
+
+static void close_slot(Slot *slot)
+{
+    if (slot->done != NULL)
+        clReleaseEvent(slot->done);
+    if (slot->pixels != NULL)
+        clReleaseMemObject(slot->pixels);
+    if (slot->tallies != NULL)
+        clReleaseMemObject(slot->tallies);
+    free(slot->host_pixels);
+    free(slot->host_tallies);
+    *slot = (Slot){0};
+}
+
+static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameData *frame,
+                       Error *error)
+{
+    const RenderSettings *settings = &renderer->settings;
+    cl_kernel kernel = renderer->kernel;
+    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
+    for (cl_uint place = 0; place < 6 && status == CL_SUCCESS; place++)
+        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
+    if (status == CL_SUCCESS)
+        status = clSetKernelArg(kernel, 7, sizeof(cl_mem), &slot->pixels);
+    if (status == CL_SUCCESS)
+        status = clSetKernelArg(kernel, 8, sizeof(cl_mem), &slot->tallies);
+    if (!cl_succeeded(status, "set the kernel's arguments", error))
+        return false;
+    const size_t group[2] = {settings->group_width, settings->group_height};
+    const size_t grid[2] = {padded(tile_width(settings), settings->group_width),
+                            padded(tile_height(settings), settings->group_height)};
+    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
+                                    NULL);
+    return cl_succeeded(status, "run the kernel", error);
+}
+
+bool draw_warm_up(Renderer *renderer, Error *error)
+{
+    Slot slot = {0};
+    const bool ok = open_slot(&slot, renderer, error) &&
+                    run_kernel(renderer, &slot, &renderer->frame, error) &&
+                    cl_succeeded(clFinish(renderer->device->queue), "finish the first run", error);
+    close_slot(&slot);
+    return ok;
+}
+
+static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Error *error)
+{
+    const Renderer *renderer = drawing->renderer;
+    cl_command_queue queue = renderer->device->queue;
+    const size_t count = (size_t)slot->width * slot->height;
+    frame.tile_x = slot->x;
+    frame.tile_y = slot->y;
+    frame.tile_width = slot->width;
+    frame.tile_height = slot->height;
+    if (!run_kernel(renderer, slot, &frame, error))
+        return false;
+    cl_int status = CL_SUCCESS;
+    if (renderer->settings.statistics)
+        status = clEnqueueReadBuffer(queue, slot->tallies, CL_FALSE, 0,
+                                     count * sizeof *slot->host_tallies, slot->host_tallies, 0,
+                                     NULL, NULL);
+    if (status == CL_SUCCESS)
+        status =
+            clEnqueueReadBuffer(queue, slot->pixels, CL_FALSE, 0, count * sizeof *slot->host_pixels,
+                                slot->host_pixels, 0, NULL, &slot->done);
+    if (status == CL_SUCCESS)
+        status = clFlush(queue);
+    return cl_succeeded(status, "read a tile back", error);
+}
+
+// Copies a finished tile into the picture and adds up what it cost.
+static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
+{
+    Renderer *renderer = drawing->renderer;
+    if (!cl_succeeded(clWaitForEvents(1, &slot->done), "trace a tile", error))
+        return false;
+    clReleaseEvent(slot->done);
+    slot->done = NULL;
+    for (uint32_t row = 0; row < slot->height; row++) {
+        const size_t place = (size_t)(slot->y + row) * drawing->framebuffer->width + slot->x;
+        memcpy(drawing->framebuffer->pixels[place], slot->host_pixels[(size_t)row * slot->width],
+               slot->width * sizeof *slot->host_pixels);
+    }
+    renderer->progress.tiles_done++;
+    const size_t count = renderer->settings.statistics ? (size_t)slot->width * slot->height : 0;
+    for (size_t pixel = 0; pixel < count; pixel++)
+        for (int kind = 0; kind < TALLY_KINDS; kind++)
+            renderer->progress.tallies[kind] += slot->host_tallies[pixel][kind];
+    return true;
+}
+
+static void place_tile(Slot *slot, const RenderSettings *settings, uint64_t tile)
+{
+    const uint32_t width = tile_width(settings), height = tile_height(settings);
+    const uint32_t columns = (settings->width + width - 1) / width;
+    slot->x = (uint32_t)(tile % columns) * width;
+    slot->y = (uint32_t)(tile / columns) * height;
+    slot->width = smaller(width, settings->width - slot->x);
+    slot->height = smaller(height, settings->height - slot->y);
+}
+
+static uint64_t tile_count(const RenderSettings *settings)
+{
+    const uint32_t width = tile_width(settings), height = tile_height(settings);
+    const uint64_t columns = (settings->width + width - 1) / width;
+    const uint64_t rows = (settings->height + height - 1) / height;
+    return columns * rows;
+}
+
+static bool observed(const RenderObserver *observer, const RenderProgress *progress)
+{
+    return observer == NULL || observer->tile_done == NULL ||
+           observer->tile_done(observer->context, progress);
+}
+
+static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObserver *observer,
+                       Error *error)
+{
+    Renderer *renderer = drawing->renderer;
+    const uint64_t tiles = tile_count(&renderer->settings);
+    renderer->progress = (RenderProgress){.tiles = tiles};
+    uint64_t started = 0;
+    bool wanted = true;
+    while (renderer->progress.tiles_done < (wanted ? tiles : started)) {
+        while (wanted && started < tiles && started < renderer->progress.tiles_done + SLOTS) {
+            Slot *slot = &drawing->slots[started % SLOTS];
+            place_tile(slot, &renderer->settings, started);
+            if (!start_tile(drawing, slot, *frame, error))
+                return false;
+            started++;
+        }
+        Slot *oldest = &drawing->slots[renderer->progress.tiles_done % SLOTS];
+        if (!finish_tile(drawing, oldest, error))
+            return false;
+        wanted = observed(observer, &renderer->progress) && wanted;
+    }
+    return true;
+}
+
+bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                   Framebuffer *framebuffer, Error *error)
+{
+    Drawing drawing = {.renderer = renderer, .framebuffer = framebuffer};
+    FrameData frame = renderer->frame;
+    frame.camera = *camera;
+    bool ok = true;
+    for (int slot = 0; slot < SLOTS; slot++)
+        ok = ok && open_slot(&drawing.slots[slot], renderer, error);
+    ok = ok && draw_tiles(&drawing, &frame, observer, error);
+    // Nothing may still write into the slots when they go.
+    clFinish(renderer->device->queue);
+    for (int slot = 0; slot < SLOTS; slot++)
+        close_slot(&drawing.slots[slot]);
+    return ok;
+}

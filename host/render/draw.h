@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// Runs the tiles of a picture on the device (the drawing half of Renderer).
+#pragma once
+
+#include "render/renderer.h"
+
+// Runs the kernel once over an empty tile of the usual grid, so that drivers which finish compiling
+// at the first run do it now.
+bool draw_warm_up(Renderer *renderer, Error *error);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Sets a renderer up: buffers, program and kernel.  Drawing itself is draw.c.
+#include "render/renderer.h"
+
+#include "base/clock.h"
+#include "render/draw.h"
+
+#include <string.h>
+
+// What compiling a program that is not yet cached costs, and what a specialized one was measured
+// to save of the tracing time; the rate is of one core on a scene of middling size.
+#define COMPILE_SECONDS   0.7
+#define SPECIALIZED_SAVES 0.04
+#define RAYS_PER_SECOND   3e6
+#define RAYS_PER_SAMPLE   2.0
+
+static bool upload(Renderer *renderer, int place, const void *data, size_t size, Error *error)
+{
+    // OpenCL has no empty buffers, and kernels read nothing from one that stands for no elements.
+    static const char nothing[64];
+    const Device *device = renderer->device;
+    if (size > device->largest_allocation)
+        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
+                         size, device->name, (unsigned long long)device->largest_allocation);
+    cl_int status;
+    void *source = (void *)(size > 0 ? data : nothing);
+    renderer->arrays[place] =
+        clCreateBuffer(device->context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                       size > 0 ? size : sizeof nothing, source, &status);
+    return cl_succeeded(status, "upload the scene", error);
+}
+
+static bool upload_scene(Renderer *renderer, const FlatScene *flat, Error *error)
+{
+    const double start = clock_seconds();
+    const bool ok =
+        upload(renderer, 0, flat->lights, flat->light_count * sizeof *flat->lights, error) &&
+        upload(renderer, 1, flat->materials, flat->material_count * sizeof *flat->materials,
+               error) &&
+        upload(renderer, 2, flat->spheres, flat->sphere_count * sizeof *flat->spheres, error) &&
+        upload(renderer, 3, flat->nodes, flat->node_count * sizeof *flat->nodes, error) &&
+        upload(renderer, 4, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
+               error) &&
+        upload(renderer, 5, flat->normals, flat->normals_count * sizeof *flat->normals, error);
+    renderer->upload_size = flat_size(flat);
+    renderer->upload_seconds = clock_seconds() - start;
+    return ok;
+}
+
+static FrameData frame_of(const FlatScene *flat, const RenderSettings *settings)
+{
+    FrameData frame = {.ambient = flat->ambient,
+                       .width = settings->width,
+                       .height = settings->height,
+                       .samples = settings->samples,
+                       .max_level = settings->max_level,
+                       .light_count = flat->light_count,
+                       .sphere_count = flat->sphere_count,
+                       .triangle_count = flat->triangle_count,
+                       .uses_bvh = flat->node_count > 0};
+    memcpy(frame.background, flat->background, sizeof frame.background);
+    return frame;
+}
+
+static double expected_saving(const Device *device, const RenderSettings *settings)
+{
+    const double samples =
+        (double)settings->width * settings->height * settings->samples * settings->samples;
+    const double rate = RAYS_PER_SECOND * device->compute_units;
+    return SPECIALIZED_SAVES * samples * RAYS_PER_SAMPLE / rate;
+}
+
+static bool specialization_pays(const RendererSetup *setup, const SceneTraits *special,
+                                const RenderSettings *settings)
+{
+    char key[PROGRAM_KEY_SIZE];
+    if (settings->specialization != SPECIALIZE_AUTO)
+        return settings->specialization == SPECIALIZE_ALWAYS;
+    program_key(setup->device, &setup->source, special, key);
+    return cache_has_mark(setup->cache, key) ||
+           expected_saving(setup->device, settings) > COMPILE_SECONDS;
+}
+
+static bool build(Renderer *renderer, const RendererSetup *setup, const SceneTraits *traits,
+                  Error *error)
+{
+    char key[PROGRAM_KEY_SIZE];
+    cl_int status;
+    if (!program_build(&renderer->program, setup->device, &setup->source, traits, error))
+        return false;
+    renderer->kernel = clCreateKernel(renderer->program.handle, "render_tile", &status);
+    if (!cl_succeeded(status, "create the kernel render_tile", error) ||
+        !draw_warm_up(renderer, error))
+        return false;
+    program_key(setup->device, &setup->source, traits, key);
+    cache_set_mark(setup->cache, key);
+    return true;
+}
+
+bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
+                   const RenderSettings *settings, Error *error)
+{
+    *renderer = (Renderer){
+        .device = setup->device, .settings = *settings, .frame = frame_of(flat, settings)};
+    bool ok = upload_scene(renderer, flat, error);
+    const double start = clock_seconds();
+    const SceneTraits special = traits_of(flat, settings->statistics);
+    renderer->is_special = specialization_pays(setup, &special, settings);
+    const SceneTraits traits =
+        renderer->is_special ? special : traits_general(settings->statistics);
+    const int lock = cache_lock(setup->cache);
+    ok = ok && build(renderer, setup, &traits, error);
+    cache_unlock(lock);
+    renderer->build_seconds = clock_seconds() - start;
+    if (!ok)
+        renderer_close(renderer);
+    return ok;
+}
+
+void renderer_close(Renderer *renderer)
+{
+    for (int place = 0; place < 6; place++)
+        if (renderer->arrays[place] != NULL)
+            clReleaseMemObject(renderer->arrays[place]);
+    if (renderer->kernel != NULL)
+        clReleaseKernel(renderer->kernel);
+    program_free(&renderer->program);
+    *renderer = (Renderer){0};
+}

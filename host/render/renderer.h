@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// FlatScene, Program and camera -> Framebuffer, tile by tile.
+#pragma once
+
+#include "device/cache.h"
+#include "device/program.h"
+#include "image/framebuffer.h"
+
+// Which program draws the scene; the picture is the same.
+typedef enum {
+    SPECIALIZE_AUTO, // specialized where it is compiled already or saves more than compiling costs
+    SPECIALIZE_ALWAYS,
+    SPECIALIZE_NEVER
+} Specialization;
+
+typedef struct {
+    uint32_t width, height;
+    uint32_t samples;   // per pixel and axis
+    uint32_t max_level; // rays of this level return the background
+    uint32_t tile_width, tile_height;
+    uint32_t group_width, group_height; // of work-groups
+    bool statistics;
+    Specialization specialization;
+} RenderSettings;
+
+// The limit keeps sample coordinates exact in float.
+#define SAMPLES_MAX 64
+
+typedef struct {
+    uint64_t tiles_done, tiles;
+    uint64_t tallies[TALLY_KINDS]; // zeros unless statistics were asked for
+} RenderProgress;
+
+// Told of every finished tile; returning false stops the picture where it is.
+typedef struct {
+    bool (*tile_done)(void *context, const RenderProgress *progress);
+    void *context;
+} RenderObserver;
+
+// What a renderer stands on; the device must outlive it.
+typedef struct {
+    const Device *device;
+    const Cache *cache;
+    ProgramSource source;
+} RendererSetup;
+
+typedef struct {
+    const Device *device; // borrowed
+    RenderSettings settings;
+    FrameData frame;
+    Program program;
+    cl_kernel kernel;
+    bool is_special;    // the program is specialized for the scene
+    cl_mem arrays[6];   // in the order of the kernel's arguments
+    size_t upload_size; // bytes
+    double upload_seconds, build_seconds;
+    RenderProgress progress; // of the latest picture
+} Renderer;
+
+// Uploads the scene and builds the program.
+bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
+                   const RenderSettings *settings, Error *error);
+void renderer_close(Renderer *renderer);
+
+// Draws the picture seen by camera into framebuffer, which has the settings' size, and leaves how
+// far it came in renderer->progress: the observer may have stopped it.
+bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                   Framebuffer *framebuffer, Error *error);
