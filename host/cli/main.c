@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// The program: runs the pipeline from a scene file to a picture file, and words what went wrong.
+// Every stage borrows the ones before it and fills a value of its own; a zeroed value is valid and
+// freeing it does nothing, so there is one way out.
+#include "accel/flat.h"
+#include "base/clock.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/threads.h"
+#include "image/image_file.h"
+#include "render/renderer.h"
+#include "scene/camera.h"
+#include "scene/scn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef enum {
+    EXIT_DONE = 0,
+    EXIT_USAGE = 2,
+    EXIT_SCENE = 3,
+    EXIT_DEVICE = 4,
+    EXIT_OUTPUT = 5
+} ExitCode;
+
+typedef struct {
+    const Options *options;
+    Cache cache;
+    Scene scene;
+    Normalization normalization;
+    FlatScene flat;
+    Device device;
+    RenderSettings settings;
+    Renderer renderer;
+    Framebuffer framebuffer;
+    Report report;
+    int stopped_by; // a signal, 0 where the picture is whole
+} Run;
+
+// Returns the seconds since *moment, and moves it to now.
+static double lap(double *moment)
+{
+    const double before = *moment;
+    *moment = clock_seconds();
+    return *moment - before;
+}
+
+static RenderSettings settings_of(const Options *options, const Scene *scene)
+{
+    const bool sized = options->width > 0;
+    return (RenderSettings){
+        .width = sized ? options->width : scene->width,
+        .height = sized ? options->height : scene->height,
+        .samples = options->samples,
+        .max_level = options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level,
+        .tile_width = options->tile_width,
+        .tile_height = options->tile_height,
+        .group_width = options->group_width,
+        .group_height = options->group_height,
+        .statistics = options->statistics,
+        .specialization = options->specialization,
+    };
+}
+
+static void count_scene(Report *report, const Scene *scene, const Bvh *bvh)
+{
+    report->scene_hash[0] = scene->hash[0];
+    report->scene_hash[1] = scene->hash[1];
+    report->lights = (uint32_t)scene->lights.count;
+    report->spheres = (uint32_t)scene->spheres.count;
+    report->triangles = (uint32_t)scene_triangle_count(scene);
+    for (size_t i = 0; i < scene->objects.count; i++)
+        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
+    report->bvh_nodes = bvh->node_count;
+    report->bvh_leaves = bvh->leaf_count;
+    report->bvh_depth = bvh->depth;
+    report->bvh_largest_leaf = bvh->largest_leaf;
+}
+
+// The stages that need no device: text to arrays.
+static bool prepare_scene(Run *run, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    double moment = clock_seconds();
+    const Options *options = run->options;
+    bool ok = scn_load(&run->scene, options->scene_path, error);
+    if (ok && options->view > run->scene.viewpoints.count)
+        ok = error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
+                       run->scene.viewpoints.count, options->view);
+    run->report.load = run->scene.mesh_seconds;
+    run->report.parse = lap(&moment) - run->report.load;
+    run->normalization = normalization_of(&run->scene);
+    Error cause = {0};
+    if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
+        ok = error_set(error, "%s: %s", options->scene_path, cause.text);
+    ok = ok && triangles_make(&triangles, &run->scene, &run->normalization, error) &&
+         (!options->uses_bvh || bvh_build(&bvh, &triangles, options->builder, error)) &&
+         flat_make(&run->flat, &run->scene, &triangles, &bvh, error);
+    run->report.build = lap(&moment);
+    if (ok) {
+        count_scene(&run->report, &run->scene, &bvh);
+        run->settings = settings_of(options, &run->scene);
+    }
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+    return ok;
+}
+
+static bool open_renderer(Run *run, Error *error)
+{
+    double moment = clock_seconds();
+    if (!device_open(&run->device, run->options->device, error))
+        return false;
+    run->report.device = lap(&moment);
+    const RendererSetup setup = {
+        &run->device, &run->cache, {.kernel_folder = getenv("CLRT_KERNEL_DIR")}};
+    if (!renderer_open(&run->renderer, &setup, &run->flat, &run->settings, error))
+        return false;
+    run->report.device_name = run->device.name;
+    run->report.device_version = run->device.version;
+    run->report.upload = run->renderer.upload_seconds;
+    run->report.upload_size = run->renderer.upload_size;
+    run->report.kernel_build = run->renderer.build_seconds;
+    run->report.specialized = run->renderer.is_special;
+    return true;
+}
+
+static bool draw(Run *run, Error *error)
+{
+    const RenderSettings *settings = &run->settings;
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    const CameraData camera =
+        camera_make(viewpoint, &run->normalization, settings->height, settings->samples);
+    if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
+        return false;
+    double moment = clock_seconds();
+    Progress progress = progress_begin(run->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok = renderer_draw(&run->renderer, &camera, &observer, &run->framebuffer, error);
+    run->stopped_by = progress_end(&progress);
+    run->report.trace = lap(&moment);
+    const RenderProgress *done = &run->renderer.progress;
+    run->report.complete = ok && done->tiles_done == done->tiles;
+    for (int kind = 0; kind < TALLY_KINDS; kind++)
+        run->report.tallies[kind] = done->tallies[kind];
+    return ok;
+}
+
+static bool write_picture(Run *run, Error *error)
+{
+    ReportTexts texts;
+    const Options *options = run->options;
+    double moment = clock_seconds();
+    report_make_texts(&run->report, &texts);
+    const ImageSettings settings = {.format = options->format,
+                                    .encoding = options->encoding,
+                                    .texts = texts.texts,
+                                    .text_count = REPORT_TEXTS};
+    const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
+    run->report.write = lap(&moment);
+    return ok;
+}
+
+static bool write_statistics(Run *run, double start, Error *error)
+{
+    const Options *options = run->options;
+    run->report.total = clock_seconds() - start;
+    if (!options->statistics)
+        return true;
+    if (options->statistics_path == NULL) {
+        report_write_text(&run->report, stderr);
+        return true;
+    }
+    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
+    return report_write_json(&run->report, options->statistics_path, error);
+}
+
+static void describe(const Run *run)
+{
+    const Report *report = &run->report;
+    if (!run->options->verbose)
+        return;
+    fprintf(stderr, "scene: %u triangles, %u spheres, %u lights; %llu triangles dropped\n",
+            report->triangles, report->spheres, report->lights,
+            (unsigned long long)report->dropped_triangles);
+    fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
+            report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
+    fprintf(stderr, "device: %s, driver %s, %u compute units\n", run->device.name,
+            run->device.version, run->device.compute_units);
+    fprintf(stderr, "kernels: %s, ready in %.3f s; uploaded %zu bytes\n",
+            report->specialized ? "specialized" : "general", report->kernel_build,
+            report->upload_size);
+}
+
+static ExitCode render(Run *run, Error *error)
+{
+    const double start = clock_seconds();
+    if (!image_check_path(run->options->output_path, error))
+        return EXIT_OUTPUT;
+    if (!prepare_scene(run, error))
+        return EXIT_SCENE;
+    if (!open_renderer(run, error))
+        return EXIT_DEVICE;
+    describe(run);
+    image_prepare(run->options->format);
+    if (!draw(run, error))
+        return EXIT_DEVICE;
+    if (!write_picture(run, error) || !write_statistics(run, start, error))
+        return EXIT_OUTPUT;
+    return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
+}
+
+static ExitCode run_render(const Options *options, Error *error)
+{
+    Run run = {.options = options};
+    run.report.options = options;
+    run.report.settings = &run.settings;
+    cache_open(&run.cache);
+    threads_limit(options->threads);
+    const ExitCode code = render(&run, error);
+    framebuffer_free(&run.framebuffer);
+    renderer_close(&run.renderer);
+    device_close(&run.device);
+    flat_free(&run.flat);
+    scene_free(&run.scene);
+    cache_close(&run.cache);
+    return code;
+}
+
+static ExitCode list_devices(Error *error)
+{
+    char list[8192];
+    Cache cache;
+    cache_open(&cache);
+    const bool ok = device_list(list, sizeof list, error);
+    cache_close(&cache);
+    if (ok)
+        fputs(list, stdout);
+    return ok ? EXIT_DONE : EXIT_DEVICE;
+}
+
+static ExitCode perform(int count, char **words, Error *error)
+{
+    Options options;
+    if (!options_parse(&options, count, words, error))
+        return EXIT_USAGE;
+    switch (options.action) {
+    case ACTION_HELP:
+        options_write_help(stdout);
+        return EXIT_DONE;
+    case ACTION_VERSION:
+        puts("clrt " CLRT_VERSION);
+        return EXIT_DONE;
+    case ACTION_LIST_DEVICES:
+        return list_devices(error);
+    case ACTION_RENDER:
+        break;
+    }
+    return run_render(&options, error);
+}
+
+int main(int count, char **words)
+{
+    Error error = {0};
+    const ExitCode code = perform(count, words, &error);
+    if (error.text[0] != '\0')
+        fprintf(stderr, "clrt: %s\n", error.text);
+    return (int)code;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Command line -> Options.  One table makes the parser, --help and the shell completion.
+#pragma once
+
+#include "accel/bvh.h"
+#include "image/image_file.h"
+#include "render/renderer.h"
+
+#include <stdio.h>
+
+typedef enum { ACTION_RENDER, ACTION_HELP, ACTION_VERSION, ACTION_LIST_DEVICES } Action;
+
+// Strings point into the command line.
+typedef struct {
+    Action action;
+    const char *scene_path;
+    const char *output_path; // "-": standard output; NULL without -o
+    const char *format;      // one of image_format_names; NULL without an output
+    uint32_t samples;        // per pixel and axis
+    uint32_t view;           // from 1
+    uint32_t width, height;  // 0: the scene's
+    int64_t max_level;       // negative: the scene's
+    bool uses_bvh;
+    BvhBuilder builder;
+    const char *device; // NULL: the best
+    uint32_t threads;   // 0: all that the process may use
+    uint32_t tile_width, tile_height;
+    uint32_t group_width, group_height;
+    Specialization specialization;
+    bool statistics;
+    const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
+    Encoding encoding;
+    bool quiet, verbose;
+} Options;
+
+// Fills options from the words of the command line; false where they are not understood.
+bool options_parse(Options *options, int count, char **words, Error *error);
+
+// Writes what --help shows.
+void options_write_help(FILE *stream);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Words the report; Jansson writes the JSON.
+#include "cli/report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#define SCHEMA_VERSION 1
+
+static uint64_t ray_count(const Report *report)
+{
+    return report->tallies[TALLY_CAMERA_RAYS] + report->tallies[TALLY_SHADOW_RAYS] +
+           report->tallies[TALLY_REFLECTED_RAYS];
+}
+
+static double per_ray(const Report *report, TallyKind kind)
+{
+    const uint64_t rays = ray_count(report);
+    return rays == 0 ? 0 : (double)report->tallies[kind] / (double)rays;
+}
+
+static const char *tree_name(const Report *report)
+{
+    if (!report->options->uses_bvh || report->triangles == 0)
+        return "none";
+    return report->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
+}
+
+void report_make_texts(const Report *report, ReportTexts *texts)
+{
+    const RenderSettings *settings = report->settings;
+    snprintf(texts->scene_hash, sizeof texts->scene_hash, "%016" PRIx64 "%016" PRIx64,
+             report->scene_hash[1], report->scene_hash[0]);
+    snprintf(texts->settings, sizeof texts->settings,
+             "view=%u size=%ux%u samples=%ux%u max_level=%u encode=%s", report->options->view,
+             settings->width, settings->height, settings->samples, settings->samples,
+             settings->max_level, report->options->encoding == ENCODE_SRGB ? "srgb" : "raw");
+    const ImageText list[REPORT_TEXTS] = {
+        {"Software", "clrt " CLRT_VERSION},     {"clrt:version", CLRT_VERSION},
+        {"clrt:scene_hash", texts->scene_hash}, {"clrt:settings", texts->settings},
+        {"clrt:device", report->device_name},   {"clrt:complete", report->complete ? "yes" : "no"},
+    };
+    memcpy(texts->texts, list, sizeof list);
+}
+
+void report_write_text(const Report *report, FILE *stream)
+{
+    fprintf(stream, "%.3f seconds\n", report->trace);
+    fprintf(stream,
+            "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
+            ray_count(report), report->tallies[TALLY_CAMERA_RAYS],
+            report->tallies[TALLY_SHADOW_RAYS], report->tallies[TALLY_REFLECTED_RAYS]);
+    fprintf(stream, "%" PRIu64 " triangle tests, %.2f per ray\n",
+            report->tallies[TALLY_TRIANGLE_TESTS], per_ray(report, TALLY_TRIANGLE_TESTS));
+    fprintf(stream, "%" PRIu64 " box tests, %.2f per ray\n", report->tallies[TALLY_BOX_TESTS],
+            per_ray(report, TALLY_BOX_TESTS));
+}
+
+static json_t *integer(uint64_t value)
+{
+    return json_integer((json_int_t)value);
+}
+
+static json_t *rays_json(const Report *report)
+{
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o}", "camera", integer(report->tallies[TALLY_CAMERA_RAYS]),
+        "camera_hits", integer(report->tallies[TALLY_CAMERA_HITS]), "shadow",
+        integer(report->tallies[TALLY_SHADOW_RAYS]), "reflected",
+        integer(report->tallies[TALLY_REFLECTED_RAYS]), "total", integer(ray_count(report)),
+        "shaded_points", integer(report->tallies[TALLY_SHADED_POINTS]));
+}
+
+static json_t *tests_json(const Report *report)
+{
+    return json_pack("{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle",
+                     integer(report->tallies[TALLY_TRIANGLE_TESTS]), "box",
+                     integer(report->tallies[TALLY_BOX_TESTS]), "sphere",
+                     integer(report->tallies[TALLY_SPHERE_TESTS]), "triangle_per_ray",
+                     per_ray(report, TALLY_TRIANGLE_TESTS), "box_per_ray",
+                     per_ray(report, TALLY_BOX_TESTS), "sphere_per_ray",
+                     per_ray(report, TALLY_SPHERE_TESTS));
+}
+
+static json_t *seconds_json(const Report *report)
+{
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "parse", report->parse,
+                     "load", report->load, "build", report->build, "device", report->device,
+                     "upload", report->upload, "kernel_build", report->kernel_build, "trace",
+                     report->trace, "write", report->write, "total", report->total);
+}
+
+static json_t *scene_json(const Report *report, const ReportTexts *texts)
+{
+    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "path", report->options->scene_path, "hash",
+                     texts->scene_hash, "lights", integer(report->lights), "spheres",
+                     integer(report->spheres), "triangles", integer(report->triangles),
+                     "dropped_triangles", integer(report->dropped_triangles));
+}
+
+static json_t *tree_json(const Report *report)
+{
+    return json_pack("{s:s, s:o, s:o, s:o, s:o}", "builder", tree_name(report), "nodes",
+                     integer(report->bvh_nodes), "leaves", integer(report->bvh_leaves), "depth",
+                     integer(report->bvh_depth), "largest_leaf", integer(report->bvh_largest_leaf));
+}
+
+static json_t *settings_json(const Report *report)
+{
+    const RenderSettings *settings = report->settings;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b}", "view",
+                     integer(report->options->view), "width", integer(settings->width), "height",
+                     integer(settings->height), "samples", integer(settings->samples), "max_level",
+                     integer(settings->max_level), "tile", integer(settings->tile_width),
+                     integer(settings->tile_height), "work_group", integer(settings->group_width),
+                     integer(settings->group_height), "specialized", report->specialized);
+}
+
+static json_t *report_json(const Report *report)
+{
+    ReportTexts texts;
+    struct rusage usage;
+    report_make_texts(report, &texts);
+    getrusage(RUSAGE_SELF, &usage);
+    return json_pack(
+        "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, "
+        "s:o}",
+        "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
+        "pixel_hash", report->pixel_hash, "device", "name", report->device_name, "driver",
+        report->device_version, "bytes", "uploaded", integer(report->upload_size), "peak_memory",
+        integer((uint64_t)usage.ru_maxrss * 1024), "scene", scene_json(report, &texts), "bvh",
+        tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "tests",
+        tests_json(report), "seconds", seconds_json(report));
+}
+
+bool report_write_json(const Report *report, const char *path, Error *error)
+{
+    json_t *root = report_json(report);
+    char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_SORT_KEYS);
+    json_decref(root);
+    if (text == NULL)
+        return error_set(error, "the statistics cannot be written as JSON");
+    FILE *stream = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
+    bool ok = stream != NULL && fprintf(stream, "%s\n", text) > 0 && fflush(stream) == 0;
+    if (stream != NULL && stream != stdout)
+        ok = fclose(stream) == 0 && ok;
+    free(text);
+    return ok || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What a run cost, as text and as JSON, and what its picture's metadata say.
+#pragma once
+
+#include "cli/options.h"
+
+#define REPORT_TEXTS 6
+
+// Everything about one run that is told to the user.
+typedef struct {
+    const Options *options;
+    const RenderSettings *settings;
+    const char *device_name, *device_version;
+    uint64_t scene_hash[2];
+    uint32_t lights, spheres, triangles;
+    uint64_t dropped_triangles;
+    uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
+    size_t upload_size;
+    bool specialized;
+    bool complete;
+    uint64_t tallies[TALLY_KINDS];
+    // Seconds.
+    double parse, load, build, device, upload, kernel_build, trace, write, total;
+    char pixel_hash[FRAMEBUFFER_HASH_SIZE];
+} Report;
+
+// The texts a picture carries; strings live in storage.
+typedef struct {
+    ImageText texts[REPORT_TEXTS];
+    char scene_hash[33];
+    char settings[256];
+} ReportTexts;
+
+void report_make_texts(const Report *report, ReportTexts *texts);
+
+// The figures the course prints, on stream.
+void report_write_text(const Report *report, FILE *stream);
+
+// Versioned JSON with sorted keys, at path ("-": standard output).
+bool report_write_json(const Report *report, const char *path, Error *error);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Memory and fingerprint of a picture.
+#include "image/framebuffer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <xxhash.h>
+
+bool framebuffer_make(Framebuffer *framebuffer, uint32_t width, uint32_t height, Error *error)
+{
+    *framebuffer = (Framebuffer){.width = width, .height = height};
+    framebuffer->pixels = memory_zeroed((size_t)width * height, sizeof *framebuffer->pixels, error);
+    return framebuffer->pixels != NULL;
+}
+
+void framebuffer_free(Framebuffer *framebuffer)
+{
+    free(framebuffer->pixels);
+    *framebuffer = (Framebuffer){0};
+}
+
+void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH_SIZE])
+{
+    const size_t count = (size_t)framebuffer->width * framebuffer->height;
+    const XXH128_hash_t value = XXH3_128bits_withSeed(
+        framebuffer->pixels, count * sizeof *framebuffer->pixels, framebuffer->width);
+    snprintf(hash, FRAMEBUFFER_HASH_SIZE, "%016llx%016llx", (unsigned long long)value.high64,
+             (unsigned long long)value.low64);
+}
