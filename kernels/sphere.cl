@@ -90,10 +90,26 @@ static inline float sphere_discriminant(TwoFloat3 f, float3 d, float s, float dd
     return two_add(rr, two_negate(two_length_squared(foot))).high + along * along / dd;
 }
 
+// Whether plain floats already prove that the line passes the sphere by.  Their error is below 16
+// units of rounding of the squares of all lengths involved, of which 64 are allowed.  It spares
+// most spheres the exact test: three of them took half the time of a picture without it.
+static inline bool sphere_is_passed(global const SphereData *sphere, float3 origin, float3 d)
+{
+    const float3 center = load3(sphere->center);
+    const float3 f = origin - center;
+    const float3 foot = f - (dot_product(f, d) / dot_product(d, d)) * d;
+    const float rr = sphere->radius * sphere->radius;
+    const float apart = dot_product(foot, foot) - rr;
+    const float squares = dot_product(origin, origin) + dot_product(center, center) + rr;
+    return apart > 64.0f * UNIT_ROUNDOFF * squares;
+}
+
 // The smallest distance t > 0 at which origin + t * direction meets the sphere, INFINITY where it
 // does not.  A ray inside meets the far wall.
 static inline float sphere_distance(global const SphereData *sphere, float3 origin, float3 d)
 {
+    if (sphere_is_passed(sphere, origin, d))
+        return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);
     const TwoFloat rr = two_square((TwoFloat){sphere->radius, sphere->radius_low});
     const float dd = dot_product(d, d);

@@ -207,6 +207,8 @@ static ExitCode render(Run *run, Error *error)
     image_prepare(run->options->format);
     if (!draw(run, error))
         return EXIT_DEVICE;
+    if (run->options->verbose)
+        fprintf(stderr, "traced in %.4f s\n", run->report.trace);
     if (!write_picture(run, error) || !write_statistics(run, start, error))
         return EXIT_OUTPUT;
     return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
