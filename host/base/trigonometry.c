@@ -35,11 +35,12 @@ static double cosine_series(double x)
     return 1.0 + s * sum;
 }
 
-double sine_of_degrees(double degrees)
+// The sine of degrees plus a number of quarter turns, which add nothing to its error.
+static double sine_ahead(double degrees, int quarters)
 {
     const double turns = rint(degrees / 90.0);
     const double radians = (degrees - turns * 90.0) * RADIANS_PER_DEGREE;
-    switch ((long long)turns & 3) {
+    switch (((long long)turns + quarters) & 3) {
     case 0:
         return sine_series(radians);
     case 1:
@@ -51,7 +52,12 @@ double sine_of_degrees(double degrees)
     }
 }
 
+double sine_of_degrees(double degrees)
+{
+    return sine_ahead(degrees, 0);
+}
+
 double cosine_of_degrees(double degrees)
 {
-    return sine_of_degrees(degrees + 90.0);
+    return sine_ahead(degrees, 1);
 }

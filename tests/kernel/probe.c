@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The probes' device code is read from the source tree: it changes with the test beside it.
+#include "kernel/probe.h"
+
+#include "base/file.h"
+
+bool probe_open(Probe *probe, Error *error)
+{
+    File file = {0};
+    *probe = (Probe){0};
+    const SceneTraits traits = traits_general(false);
+    bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
+              device_open(&probe->device, NULL, error);
+    const ProgramSource source = {.appended = file.bytes};
+    ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
+    file_free(&file);
+    return ok;
+}
+
+void probe_close(Probe *probe)
+{
+    program_free(&probe->program);
+    device_close(&probe->device);
+}
+
+bool probe_run(const Probe *probe, const char *kernel_name, const ProbeInput inputs[2],
+               size_t items, ProbeInput output)
+{
+    cl_int status;
+    cl_mem buffers[3] = {0};
+    cl_uint count = 0;
+    cl_context context = probe->device.context;
+    cl_kernel kernel = clCreateKernel(probe->program.handle, kernel_name, &status);
+    for (; count < 2 && inputs[count].size > 0; count++) {
+        buffers[count] = clCreateBuffer(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                                        inputs[count].size, (void *)inputs[count].data, NULL);
+        clSetKernelArg(kernel, count, sizeof(cl_mem), &buffers[count]);
+    }
+    buffers[count] = clCreateBuffer(context, CL_MEM_READ_WRITE, output.size, NULL, NULL);
+    clSetKernelArg(kernel, count, sizeof(cl_mem), &buffers[count]);
+    status =
+        clEnqueueNDRangeKernel(probe->device.queue, kernel, 1, NULL, &items, NULL, 0, NULL, NULL);
+    if (status == CL_SUCCESS)
+        status = clEnqueueReadBuffer(probe->device.queue, buffers[count], CL_TRUE, 0, output.size,
+                                     (void *)output.data, 0, NULL, NULL);
+    for (cl_uint i = 0; i <= count; i++)
+        clReleaseMemObject(buffers[i]);
+    clReleaseKernel(kernel);
+    return status == CL_SUCCESS;
+}

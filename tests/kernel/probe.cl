@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Kernels that show the tests what device code computes; built behind the real kernels.
+// The joined source has all headers already.
+
+kernel void probe_layout(global uint *sizes)
+{
+    SphereData sphere;
+    BvhPair pair;
+    FrameData frame;
+    TriangleData triangle;
+    sizes[0] = sizeof(Material);
+    sizes[1] = sizeof(PointLight);
+    sizes[2] = sizeof(SphereData);
+    sizes[3] = sizeof(TriangleData);
+    sizes[4] = sizeof(CornerNormals);
+    sizes[5] = sizeof(BvhPair);
+    sizes[6] = sizeof(CameraData);
+    sizes[7] = sizeof(FrameData);
+    sizes[8] = (uint)((char *)&sphere.material - (char *)&sphere);
+    sizes[9] = (uint)((char *)&pair.count - (char *)&pair);
+    sizes[10] = (uint)((char *)&frame.uses_bvh - (char *)&frame);
+    sizes[11] = (uint)((char *)&triangle.normals - (char *)&triangle);
+}
+
+// values holds pairs {base, exponent}; results what the highlight of each kind makes of them.
+kernel void probe_powers(global const float *values, global float *results)
+{
+    const uint item = get_global_id(0);
+    const float base = values[2 * item], exponent = values[2 * item + 1];
+    results[2 * item] = integer_power(base, (uint)exponent);
+    results[2 * item + 1] = exponential(exponent * log_one_plus(base - 1.0f));
+}
+
+// rays holds {origin, direction} of six floats, one for each of the spheres.
+kernel void probe_spheres(global const SphereData *spheres, global const float *rays,
+                          global float *distances)
+{
+    const uint item = get_global_id(0);
+    distances[item] =
+        sphere_distance(&spheres[item], load3(rays + 6 * item), load3(rays + 6 * item + 3));
+}
+
+kernel void probe_units(global const float *vectors, global float *results)
+{
+    const uint item = get_global_id(0);
+    vstore3(unit_vector(load3(vectors + 3 * item)), item, results);
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// What both builders promise about any set of triangles.
+#include "accel/bvh.h"
+
+#include "unit/cmocka_all.h"
+#include "unit/triangle_sets.h"
+
+#include <string.h>
+
+static Bvh built(const Triangles *triangles, BvhBuilder builder)
+{
+    Bvh bvh;
+    Error error = {0};
+    if (!bvh_build(&bvh, triangles, builder, &error))
+        fail_msg("%s", error.text);
+    return bvh;
+}
+
+static bool box_holds(const Box *outer, const float point[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (!(outer->low[axis] <= point[axis] && point[axis] <= outer->high[axis]))
+            return false;
+    return true;
+}
+
+// Walks the tree by itself and checks boxes, children and leaves; returns the levels below.
+static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t number,
+                           unsigned *seen)
+{
+    const BvhNode *node = &bvh->nodes[number];
+    for (uint32_t place = node->first; place < node->first + node->count; place++) {
+        seen[bvh->order[place]]++;
+        for (int corner = 0; corner < 3; corner++)
+            assert_true(box_holds(&node->box, triangles->corners[bvh->order[place]][corner]));
+    }
+    if (node->count > 0)
+        return 1;
+    uint32_t levels = 0;
+    for (uint32_t child = node->first; child < node->first + 2; child++) {
+        assert_true(child > number && child < bvh->node_count);
+        assert_true(box_holds(&node->box, bvh->nodes[child].box.low));
+        assert_true(box_holds(&node->box, bvh->nodes[child].box.high));
+        const uint32_t below = check_node(bvh, triangles, child, seen);
+        levels = below > levels ? below : levels;
+    }
+    return levels + 1;
+}
+
+static void check_tree(const Triangles *triangles, BvhBuilder builder)
+{
+    Bvh bvh = built(triangles, builder);
+    unsigned *seen = calloc(triangles->count, sizeof *seen);
+    assert_non_null(seen);
+    assert_int_equal(check_node(&bvh, triangles, 0, seen), bvh.depth);
+    assert_true(bvh.depth <= BVH_MAX_DEPTH);
+    assert_int_equal(bvh.node_count, 2 * bvh.leaf_count - 1);
+    for (size_t i = 0; i < triangles->count; i++)
+        assert_int_equal(seen[i], 1);
+    free(seen);
+    bvh_free(&bvh);
+}
+
+static void every_triangle_is_in_one_leaf_inside_nested_boxes(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 2, 3, 5, 9, 1000, 50000};
+    for (int set = 0; set < SET_KINDS; set++)
+        for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+            Triangles triangles = triangle_set((TriangleSet)set, counts[i]);
+            check_tree(&triangles, BVH_SAH);
+            check_tree(&triangles, BVH_MIDPOINT);
+            triangles_free(&triangles);
+        }
+}
+
+static void the_same_triangles_give_the_same_tree(void **state)
+{
+    (void)state;
+    Triangles triangles = triangle_set(SET_SCATTERED, 5000);
+    for (int builder = BVH_SAH; builder <= BVH_MIDPOINT; builder++) {
+        Bvh one = built(&triangles, (BvhBuilder)builder);
+        Bvh two = built(&triangles, (BvhBuilder)builder);
+        assert_int_equal(one.node_count, two.node_count);
+        assert_memory_equal(one.nodes, two.nodes, one.node_count * sizeof *one.nodes);
+        assert_memory_equal(one.order, two.order, triangles.count * sizeof *one.order);
+        bvh_free(&one);
+        bvh_free(&two);
+    }
+    triangles_free(&triangles);
+}
+
+static void sah_leaves_stay_small_even_for_equal_triangles(void **state)
+{
+    (void)state;
+    Triangles triangles = triangle_set(SET_EQUAL, 10000);
+    Bvh bvh = built(&triangles, BVH_SAH);
+    assert_true(bvh.largest_leaf <= 8);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+}
+
+static void no_triangles_make_no_tree(void **state)
+{
+    (void)state;
+    Triangles none = {0};
+    Bvh bvh = built(&none, BVH_SAH);
+    assert_int_equal(bvh.node_count, 0);
+    bvh_free(&bvh);
+    bvh_free(&bvh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_triangle_is_in_one_leaf_inside_nested_boxes),
+        cmocka_unit_test(the_same_triangles_give_the_same_tree),
+        cmocka_unit_test(sah_leaves_stay_small_even_for_equal_triangles),
+        cmocka_unit_test(no_triangles_make_no_tree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The rays' axes against the course's formulas.
+#include "scene/camera.h"
+
+#include "unit/cmocka_all.h"
+
+static const Viewpoint ahead = {{4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 90};
+static const Normalization unmoved = {{0, 0, 0}, 1};
+
+static void right_and_down_span_the_image_plane(void **state)
+{
+    (void)state;
+    const CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
+    assert_true(camera.eye[0] == 4 && camera.forward[0] == -1);
+    // 90 degrees: half the plane's height is 1, in 100 half steps.
+    assert_true(camera.right_step[1] == 0.01f && camera.right_step[2] == 0);
+    assert_true(camera.down_step[2] == -0.01f && camera.down_step[1] == 0);
+}
+
+static void samples_divide_the_step(void **state)
+{
+    (void)state;
+    const CameraData one = camera_make(&ahead, &unmoved, 64, 1);
+    const CameraData four = camera_make(&ahead, &unmoved, 64, 4);
+    assert_true(one.right_step[1] == 4 * four.right_step[1]);
+}
+
+static void the_eye_moves_with_the_frame_and_directions_do_not(void **state)
+{
+    (void)state;
+    const Normalization moved = {{2, 1, 0}, 0.5};
+    const CameraData camera = camera_make(&ahead, &moved, 100, 1);
+    assert_true(camera.eye[0] == 1 && camera.eye[1] == -0.5f);
+    assert_true(camera.forward[0] == -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(right_and_down_span_the_image_plane),
+        cmocka_unit_test(samples_divide_the_step),
+        cmocka_unit_test(the_eye_moves_with_the_frame_and_directions_do_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Fixed sine and cosine against the C library's long double.
+#include "base/trigonometry.h"
+
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+
+static void multiples_of_ninety_degrees_are_exact(void **state)
+{
+    (void)state;
+    const double sines[4] = {0, 1, 0, -1};
+    for (int turn = -8; turn <= 8; turn++) {
+        assert_true(sine_of_degrees(90.0 * turn) == sines[turn & 3]);
+        assert_true(cosine_of_degrees(90.0 * turn) == sines[(turn + 1) & 3]);
+    }
+}
+
+// 4 units of 2^-53: two roundings of the series and one of the angle on each side.
+static void all_angles_agree_with_the_library(void **state)
+{
+    (void)state;
+    for (double degrees = -400; degrees <= 400; degrees += 0.37) {
+        const long double radians = (long double)degrees * 3.14159265358979323846264338L / 180;
+        assert_true(fabs(sine_of_degrees(degrees) - (double)sinl(radians)) < 0x1p-51);
+        assert_true(fabs(cosine_of_degrees(degrees) - (double)cosl(radians)) < 0x1p-51);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(multiples_of_ninety_degrees_are_exact),
+        cmocka_unit_test(all_angles_agree_with_the_library),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Sets of triangles that builders must cope with, in the normalized frame.
+#pragma once
+
+#include "accel/triangles.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+typedef enum { SET_SCATTERED, SET_EQUAL, SET_CONCENTRIC, SET_SPIRAL, SET_KINDS } TriangleSet;
+
+static inline float random_float(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (float)(*state >> 40) * 0x1p-23f - 1.0f;
+}
+
+static inline Triangles triangle_set(TriangleSet set, size_t count)
+{
+    Triangles triangles = {malloc((count + 1) * sizeof *triangles.corners), count};
+    assert(triangles.corners != NULL);
+    uint64_t state = 1;
+    float size = 1;
+    for (size_t i = 0; i < count; i++) {
+        const float corner = set == SET_CONCENTRIC ? (float)(i + 1) / (float)count : 0.01f;
+        const float center = set == SET_SPIRAL ? size : 0;
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++) {
+                const float at = axis == k ? corner : -0.5f * corner;
+                triangles.corners[i][k][axis] =
+                    set == SET_SCATTERED ? random_float(&state) : center + at * size;
+            }
+        if (set == SET_SPIRAL && i < 100)
+            size *= 0.5f;
+    }
+    return triangles;
+}
