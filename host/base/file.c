@@ -31,14 +31,15 @@ static bool read_stream(File *file, FILE *stream, size_t expected, Error *error)
 bool file_read(File *file, const char *path, Error *error)
 {
     *file = (File){0};
-    FILE *stream = fopen(path, "rb");
     struct stat status;
-    if (stream == NULL || fstat(fileno(stream), &status) != 0) {
-        error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
-        if (stream != NULL)
-            fclose(stream);
-        return false;
-    }
+    if (stat(path, &status) != 0)
+        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+    // A device may never end, and reading a folder fails less clearly.
+    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+        return error_set(error, "%s: cannot be read: it is not a file", path);
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
     const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;
     bool ok = read_stream(file, stream, expected, error);
     if (ok && ferror(stream))

@@ -11,8 +11,8 @@ typedef struct {
     size_t size;
 } File;
 
-// Reads all of path.  False when it cannot be opened or read, or is a folder; the message names
-// the path and the system's reason.
+// Reads all of path, a regular file or a pipe.  The message of a failure names the path and the
+// system's reason.
 bool file_read(File *file, const char *path, Error *error);
 void file_free(File *file);
 

@@ -85,7 +85,7 @@ static bool reserve_fan(Loader *loader, const PlyProperty *property, int64_t len
 static bool read_polygon(Loader *loader, const PlyProperty *property)
 {
     int64_t length;
-    uint32_t first, previous, corner;
+    uint32_t first = 0, previous = 0, corner = 0;
     if (!read_length(&loader->reader, property, &length) ||
         !reserve_fan(loader, property, length) || !read_corner(loader, property, &first) ||
         !read_corner(loader, property, &previous))

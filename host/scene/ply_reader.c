@@ -113,14 +113,13 @@ static bool take_token(PlyReader *reader, const char *stop, const char *expected
     return ply_reader_fail(reader, "'%s' is not %s", ply_reader_quote(token).text, expected);
 }
 
-// Takes the bytes of one binary value, which may lie anywhere, as an integer.
+// Takes the bytes of one binary value, which may lie anywhere, into bits that were zero.
 static bool take_bits(PlyReader *reader, PlyType type, uint64_t *bits)
 {
     const size_t size = type_sizes[type];
     reader->place = reader->next;
     if ((size_t)(reader->end - reader->next) < size)
         return fail_at_end(reader);
-    *bits = 0;
     for (size_t index = 0; index < size; index++) {
         const size_t shift = reader->format == PLY_LITTLE_ENDIAN ? index : size - 1 - index;
         *bits |= (uint64_t)(unsigned char)reader->next[index] << (8 * shift);
@@ -158,7 +157,7 @@ bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value)
     if (reader->format == PLY_ASCII)
         return find_token(reader) &&
                take_token(reader, number_parse(reader->next, reader->end, value), "a number");
-    uint64_t bits;
+    uint64_t bits = 0;
     if (!take_bits(reader, type, &bits))
         return false;
     if (type == PLY_FLOAT32)
@@ -176,7 +175,7 @@ bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value)
         return find_token(reader) &&
                take_token(reader, integer_parse(reader->next, reader->end, value),
                           "a 64-bit integer");
-    uint64_t bits;
+    uint64_t bits = 0;
     if (!take_bits(reader, type, &bits))
         return false;
     *value = bits_to_integer(bits, type);

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/word.h"
 #include "scene/define.h"
+#include "scene/mesh_scene.h"
 #include "scene/mesh_statement.h"
 #include "scene/tokens.h"
 
@@ -222,8 +223,11 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
 bool scn_load(Scene *scene, const char *path, Error *error)
 {
     File file = {0};
-    const bool ok =
-        file_read(&file, path, error) && scn_parse(scene, file.bytes, file.size, path, error);
+    bool ok = file_read(&file, path, error);
+    if (ok && mesh_scene_is_mesh(file.bytes, file.size))
+        ok = mesh_scene_parse(scene, file.bytes, file.size, path, error);
+    else
+        ok = ok && scn_parse(scene, file.bytes, file.size, path, error);
     file_free(&file);
     return ok;
 }

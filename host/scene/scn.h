@@ -10,5 +10,5 @@
 // False with "name:line:column: ..." at the first thing that is not understood.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
-// The same from a file.
+// The same from a file, which may also be a mesh alone (mesh_scene.h).
 bool scn_load(Scene *scene, const char *path, Error *error);

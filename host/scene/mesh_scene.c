@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Chooses camera distance and lights by the sphere around the mesh's bounds.
+#include "scene/mesh_scene.h"
+
+#include "scene/ply.h"
+
+#include <string.h>
+
+#define FOV_DEGREES 45
+
+bool mesh_scene_is_mesh(const char *bytes, size_t size)
+{
+    return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
+}
+
+// Half the diagonal of the bounds; center is left in *center.
+static double radius_of(const Mesh *mesh, Vec3 *center)
+{
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const double *p = mesh->positions[i];
+        low = vec3(fmin(low.x, p[0]), fmin(low.y, p[1]), fmin(low.z, p[2]));
+        high = vec3(fmax(high.x, p[0]), fmax(high.y, p[1]), fmax(high.z, p[2]));
+    }
+    if (mesh->vertex_count == 0)
+        low = high = vec3(0, 0, 0);
+    *center = vec3_scale(vec3_add(low, high), 0.5);
+    const Vec3 half = vec3_scale(vec3_sub(high, low), 0.5);
+    const double radius = sqrt(vec3_dot(half, half));
+    return radius > 0 ? radius : 1;
+}
+
+static bool add_cameras(Scene *scene, Vec3 center, double radius, Error *error)
+{
+    static const double directions[6][3] = {{2, -2.6, 1.4}, {0, -1, 0}, {1, 0, 0},
+                                            {0, 1, 0},      {-1, 0, 0}, {0, 0, 1}};
+    // The sphere around the mesh touches the picture's upper and lower edge: 1 / sin(fov / 2).
+    const double distance = radius * 2.6131259297527532;
+    for (int view = 0; view < 6; view++) {
+        const double *d = directions[view];
+        const Vec3 direction = vec3_normalize(vec3(d[0], d[1], d[2]));
+        const Viewpoint viewpoint = {.eye = vec3_add(center, vec3_scale(direction, distance)),
+                                     .look_at = center,
+                                     .up = view == 5 ? vec3(0, 1, 0) : vec3(0, 0, 1),
+                                     .fov_degrees = FOV_DEGREES};
+        if (!array_push(&scene->viewpoints, viewpoint, error))
+            return false;
+    }
+    return true;
+}
+
+static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
+{
+    const Vec3 key = vec3_add(center, vec3_scale(vec3(5, -7, 8), radius));
+    const Vec3 fill = vec3_add(center, vec3_scale(vec3(-8, 1, 6), radius));
+    return array_push(&scene->lights, ((Light){key, 0.7}), error) &&
+           array_push(&scene->lights, ((Light){fill, 0.3}), error);
+}
+
+bool mesh_scene_parse(Scene *scene, const char *bytes, size_t size, const char *name, Error *error)
+{
+    Vec3 center;
+    MeshObject object = {.material = 1, .two_sided = true, .smooth = true};
+    bool ok = scene_init(scene, error) && ply_parse(&object.mesh, bytes, size, name, error);
+    scene_hash_input(scene, bytes, size);
+    const double radius = radius_of(&object.mesh, &center);
+    const bool kept = ok && array_push(&scene->objects, object, error);
+    if (!kept)
+        mesh_free(&object.mesh);
+    ok = kept && add_cameras(scene, center, radius, error) &&
+         add_lights(scene, center, radius, error);
+    if (!ok)
+        scene_free(scene);
+    return ok;
+}
