@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// libFuzzer target: any bytes as a PLY file.  Beyond what the sanitizers see, a mesh that comes
+// out must keep the promises of scene/mesh.h, and a failure must leave a sentence and no mesh.
+#include "scene/ply.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void demand(bool promise)
+{
+    if (!promise)
+        abort();
+}
+
+static void check_mesh(const Mesh *mesh)
+{
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        for (size_t axis = 0; axis < 3; axis++) {
+            demand(fabs(mesh->positions[vertex][axis]) < 1e30);
+            demand(mesh->normals == NULL || isfinite(mesh->normals[vertex][axis]));
+        }
+    }
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+        for (size_t corner = 0; corner < 3; corner++)
+            demand(mesh->triangles[triangle][corner] < mesh->vertex_count);
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    Mesh mesh;
+    Error error = {0};
+    if (ply_parse(&mesh, (const char *)data, size, "fuzz.ply", &error))
+        check_mesh(&mesh);
+    else
+        demand(error.text[0] != '\0' && mesh.positions == NULL && mesh.triangles == NULL);
+    mesh_free(&mesh);
+    return 0;
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What the tests of scene/ply share: a file under construction, and parsing under strict watch.
+#pragma once
+
+#include "scene/ply.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEAD   "ply\nformat ascii 1.0\n"
+#define BINARY "ply\nformat binary_big_endian 1.0\n"
+#define XYZ    "property float x\nproperty float y\nproperty float z\n"
+#define FACES  "element face 1\nproperty list uchar int vertex_indices\n"
+
+// In a sanitizer build no file of this test may make the reader ask for more than a megabyte: the
+// allocation then fails, and the error says so.
+const char *__asan_default_options(void);
+const char *__asan_default_options(void)
+{
+    return "max_allocation_size_mb=1:allocator_may_return_null=1";
+}
+
+typedef struct {
+    char bytes[2048];
+    size_t size;
+    int encoding;
+} Builder;
+
+__attribute__((format(printf, 2, 3))) static inline void put_text(Builder *builder,
+                                                                  const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    builder->size += (size_t)vsnprintf(builder->bytes + builder->size,
+                                       sizeof builder->bytes - builder->size, format, arguments);
+    va_end(arguments);
+    assert_true(builder->size < sizeof builder->bytes);
+}
+
+// Parses a copy that ends where the file ends, so that the sanitizers see any step beyond it.
+static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *error)
+{
+    char *copy = malloc(size + (size == 0));
+    assert_non_null(copy);
+    memcpy(copy, bytes, size);
+    *error = (Error){0};
+    const bool ok = ply_parse(mesh, copy, size, "t.ply", error);
+    free(copy);
+    const Mesh empty = {0};
+    if (ok ? error->text[0] != '\0' : memcmp(mesh, &empty, sizeof empty) != 0)
+        fail_msg("a parse that %s left '%s'", ok ? "succeeded" : "failed", error->text);
+    if (strstr(error->text, "out of memory") != NULL || strchr(error->text, '\n') != NULL)
+        fail_msg("unexpected: %s", error->text);
+    return ok;
+}
