@@ -93,7 +93,9 @@ static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, Hit
 static inline Surface surface_at(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                  Hit hit)
 {
-    if (CLRT_SPHERES && (!CLRT_TRIANGLES || hit.id < frame->sphere_count))
+    if (!CLRT_TRIANGLES)
+        return sphere_surface(scene, ray, hit);
+    if (CLRT_SPHERES && hit.id < frame->sphere_count)
         return sphere_surface(scene, ray, hit);
     return triangle_surface(scene, ray, hit.index);
 }

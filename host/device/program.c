@@ -3,6 +3,8 @@
 // in steps (a warm start is 0.02 s against 0.37 s).
 #include "device/program.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,22 +17,33 @@ static bool write_options(char options[OPTIONS_SIZE], const Device *device,
 {
     char switches[TRAITS_OPTIONS_SIZE];
     traits_write_options(traits, switches);
-    const char *folder = source->kernel_folder;
     const int length =
-        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s%s%s%s%s%s%s", switches,
+        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s%s%s%s", switches,
                  device->correct_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
-                 folder != NULL ? " -I\"" : "", folder != NULL ? folder : "",
-                 folder != NULL ? "\"" : "", source->extra_options != NULL ? " " : "",
+                 source->extra_options != NULL ? " " : "",
                  source->extra_options != NULL ? source->extra_options : "");
     return length > 0 && length < OPTIONS_SIZE;
+}
+
+// The files of a folder find each other: includes are relative to the file they stand in.  The
+// absolute path spares an option, whose quoting drivers disagree about.
+static bool write_include(char include[PATH_MAX + 32], const char *folder, Error *error)
+{
+    char path[PATH_MAX];
+    if (realpath(folder, path) == NULL)
+        return error_set(error, "the kernel folder %s cannot be read: %s", folder, strerror(errno));
+    snprintf(include, PATH_MAX + 32, "#include \"%s/render.cl\"\n", path);
+    return true;
 }
 
 static bool create_program(Program *program, const Device *device, const ProgramSource *source,
                            Error *error)
 {
-    const char *from_folder = "#include \"render.cl\"\n";
-    const char *texts[2] = {source->kernel_folder != NULL ? from_folder : kernel_source,
-                            source->appended};
+    char include[PATH_MAX + 32];
+    const bool embedded = source->kernel_folder == NULL;
+    if (!embedded && !write_include(include, source->kernel_folder, error))
+        return false;
+    const char *texts[2] = {embedded ? kernel_source : include, source->appended};
     cl_int status;
     program->handle = clCreateProgramWithSource(device->context, source->appended != NULL ? 2 : 1,
                                                 texts, NULL, &status);
@@ -57,7 +70,7 @@ bool program_build(Program *program, const Device *device, const ProgramSource *
     char options[OPTIONS_SIZE];
     *program = (Program){.traits = *traits};
     if (!write_options(options, device, source, traits))
-        return error_set(error, "the kernel folder's path is too long");
+        return error_set(error, "the options for the kernels' compiler are too long");
     if (!create_program(program, device, source, error))
         return false;
     const cl_int status = clBuildProgram(program->handle, 1, &device->id, options, NULL, NULL);

@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The program as its user meets it: exit codes, sentences, and an effect of every option.
+# Usage: CLRT=path/to/clrt test_cli.sh SOURCE_FOLDER WORK_FOLDER
+set -u
+source=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+scene=$source/scenes/reflections.scn
+failures=0
+checks=0
+
+# Counts the test named $1 as passed where the command after it succeeds.
+check() {
+  local name=$1
+  shift
+  checks=$((checks + 1))
+  if ! "$@"; then
+    failures=$((failures + 1))
+    echo "FAILED: $name" >&2
+    sed 's/^/    /' err >&2
+  fi
+}
+
+# Runs clrt with the words after the expected exit code; its streams go to the files out and err.
+run() {
+  local expected=$1 code
+  shift
+  "$CLRT" "$@" >out 2>err </dev/null
+  code=$?
+  [ "$code" = "$expected" ] || { echo "exit $code instead of $expected" >>err && false; }
+}
+
+# Runs clrt with these words, which must fail with that code and say that one sentence.
+refuses() {
+  local code=$1 sentence=$2
+  shift 2
+  run "$code" "$@" && [ "$(cat err)" = "clrt: $sentence" ]
+}
+
+says() { grep -q -- "$1" err; }
+pixels() { run 0 "$scene" -s 48x32 -o "$@"; }
+differ() { ! cmp -s "$1" "$2"; }
+json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
+
+check "no arguments explain the usage" refuses 2 "no scene is named; clrt --help shows the usage"
+check "without -o there is no window and it says so" \
+  refuses 2 "this build has no window: write the picture with -o FILE" "$scene"
+check "an unknown option gets the nearest one" \
+  refuses 2 "unknown option '--sise', perhaps --size" --sise 4x4 "$scene" -o a.pfm
+check "an unknown letter is named" refuses 2 "unknown option '-z'; clrt --help lists them" -z
+check "an option without its value is named" refuses 2 "--size wants a value" "$scene" --size
+check "a value out of range is named" \
+  refuses 2 "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '0x5'" --size 0x5 "$scene"
+check "two scenes are one too many" \
+  refuses 2 "one scene at a time: 'b.scn' comes after 'a.scn'" a.scn b.scn -o a.pfm
+check "an unknown ending is refused before any work" \
+  refuses 2 "a.xyz: the ending names no format; this build writes $FORMATS" \
+  nowhere.scn -o a.xyz
+check "a missing scene is exit 3" \
+  refuses 3 "nowhere.scn: cannot be opened: No such file or directory" nowhere.scn -o a.pfm
+check "a folder is no scene" refuses 3 "$source: cannot be read: it is not a file" "$source" -o a.pfm
+echo 'spheer 0 0 0 1' >bad.scn
+check "a fault in a scene is exit 3 with its place" \
+  refuses 3 "bad.scn:1:1: unknown statement, perhaps 'sphere': found 'spheer'" bad.scn -o a.pfm
+printf 'ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n' >lie.ply
+check "a lying mesh is exit 3" run 3 lie.ply -o a.pfm
+check "a view that is not there is named" \
+  refuses 3 "$scene has 6 viewpoints, so there is no view 7" "$scene" --view 7 -o a.pfm
+check "a folder that is not there is exit 5 before any work" \
+  refuses 5 "no/a.pfm: cannot be written: No such file or directory" nowhere.scn -o no/a.pfm
+check "a device that is not there is exit 4" run 4 "$scene" --device nosuchdevice -o a.pfm
+check "... and says what there is" says "no device matches 'nosuchdevice'; there are:"
+check "... by platform" says "Platform #0: "
+OCL_ICD_VENDORS=/nonexistent check "a machine without OpenCL is exit 4" run 4 "$scene" -o a.pfm
+check "... and says what to install" says "install pocl-opencl-icd"
+
+check "help is printed on standard output" run 0 --help
+check "... with every option" grep -q -- "--list-devices" out
+check "the version is printed" run 0 --version
+check "... as name and number" grep -Eqx "clrt [0-9]+\.[0-9]+\.[0-9]+" out
+check "devices are listed" run 0 --list-devices
+check "... as clinfo prints them" grep -q "^Platform #0: " out
+device=$(sed -n 's/.*Device #0: //p' out | head -n 1)
+check "a device is taken by its indices" pixels a.pfm --device 0:0
+check "a device is taken by part of its name" pixels a.pfm --device "${device:0:5}"
+
+check "a picture is written" pixels plain.pfm -q
+check "quiet says nothing" test ! -s err
+check "it is written again" pixels again.pfm
+check "two runs give identical files" cmp plain.pfm again.pfm
+check "--view has an effect" pixels b.pfm --view 3
+check "... on the picture" differ plain.pfm b.pfm
+check "--aa has an effect" pixels b.pfm --aa
+check "... on the picture" differ plain.pfm b.pfm
+check "--aa=3 has another" pixels c.pfm --aa=3
+check "... on the picture" differ c.pfm b.pfm
+check "--max-level has an effect" pixels b.pfm --max-level 1
+check "... on the picture" differ plain.pfm b.pfm
+for same in "--no-bvh" "--bvh midpoint" "--bvh sah" "-j 1" "-j 2" "--tile 16x8" "--work-group 4x2" \
+  "--specialize always" "--specialize never"; do
+  # shellcheck disable=SC2086
+  check "$same draws" pixels b.pfm $same
+  check "$same draws the same picture" cmp plain.pfm b.pfm
+done
+CLRT_KERNEL_DIR=$source/kernels check "kernels are read from CLRT_KERNEL_DIR" pixels b.pfm
+check "... and draw the same picture" cmp plain.pfm b.pfm
+CLRT_KERNEL_DIR=/nonexistent check "missing kernels are exit 4" run 4 "$scene" -o b.pfm
+
+check "statistics are printed" pixels a.pfm --stats
+check "... with the course's figures" says "rays: 1536 camera,"
+check "... and tests per ray" says "box tests, .* per ray"
+check "statistics are written as JSON" pixels a.pfm --stats=a.json
+check "... with camera rays" json a.json "d['rays']['camera'] == 1536"
+check "... and a schema" json a.json "d['schema'] == 1"
+check "... and every stage's time" json a.json \
+  "sorted(d['seconds']) == sorted('parse load build device upload kernel_build trace write total'.split())"
+check "--no-bvh tests no boxes" pixels a.pfm --no-bvh --stats=b.json
+check "... says the JSON" json b.json "d['tests']['box'] == 0 and d['bvh']['builder'] == 'none'"
+check "--bvh midpoint builds another tree" pixels a.pfm --bvh midpoint --stats=c.json
+check "... says the JSON" json c.json "d['bvh']['builder'] == 'midpoint'"
+check "-j 1 uses one compute unit" pixels a.pfm -v -j 1
+check "... says -v" says ", 1 compute units"
+check "tiles have an effect" pixels a.pfm --tile 16x8 --work-group 4x2 --stats=d.json
+check "... says the JSON" json d.json "d['settings']['tile'] == [16, 8] and d['settings']['work_group'] == [4, 2]"
+check "--specialize always has an effect" pixels a.pfm --specialize always --stats=e.json
+check "... says the JSON" json e.json "d['settings']['specialized']"
+check "JSON goes to standard output" pixels a.pfm --stats=-
+check "... as JSON" json out "d['complete']"
+
+mkdir -p readonly cold
+HOME=/proc XDG_CACHE_HOME=/proc POCL_CACHE_DIR='' TMPDIR=$work/cold check "an unwritable HOME works" \
+  env -u POCL_CACHE_DIR "$CLRT" "$scene" -s 8x8 -o a.pfm
+check "... and its temporary cache is gone afterwards" test -z "$(ls cold)"
+
+check "a mesh alone is a scene" run 0 "$source/scenes/cone.ply" -s 32x32 -o a.pfm
+check "a pipe is a scene" bash -c "'$CLRT' <(cat '$source/scenes/simple.scn' | sed 's#ply_file #ply_file $source/scenes/#') -s 8x8 -o a.pfm"
+check "PFM goes to standard output" run 0 "$scene" -s 8x8 -o - --format pfm
+check "... as PFM" bash -c "head -c 2 out | grep -q PF"
+"$CLRT" "$scene" -s 48x32 -o link.pfm 2>/dev/null
+check "nothing unfinished is left beside pictures" test -z "$(find . -name '*.pfm.*')"
+
+# A picture of some seconds is stopped early: what is done is written.
+"$CLRT" "$scene" -s 4000x4000 --aa=4 -o stopped.pfm --stats=stopped.json 2>err &
+sleep 1.5
+kill -INT $!
+wait $!
+code=$?
+check "Ctrl-C exits with 130" test $code = 130
+check "... and writes what is done" test -s stopped.pfm
+check "... marked as incomplete" json stopped.json "not d['complete']"
+
+# Twelve cold starts on one cache.
+rm -rf cold-cache
+for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
+  env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/cold-cache" "$CLRT" "$scene" -s 48x32 -o "cold$i.pfm" 2>"err$i" &
+done
+wait
+for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
+  cp "err$i" err
+  check "cold start $i of twelve at once succeeds" cmp plain.pfm "cold$i.pfm"
+done
+
+if [ "${FORMATS:-}" != pfm ]; then
+  for format in png jpg tif ppm exr hdr; do
+    check "$format is written" pixels "a.$format"
+    cp "a.$format" "b.$format"
+    sleep 0.01
+    check "$format is written again" pixels "a.$format"
+    check "two $format files are identical" cmp "a.$format" "b.$format"
+  done
+  check "--encode srgb has an effect" pixels b.png --encode srgb
+  check "... on 8-bit files" differ a.png b.png
+  check "--encode srgb leaves floats alone" pixels b.exr --encode srgb
+  check "PNG goes to standard output" run 0 "$scene" -s 48x32 -o -
+  check "... the same as to a file" cmp out a.png
+  check "--format decides whatever the ending" pixels odd.bin --format png
+  check "... as the same PNG" cmp odd.bin a.png
+  check "PNG holds metadata" grep -aq "clrt:scene_hash" a.png
+  check "EXR holds metadata" grep -aq "clrt:settings" a.exr
+  check "/dev/null takes a picture" run 0 "$scene" -s 8x8 -o /dev/null --format png
+  check "/dev/full is exit 5" run 5 "$scene" -s 8x8 -o /dev/full --format png
+fi
+
+echo "$checks checks, $failures failures"
+[ "$failures" = 0 ]

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Paths into the course's folder.
+#include "image/course.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+void course_path(char path[COURSE_PATH_SIZE], const char *kind, const char *name)
+{
+    const char *folder = getenv("CLRT_COURSE");
+    snprintf(path, COURSE_PATH_SIZE, "%s/%s/%s", folder != NULL ? folder : CLRT_COURSE, kind, name);
+}
+
+bool course_has(const char *path)
+{
+    if (access(path, R_OK) == 0)
+        return true;
+    print_message("passed over: the course's file %s is not there (CLRT_COURSE names its folder)\n",
+                  path);
+    return false;
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Where the course's scenes and reference pictures lie.  They are no part of clrt; the environment
+// variable CLRT_COURSE names their folder, beside the sources where it is unset.
+#pragma once
+
+#include <stdbool.h>
+
+#define COURSE_PATH_SIZE 4096
+
+// Writes the path of scenes/NAME or references/NAME.
+void course_path(char path[COURSE_PATH_SIZE], const char *kind, const char *name);
+
+// Whether the file is there; says in words that the test passes over it where it is not.
+bool course_has(const char *path);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Runs the stages one after the other; every one leaves a value that is empty where it failed.
+#include "image/picture.h"
+
+#include "scene/camera.h"
+#include "scene/scn.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const PictureRequest *request;
+    Cache cache;
+    Scene scene;
+    Normalization normalization;
+    FlatScene flat;
+    Device device;
+    Renderer renderer;
+} Pipeline;
+
+PictureRequest picture_request(const char *scene_path, uint32_t view)
+{
+    return (PictureRequest){.scene_path = scene_path,
+                            .view = view,
+                            .samples = 1,
+                            .max_level = -1,
+                            .uses_bvh = true,
+                            .builder = BVH_SAH,
+                            .tile_width = 128,
+                            .tile_height = 128,
+                            .group_width = 8,
+                            .group_height = 8,
+                            .specialization = SPECIALIZE_NEVER};
+}
+
+static bool load(Pipeline *pipeline, Error *error)
+{
+    const PictureRequest *request = pipeline->request;
+    if (!scn_load(&pipeline->scene, request->scene_path, error))
+        return false;
+    pipeline->normalization = normalization_of(&pipeline->scene);
+    if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)
+        return error_set(error, "%s has no view %u", request->scene_path, request->view);
+    return normalization_check(&pipeline->normalization, &pipeline->scene, error);
+}
+
+static bool flatten(Pipeline *pipeline, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    const bool ok = triangles_make(&triangles, &pipeline->scene, &pipeline->normalization, error) &&
+                    (!pipeline->request->uses_bvh ||
+                     bvh_build(&bvh, &triangles, pipeline->request->builder, error)) &&
+                    flat_make(&pipeline->flat, &pipeline->scene, &triangles, &bvh, error);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+    return ok;
+}
+
+static RenderSettings settings_of(const PictureRequest *request, const Scene *scene)
+{
+    return (RenderSettings){
+        .width = request->width > 0 ? request->width : scene->width,
+        .height = request->height > 0 ? request->height : scene->height,
+        .samples = request->samples,
+        .max_level = request->max_level >= 0 ? (uint32_t)request->max_level : scene->max_level,
+        .tile_width = request->tile_width,
+        .tile_height = request->tile_height,
+        .group_width = request->group_width,
+        .group_height = request->group_height,
+        .statistics = request->tallies != NULL,
+        .specialization = request->specialization,
+    };
+}
+
+static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
+{
+    const PictureRequest *request = pipeline->request;
+    const RenderSettings settings = settings_of(request, &pipeline->scene);
+    const RendererSetup setup = {
+        &pipeline->device, &pipeline->cache, {.extra_options = request->extra_options}};
+    const CameraData camera =
+        camera_make(&pipeline->scene.viewpoints.data[request->view - 1], &pipeline->normalization,
+                    settings.height, settings.samples);
+    return device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) &&
+           renderer_open(&pipeline->renderer, &setup, &pipeline->flat, &settings, error) &&
+           framebuffer_make(framebuffer, settings.width, settings.height, error) &&
+           renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error);
+}
+
+bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)
+{
+    Pipeline pipeline = {.request = request};
+    *framebuffer = (Framebuffer){0};
+    cache_open(&pipeline.cache);
+    const bool ok =
+        load(&pipeline, error) && flatten(&pipeline, error) && draw(&pipeline, framebuffer, error);
+    if (ok && request->tallies != NULL)
+        memcpy(request->tallies, pipeline.renderer.progress.tallies,
+               sizeof pipeline.renderer.progress.tallies);
+    renderer_close(&pipeline.renderer);
+    device_close(&pipeline.device);
+    flat_free(&pipeline.flat);
+    scene_free(&pipeline.scene);
+    cache_close(&pipeline.cache);
+    return ok;
+}

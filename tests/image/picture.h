@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A scene file -> its picture, by the same stages as the program's main, for tests.
+#pragma once
+
+#include "render/renderer.h"
+
+typedef struct {
+    const char *scene_path;
+    uint32_t view;          // from 1
+    uint32_t width, height; // 0: the scene's
+    uint32_t samples;       // per pixel and axis
+    int64_t max_level;      // negative: the scene's
+    bool uses_bvh;
+    BvhBuilder builder;
+    uint32_t tile_width, tile_height, group_width, group_height;
+    Specialization specialization;
+    const char *extra_options; // for the kernels' compiler, NULL for none
+    uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
+} PictureRequest;
+
+// What the program does without options, but always with the general kernels: which of them "auto"
+// takes depends on what was compiled before.
+PictureRequest picture_request(const char *scene_path, uint32_t view);
+
+// Draws on the device that the environment variable CLRT_DEVICE names (unset: the best).
+// The caller frees framebuffer.
+bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error);

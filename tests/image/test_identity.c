@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// One picture: whatever the tree, the tiles, the work-groups and the program, the same bits.
+#include "image/picture.h"
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const scenes[] = {
+    CLRT_SOURCE_FOLDER "/scenes/reflections.scn",
+    CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn",
+    CLRT_SOURCE_FOLDER "/scenes/simple.scn",
+    CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
+};
+#define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
+
+// Neither side is a multiple of a tile or a work-group.
+static PictureRequest small_request(size_t scene)
+{
+    PictureRequest request = picture_request(scenes[scene], 1);
+    request.width = 131;
+    request.height = 97;
+    request.samples = 2;
+    return request;
+}
+
+static Framebuffer rendered(const PictureRequest *request)
+{
+    Framebuffer picture;
+    Error error = {0};
+    if (!picture_render(&picture, request, &error))
+        fail_msg("%s", error.text);
+    return picture;
+}
+
+static void expect_same(const PictureRequest *one, const PictureRequest *other)
+{
+    Framebuffer first = rendered(one), second = rendered(other);
+    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
+    assert_memory_equal(first.pixels, second.pixels, size);
+    framebuffer_free(&first);
+    framebuffer_free(&second);
+}
+
+static void every_way_to_find_triangles_draws_the_same(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        const PictureRequest sah = small_request(scene);
+        PictureRequest midpoint = sah, list = sah;
+        midpoint.builder = BVH_MIDPOINT;
+        list.uses_bvh = false;
+        expect_same(&sah, &midpoint);
+        expect_same(&sah, &list);
+    }
+}
+
+static void every_tile_size_draws_the_same(void **state)
+{
+    (void)state;
+    static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}};
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        for (size_t i = 0; i < sizeof tiles / sizeof tiles[0]; i++) {
+            const PictureRequest usual = small_request(scene);
+            PictureRequest tiled = usual;
+            tiled.tile_width = tiles[i][0];
+            tiled.tile_height = tiles[i][1];
+            expect_same(&usual, &tiled);
+        }
+}
+
+static void every_work_group_size_draws_the_same(void **state)
+{
+    (void)state;
+    static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
+            const PictureRequest usual = small_request(scene);
+            PictureRequest grouped = usual;
+            grouped.group_width = groups[i][0];
+            grouped.group_height = groups[i][1];
+            expect_same(&usual, &grouped);
+        }
+}
+
+static void counting_changes_no_pixel(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        uint64_t tallies[TALLY_KINDS];
+        const PictureRequest usual = small_request(scene);
+        PictureRequest counted = usual;
+        counted.tallies = tallies;
+        expect_same(&usual, &counted);
+        assert_int_equal(tallies[TALLY_CAMERA_RAYS], 131 * 97 * 4);
+    }
+}
+
+// Writes a scene with exactly the features of the mask, and returns its path.
+static const char *write_scene(unsigned mask)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "%s", "/tmp/clrt-traits-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    fprintf(stream, "light 3 -4 6 .8\ndefine it %s reflectivity %s\nmaterial it\n",
+            mask & 4 ? "blinn_phong" : "matte", mask & 8 ? ".4" : "0");
+    if (mask & 1)
+        fprintf(stream, "sphere -.4 .3 .4 .4\nsphere .5 .3 .3 .3\n");
+    if (mask & 2)
+        fprintf(stream, "ply_file %s/scenes/cube.ply\nply_file %s/scenes/plateau.ply\n",
+                CLRT_SOURCE_FOLDER, CLRT_SOURCE_FOLDER);
+    assert_int_equal(fclose(stream), 0);
+    return path;
+}
+
+// All six switches: the mask's four, the tree and the statistics.
+static void every_specialized_program_draws_what_the_general_one_does(void **state)
+{
+    (void)state;
+    for (unsigned mask = 0; mask < 64; mask++) {
+        uint64_t tallies[TALLY_KINDS];
+        PictureRequest general = picture_request(write_scene(mask & 15), 1);
+        general.width = general.height = 40;
+        general.uses_bvh = (mask & 16) != 0;
+        PictureRequest special = general;
+        special.specialization = SPECIALIZE_ALWAYS;
+        special.extra_options = "-Werror";
+        special.tallies = mask & 32 ? tallies : NULL;
+        expect_same(&general, &special);
+        remove(general.scene_path);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_way_to_find_triangles_draws_the_same),
+        cmocka_unit_test(every_tile_size_draws_the_same),
+        cmocka_unit_test(every_work_group_size_draws_the_same),
+        cmocka_unit_test(counting_changes_no_pixel),
+        cmocka_unit_test(every_specialized_program_draws_what_the_general_one_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
