@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command line -> Options.  One table makes the parser, --help and the shell completion.
+// Command line -> Options.  One table makes the parser and --help.
 #pragma once
 
 #include "accel/bvh.h"
