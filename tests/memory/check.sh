@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Renders every scene under valgrind (release) and under ASan and UBSan (debug build), small.
+# Findings inside drivers are suppressed by library in drivers.supp.
+# Usage: check.sh SCENE...
+set -u
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+for scene in "$@"; do
+  for command in "valgrind -q --error-exitcode=9 --leak-check=full --suppressions=$root/tests/memory/drivers.supp $root/build/release/clrt" \
+    "$root/build/debug/clrt"; do
+    # shellcheck disable=SC2086
+    if $command "$scene" -s 16x16 --aa -o "$work/a.exr" --stats="$work/a.json" >"$work/log" 2>&1; then
+      echo "clean: ${command##*/build/} $scene"
+    else
+      failed=1
+      echo "FAILED: $command $scene"
+      cat "$work/log"
+    fi
+  done
+done
+exit $failed
