@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// make_models FOLDER: writes the models of the scenes, each a closed triangle mesh, as PLY files.
+// A model is a signed field of a few smooth shapes; field -> grid -> surface net -> relaxed and
+// checked surface -> file.  The same bytes come out on every machine with IEEE arithmetic when
+// it is built with -ffp-contract=off.
+#include "models/closed.h"
+#include "models/grid.h"
+#include "models/ply_file.h"
+#include "models/relax.h"
+
+#include <stdio.h>
+
+static const Model *const models[] = {&model_creature, &model_figure, &model_coral};
+
+static bool make_surface(Surface *surface, const Model *model, Error *error)
+{
+    Grid grid = {0};
+    const bool extracted = grid_make(&grid, model, error) && surface_extract(surface, &grid, error);
+    grid_free(&grid);
+    return extracted && relax_surface(surface, model, error) &&
+           closed_check(surface, model->name, error);
+}
+
+static bool make_file(const Model *model, const char *folder, Error *error)
+{
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, model->name);
+    if (length < 0 || (size_t)length >= sizeof path)
+        return error_set(error, "the folder's name is too long: %s", folder);
+    Surface surface = {0};
+    const bool made = make_surface(&surface, model, error) && ply_file_write(&surface, path, error);
+    if (made)
+        printf("%s: %zu vertices, %zu triangles\n", model->name, surface.vertex_count,
+               surface.quad_count * 2);
+    surface_free(&surface);
+    return made;
+}
+
+int main(int argument_count, char **arguments)
+{
+    if (argument_count != 2) {
+        fputs("usage: make_models FOLDER\n", stderr);
+        return 2;
+    }
+    for (size_t model = 0; model < sizeof models / sizeof models[0]; model++) {
+        Error error = {0};
+        if (!make_file(models[model], arguments[1], &error)) {
+            fprintf(stderr, "make_models: %s\n", error.text);
+            return 1;
+        }
+    }
+    return 0;
+}
