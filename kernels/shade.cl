@@ -10,7 +10,7 @@
 
 static inline Ray ray_from_light(float3 light, const Surface *surface)
 {
-    return (Ray){light, surface->outside - light, surface->id, RAY_SHADOW};
+    return (Ray){light, surface->point - light, surface->id, RAY_SHADOW, surface->point};
 }
 
 // The highlight (n.h)^shininess.  Past integers the power is exp(shininess * log(n.h)) with n.h

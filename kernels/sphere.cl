@@ -72,6 +72,11 @@ static inline TwoFloat two_from_center(float origin, float center, float center_
     return two_sum_ordered(difference.high, difference.low - center_low);
 }
 
+static inline TwoFloat sphere_center(global const SphereData *sphere, uint axis)
+{
+    return (TwoFloat){sphere->center[axis], sphere->center_low[axis]};
+}
+
 static inline TwoFloat3 sphere_to_origin(global const SphereData *sphere, float3 origin)
 {
     return (TwoFloat3){two_from_center(origin.x, sphere->center[0], sphere->center_low[0]),
@@ -125,7 +130,27 @@ static inline float sphere_distance(global const SphereData *sphere, float3 orig
     return near > 0.0f ? near : far > 0.0f ? far : INFINITY;
 }
 
-// The same for a ray that starts on this sphere: its near root is zero by construction, and the
+// Where the ray that meets the sphere at t does so.  The point on the ray is pulled onto the sphere,
+// so that its error is that of rounding it, whatever the radius.
+static inline float3 sphere_point(global const SphereData *sphere, float3 origin, float3 d, float t,
+                                  float3 *normal)
+{
+    const TwoFloat3 f = sphere_to_origin(sphere, origin);
+    const TwoFloat step = {t, 0.0f};
+    const TwoFloat3 q = {two_add(f.x, two_scale(step, d.x)), two_add(f.y, two_scale(step, d.y)),
+                         two_add(f.z, two_scale(step, d.z))};
+    const TwoFloat rr = two_square((TwoFloat){sphere->radius, sphere->radius_low});
+    const float inside = two_add(rr, two_negate(two_length_squared(q))).high;
+    const float pull = 0.5f * inside / sphere->radius;
+    const float3 n = unit_vector((float3)(q.x.high, q.y.high, q.z.high));
+    *normal = n;
+    return (float3)(
+        two_add(two_add(q.x, (TwoFloat){pull * n.x, 0.0f}), sphere_center(sphere, 0)).high,
+        two_add(two_add(q.y, (TwoFloat){pull * n.y, 0.0f}), sphere_center(sphere, 1)).high,
+        two_add(two_add(q.z, (TwoFloat){pull * n.z, 0.0f}), sphere_center(sphere, 2)).high);
+}
+
+// sphere_distance for a ray that starts on this sphere: its near root is zero by construction, and the
 // chord to the far wall is kept where it is longer than the origin's own error.
 static inline float sphere_chord(global const SphereData *sphere, float3 origin, float3 d)
 {

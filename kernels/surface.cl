@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A hit becomes a surface: the point, its normals and the bound of its own error, from which new
-// rays leave safely.  Points are interpolated on the primitive rather than stepped along the ray,
-// so that their error does not grow with the distance traveled (pbrt, section 6.8).
+// A hit becomes a surface: the point and its normals.  Points are interpolated on the primitive
+// rather than stepped along the ray, so that their error does not grow with the distance traveled
+// (pbrt, section 6.8).  New rays start and end right there: which triangles they may stop on is
+// decided by the side the point lies on (triangle.cl), so no offset moves contacts and shadows.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
 #include "traverse.cl"
 
 typedef struct {
     float3 point;
-    float3 normal;  // unit, interpolated, what is shaded with
-    float3 face;    // unit, of the true surface, on the side the ray came from
-    float3 outside; // the point moved along face clear of its own rounding error
+    float3 normal; // unit, interpolated, what is shaded with
+    float3 face;   // unit, of the true surface, on the side the ray came from
     float3 toward_viewer; // unit
     uint id, material;
 } Surface;
-
-// The factor covers the interpolation (7 u) and the moved point's own rounding twice over.
-static inline float3 point_outside(float3 point, float3 face, float3 magnitude)
-{
-    return point + face * (16.0f * UNIT_ROUNDOFF * dot_product(fabs(face), magnitude));
-}
 
 // A collinear triangle, which only rounding lets a ray meet, has no normal: it faces the viewer.
 static inline float3 triangle_face(float3 a, float3 b, float3 c, float3 toward_viewer)
@@ -55,13 +49,10 @@ static inline Surface triangle_surface(const SceneView *scene, const Ray *ray, u
     surface.point = weights.x * a + weights.y * b + weights.z * c;
     surface.face = triangle_face(a, b, c, surface.toward_viewer);
     surface.normal = triangle_normal(scene, triangle->normals, weights, surface.face);
-    const bool front = (edges.determinant < 0.0f) == (shear.direction_z < 0.0f);
-    if (!front) {
+    if (!triangle_faces(&shear, &edges)) {
         surface.face = -surface.face;
         surface.normal = -surface.normal;
     }
-    const float3 magnitude = weights.x * fabs(a) + weights.y * fabs(b) + weights.z * fabs(c);
-    surface.outside = point_outside(surface.point, surface.face, magnitude);
     surface.id = triangle->id;
     surface.material = triangle->material & ~TRIANGLE_TWO_SIDED;
     return surface;
@@ -71,20 +62,11 @@ static inline Surface triangle_surface(const SceneView *scene, const Ray *ray, u
 static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, Hit hit)
 {
     global const SphereData *sphere = &scene->spheres[hit.index];
-    const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
-    const float3 d = ray->direction;
-    const TwoFloat t = {hit.t, 0.0f};
-    const float3 from_center = (float3)(two_add(f.x, two_scale(t, d.x)).high,
-                                        two_add(f.y, two_scale(t, d.y)).high,
-                                        two_add(f.z, two_scale(t, d.z)).high);
     Surface surface;
-    surface.toward_viewer = -unit_vector(d);
-    surface.normal = unit_vector(from_center);
-    surface.point = fma(surface.normal, (float3)(sphere->radius), load3(sphere->center));
+    surface.toward_viewer = -unit_vector(ray->direction);
+    surface.point = sphere_point(sphere, ray->origin, ray->direction, hit.t, &surface.normal);
     const bool outside = dot_product(surface.normal, surface.toward_viewer) >= 0.0f;
     surface.face = outside ? surface.normal : -surface.normal;
-    const float3 magnitude = fabs(load3(sphere->center)) + sphere->radius * fabs(surface.normal);
-    surface.outside = point_outside(surface.point, surface.face, magnitude);
     surface.id = hit.id;
     surface.material = sphere->material;
     return surface;
@@ -109,7 +91,7 @@ static inline Ray ray_reflected(const Surface *surface)
     const float height = dot_product(direction, surface->face);
     if (height < 0.0f)
         direction -= 2.0f * height * surface->face;
-    return (Ray){surface->outside, direction, surface->id, RAY_REFLECTED};
+    return (Ray){surface->point, direction, surface->id, RAY_REFLECTED, surface->point};
 }
 
 #endif

@@ -17,7 +17,8 @@ static inline Ray camera_ray(const FrameData *frame, uint sample_x, uint sample_
     const float3 down = (float3)(camera->down_step[0], camera->down_step[1], camera->down_step[2]);
     const float3 forward =
         (float3)(camera->forward[0], camera->forward[1], camera->forward[2]);
-    return (Ray){eye, fma((float3)(x), right, fma((float3)(y), down, forward)), NOTHING, RAY_CAMERA};
+    const float3 direction = fma((float3)(x), right, fma((float3)(y), down, forward));
+    return (Ray){eye, direction, NOTHING, RAY_CAMERA, eye};
 }
 
 static inline float3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)

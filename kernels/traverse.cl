@@ -167,16 +167,21 @@ static void traverse_tree(const SceneView *scene, const Ray *ray, const Shear *s
     }
 }
 
+// A shadow ray is followed from the surface here: two-float distances are exact enough to see what
+// touches the surface, from the light they are not.
 static inline void meet_spheres(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                 Hit *best, Tally *tally)
 {
+    const bool is_shadow = ray->kind == RAY_SHADOW;
+    const float3 origin = is_shadow ? ray->surface : ray->origin;
+    const float3 direction = is_shadow ? -ray->direction : ray->direction;
     for (uint index = 0; index < frame->sphere_count; index++) {
         global const SphereData *sphere = &scene->spheres[index];
         float t = INFINITY;
         if (index != ray->own)
-            t = sphere_distance(sphere, ray->origin, ray->direction);
+            t = sphere_distance(sphere, origin, direction);
         else if (ray->kind == RAY_REFLECTED)
-            t = sphere_chord(sphere, ray->origin, ray->direction);
+            t = sphere_chord(sphere, origin, direction);
         if (hit_precedes(t, index, best))
             *best = (Hit){t, index, index};
         if (CLRT_STATISTICS)
@@ -210,17 +215,17 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
     return best;
 }
 
-// Whether anything stands between the light and the shaded point of a shadow ray.  The limit for
-// spheres stops short of the point by the error of their distance.
+// Whether anything stands between the light and the shaded point of a shadow ray.  Triangles are
+// looked for a little past the point: which side of it they are on is decided exactly there.
 static inline bool is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
                               Tally *tally)
 {
-    Hit best = {1.0f - 0x1p-20f, NOTHING, NOTHING};
+    Hit best = {1.0f, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
     if (best.id != NOTHING)
         return true;
-    best.t = 1.0f;
+    best.t = 1.0f + 0x1p-10f;
     if (CLRT_TRIANGLES)
         meet_triangles(scene, frame, ray, &best, tally);
     return best.id != NOTHING;

@@ -14,6 +14,7 @@ typedef struct {
     float3 origin, direction;
     uint own; // id of the primitive it starts or ends on, which it cannot meet
     RayKind kind;
+    float3 surface; // the point of that primitive
 } Ray;
 
 // The shear that turns the ray into the axis z: z is the axis the direction is longest along.
@@ -91,43 +92,63 @@ static inline bool edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// How far along z the reported depth may be from where the true ray meets the true triangle: the
-// accepted point is the image of one within 6 u Q sideways and 16 u Q in depth, Q the largest
-// distance of a corner from the origin, and a step sideways moves the depth by the triangle's
-// slope.  The two units to spare cover the rounding of the ray's own end.
-static inline float triangle_depth_error(const ShearedTriangle *s, const Edges *edges)
+// How far along z the reported depth may be from the true one: 16 u Q (10 of the weights, 4 of the
+// interpolation, 2 of the division), Q the largest distance of a corner from the origin, and two to
+// spare.
+static inline float triangle_depth_error(const ShearedTriangle *s)
 {
     const float depth = max(max(fabs(s->az), fabs(s->bz)), fabs(s->cz));
     const float across = max(max(max(fabs(s->ax), fabs(s->bx)), fabs(s->cx)),
                              max(max(fabs(s->ay), fabs(s->by)), fabs(s->cy)));
-    const float slope = (fabs(s->bz - s->az) * (fabs(s->cx - s->ax) + fabs(s->cy - s->ay)) +
-                         fabs(s->cz - s->az) * (fabs(s->bx - s->ax) + fabs(s->by - s->ay))) /
-                        fabs(edges->determinant);
-    return UNIT_ROUNDOFF * (depth + across) * fma(8.0f, slope, 18.0f);
+    return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Whether a ray of this kind may stop at t on the triangle.  Rays that leave or reach a surface
-// must be clear of it by more than the error, or its neighbors would shadow and mirror it.
-static inline bool ray_may_stop(const Ray *ray, const Shear *shear, const ShearedTriangle *s,
-                                const Edges *edges, float t)
+// The surface point's height over the triangle's front, as a multiple of its normal's length;
+// zero where rounding leaves the side open.  Near a triangle this knows far more than the depth
+// of a ray that came from afar.  The bound adds the point's own error, the products' and the
+// normal's.
+static inline float height_over(global const TriangleData *triangle, float3 point)
 {
-    if (!(t > 0.0f))
-        return false;
-    if (ray->kind == RAY_CAMERA)
-        return true;
-    const float clear = ray->kind == RAY_SHADOW ? 1.0f - t : t;
-    return clear * fabs(shear->direction_z) > triangle_depth_error(s, edges);
+    const float3 a = load3(triangle->a);
+    const float3 ab = load3(triangle->b) - a, ac = load3(triangle->c) - a;
+    const float3 normal = cross_product(ab, ac), apart = point - a;
+    const float height = dot_product(normal, apart);
+    const float edges = largest_component(ab) * largest_component(ac);
+    const float error =
+        16.0f * dot_product(fabs(normal), fabs(point)) +
+        8.0f * (dot_product(fabs(normal), fabs(apart)) + edges * largest_component(apart));
+    return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
+}
+
+// Where a ray that leaves or reaches a surface stops on a triangle that t says it meets, INFINITY
+// where it does not.  The side that its surface point lies on decides, beyond doubt, or the
+// neighbors of every point would mirror and shadow it; t near the surface is mere rounding.  From
+// its inner side, which only two-sided triangles show, a convex neighbor lies on the right side as
+// well, and the depth has to be clear too.
+static inline float surface_ray_distance(global const TriangleData *triangle, const Ray *ray,
+                                         bool front, float t, float error)
+{
+    const bool is_shadow = ray->kind == RAY_SHADOW;
+    const bool inner = front == is_shadow;
+    if (!(t > (is_shadow ? 0.0f : -error)))
+        return INFINITY;
+    if (inner && !((is_shadow ? 1.0f - t : t) > error))
+        return INFINITY;
+    const float height = height_over(triangle, ray->surface);
+    return (inner ? height < 0.0f : height > 0.0f) ? max(t, 0.0f) : INFINITY;
+}
+
+// Whether the ray comes from the front, where the corners turn counter-clockwise.
+static inline bool triangle_faces(const Shear *shear, const Edges *edges)
+{
+    return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
 }
 
 // One-sided triangles stop what comes from the front.  A shadow ray is traced from the light, so
 // for it the front is where the shaded point lies.
-static inline bool triangle_faces(global const TriangleData *triangle, const Ray *ray,
-                                  const Shear *shear, const Edges *edges)
+static inline bool triangle_is_open(global const TriangleData *triangle, const Ray *ray, bool front)
 {
-    if (triangle->material & TRIANGLE_TWO_SIDED)
-        return true;
-    const bool front = (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
-    return front != (ray->kind == RAY_SHADOW);
+    return !(triangle->material & TRIANGLE_TWO_SIDED) && front == (ray->kind == RAY_SHADOW);
 }
 
 static inline float triangle_depth(const ShearedTriangle *s, const Edges *edges)
@@ -142,12 +163,16 @@ static inline float triangle_distance(global const TriangleData *triangle, const
 {
     const ShearedTriangle sheared = triangle_sheared(triangle, shear);
     const Edges edges = triangle_edges(&sheared);
-    if (!edges_contain(&edges) || !triangle_faces(triangle, ray, shear, &edges))
+    if (!edges_contain(&edges))
+        return INFINITY;
+    const bool front = triangle_faces(shear, &edges);
+    if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
         return INFINITY;
     const float t = triangle_depth(&sheared, &edges) * shear->inverse_z;
-    if (triangle->id == ray->own || !ray_may_stop(ray, shear, &sheared, &edges, t))
-        return INFINITY;
-    return t;
+    if (ray->kind == RAY_CAMERA)
+        return t > 0.0f ? t : INFINITY;
+    const float error = triangle_depth_error(&sheared) * fabs(shear->inverse_z);
+    return surface_ray_distance(triangle, ray, front, t, error);
 }
 
 #endif

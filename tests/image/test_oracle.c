@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// The renderer against the fp64 oracle, in all views of the course's scenes, the project's own and
+// a few of what these lack.  A pixel may differ where the oracle sees an edge within a pixel of
+// it, and few may.  Large meshes are sampled; CLRT_FULL=1 in the environment compares all pixels.
+#include "image/comparison.h"
+#include "image/course.h"
+#include "image/inline_scenes.h"
+#include "image/picture.h"
+#include "scene/scn.h"
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// How many pixels of a 512 x 512 picture may differ.
+#define LIMIT 30
+
+// Only every so many-th pixel of every so many-th row of a mesh is compared: minutes otherwise.
+#define COURSE_MESH_STEP  4
+#define PROJECT_MESH_STEP 8
+
+static InlineScenes inline_scenes;
+
+static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, uint32_t step)
+{
+    char name[64];
+    const Scene *scene = oracle->scene;
+    Error error = {0};
+    Framebuffer picture = {0}, expected = {0};
+    const PictureRequest request = picture_request(path, view);
+    const OracleView rays = oracle_view(oracle, &scene->viewpoints.data[view - 1], scene->width,
+                                        scene->height, scene->max_level);
+    if (!picture_render(&picture, &request, &error) ||
+        !oracle_draw(&rays, 1, step, &expected, &error))
+        fail_msg("%s", error.text);
+    const Comparison comparison = comparison_make(&rays, &picture, &expected, step);
+    snprintf(name, sizeof name, "%s view %u", strrchr(path, '/') + 1, view);
+    comparison_print(&comparison, name);
+    framebuffer_free(&expected);
+    framebuffer_free(&picture);
+    return comparison.unexplained == 0 &&
+           comparison.differing <= comparison_allowance(&comparison, LIMIT);
+}
+
+// Goes through all views before it fails, so that the figures of all are seen.
+static void check(const char *path, uint32_t step)
+{
+    Error error = {0};
+    Scene scene = {0};
+    Oracle oracle = {0};
+    bool agrees = true;
+    if (getenv("CLRT_FULL") != NULL)
+        step = 1;
+    if (!scn_load(&scene, path, &error) || !oracle_make(&oracle, &scene, &error))
+        fail_msg("%s", error.text);
+    for (uint32_t view = 1; view <= scene.viewpoints.count; view++)
+        agrees = view_agrees(&oracle, path, view, step) && agrees;
+    oracle_free(&oracle);
+    scene_free(&scene);
+    assert_true(agrees);
+}
+
+static void check_course(const char *name, uint32_t step)
+{
+    char path[COURSE_PATH_SIZE];
+    course_path(path, "scenes", name);
+    if (course_has(path))
+        check(path, step);
+}
+
+static void the_courses_small_scenes_are_drawn_as_the_oracle_does(void **state)
+{
+    const uint32_t step = 1;
+    (void)state;
+    check_course("silhouette.scn", step);
+    check_course("matte.scn", step);
+    check_course("blinn_phong.scn", step);
+    check_course("reflections.scn", step);
+    check_course("simple.scn", step);
+}
+
+static void the_courses_meshes_are_drawn_as_the_oracle_does(void **state)
+{
+    const uint32_t step = COURSE_MESH_STEP;
+    (void)state;
+    check_course("cow.scn", step);
+    check_course("buddha.scn", step);
+}
+
+static void the_projects_small_scenes_are_drawn_as_the_oracle_does(void **state)
+{
+    const uint32_t step = 1;
+    (void)state;
+    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", step);
+    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", step);
+}
+
+static void the_projects_meshes_are_drawn_as_the_oracle_does(void **state)
+{
+    const uint32_t step = PROJECT_MESH_STEP;
+    (void)state;
+    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
+        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        return;
+    }
+    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", step);
+}
+
+static void check_inline(InlineScene scene)
+{
+    char path[INLINE_PATH_SIZE];
+    inline_scenes_path(&inline_scenes, scene, path);
+    check(path, 1);
+}
+
+static void two_sided_open_meshes_are_drawn_as_the_oracle_does(void **state)
+{
+    (void)state;
+    check_inline(INLINE_OPEN_SHEET);
+}
+
+static void facets_and_mirrors_are_drawn_as_the_oracle_does(void **state)
+{
+    (void)state;
+    check_inline(INLINE_MIRRORS);
+}
+
+static void a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does(void **state)
+{
+    (void)state;
+    check_inline(INLINE_FAR_AWAY);
+}
+
+static void creases_under_distant_lights_are_drawn_as_the_oracle_does(void **state)
+{
+    (void)state;
+    check_inline(INLINE_DISTANT_LIGHTS);
+}
+
+static int write_scenes(void **state)
+{
+    Error error = {0};
+    (void)state;
+    if (inline_scenes_write(&inline_scenes, &error))
+        return 0;
+    print_message("%s\n", error.text);
+    return -1;
+}
+
+static int remove_scenes(void **state)
+{
+    (void)state;
+    inline_scenes_remove(&inline_scenes);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_courses_small_scenes_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(the_courses_meshes_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(the_projects_small_scenes_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(the_projects_meshes_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(two_sided_open_meshes_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(facets_and_mirrors_are_drawn_as_the_oracle_does),
+        cmocka_unit_test(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does),
+        cmocka_unit_test(creases_under_distant_lights_are_drawn_as_the_oracle_does),
+    };
+    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+}

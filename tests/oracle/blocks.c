@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Arranges triangles in compact blocks, and tests them.  A triangle is grown by TOLERANCE of its
+// own size, so that no ray slips between two of them in rounding; what a float sees is fifty
+// thousand times as much.
+#include "oracle/blocks.h"
+
+#include <stdlib.h>
+
+#define TOLERANCE 1e-12
+
+// How much larger than the triangles need it a block's sphere is: of its radius, and of the size of
+// the coordinates around it.  Rounding takes less than a millionth of either.
+#define RADIUS_PADDING 1e-6
+#define PLACE_PADDING  1e-9
+
+static Vec3 corner_of(const Mesh *mesh, size_t triangle, int corner)
+{
+    const double *position = mesh->positions[mesh->triangles[triangle][corner]];
+    return vec3(position[0], position[1], position[2]);
+}
+
+static void store(VectorColumns *columns, uint32_t place, Vec3 v)
+{
+    columns->x[place] = v.x;
+    columns->y[place] = v.y;
+    columns->z[place] = v.z;
+}
+
+static Vec3 load(const VectorColumns *columns, uint32_t place)
+{
+    return vec3(columns->x[place], columns->y[place], columns->z[place]);
+}
+
+// A triangle on its way into a block.
+typedef struct {
+    const MeshObject *object;
+    uint32_t triangle, id;
+    double middle[3], key; // of its corners; the axis to sort by
+} Placed;
+
+static void block_add(TriangleBlock *block, const Placed *placed)
+{
+    const Mesh *mesh = &placed->object->mesh;
+    const Vec3 corner = corner_of(mesh, placed->triangle, 0);
+    const uint32_t place = block->count++;
+    store(&block->corner, place, corner);
+    store(&block->first, place, vec3_sub(corner_of(mesh, placed->triangle, 1), corner));
+    store(&block->second, place, vec3_sub(corner_of(mesh, placed->triangle, 2), corner));
+    block->least[place] = placed->object->two_sided ? -INFINITY : 0;
+    block->ids[place] = placed->id;
+}
+
+static double distance(Vec3 a, Vec3 b)
+{
+    const Vec3 apart = vec3_sub(a, b);
+    return sqrt(vec3_dot(apart, apart));
+}
+
+// A sphere about the mean of the corners.
+static void block_enclose(TriangleBlock *block)
+{
+    Vec3 sum = {0, 0, 0};
+    for (uint32_t place = 0; place < block->count; place++) {
+        const Vec3 edges = vec3_add(load(&block->first, place), load(&block->second, place));
+        sum = vec3_add(sum, vec3_add(load(&block->corner, place), vec3_scale(edges, 1.0 / 3)));
+    }
+    block->center = vec3_scale(sum, 1.0 / block->count);
+    for (uint32_t place = 0; place < block->count; place++) {
+        const Vec3 a = load(&block->corner, place);
+        const Vec3 b = vec3_add(a, load(&block->first, place));
+        const Vec3 c = vec3_add(a, load(&block->second, place));
+        block->radius = fmax(block->radius, distance(a, block->center));
+        block->radius = fmax(block->radius, distance(b, block->center));
+        block->radius = fmax(block->radius, distance(c, block->center));
+    }
+    const double place = vec3_extent(block->center) + block->radius;
+    block->radius += RADIUS_PADDING * block->radius + PLACE_PADDING * place;
+}
+
+static Placed placed_of(const MeshObject *object, size_t triangle, size_t id)
+{
+    Placed placed = {.object = object, .triangle = (uint32_t)triangle, .id = (uint32_t)id};
+    for (int corner = 0; corner < 3; corner++) {
+        const Vec3 p = corner_of(&object->mesh, triangle, corner);
+        placed.middle[0] += p.x / 3;
+        placed.middle[1] += p.y / 3;
+        placed.middle[2] += p.z / 3;
+    }
+    return placed;
+}
+
+static int longest_axis(const Placed *placed, size_t count)
+{
+    double extents[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            low = fmin(low, placed[i].middle[axis]);
+            high = fmax(high, placed[i].middle[axis]);
+        }
+        extents[axis] = high - low;
+    }
+    const int longer = extents[1] > extents[0] ? 1 : 0;
+    return extents[2] > extents[longer] ? 2 : longer;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    const Placed *first = a, *second = b;
+    if (first->key != second->key)
+        return first->key < second->key ? -1 : 1;
+    return first->id < second->id ? -1 : 1;
+}
+
+// Brings neighbors together, so that blocks are compact: halves along the longest axis.
+static void arrange(Placed *placed, size_t count)
+{
+    if (count <= BLOCK_SIZE)
+        return;
+    const int axis = longest_axis(placed, count);
+    for (size_t i = 0; i < count; i++)
+        placed[i].key = placed[i].middle[axis];
+    qsort(placed, count, sizeof *placed, compare_keys);
+    const size_t block_count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE;
+    const size_t half = block_count / 2 * BLOCK_SIZE;
+    arrange(placed, half);
+    arrange(placed + half, count - half);
+}
+
+bool blocks_make(TriangleBlocks *blocks, const Scene *scene, Error *error)
+{
+    const size_t count = scene_triangle_count(scene);
+    size_t number = 0;
+    Placed *placed = memory_zeroed(count, sizeof *placed, error);
+    *blocks = (TriangleBlocks){.count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE};
+    blocks->data = memory_zeroed(blocks->count, sizeof *blocks->data, error);
+    const bool ok = placed != NULL && blocks->data != NULL;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        for (size_t triangle = 0; triangle < object->mesh.triangle_count; triangle++, number++)
+            placed[number] = placed_of(object, triangle, scene->spheres.count + number);
+    }
+    arrange(placed, number);
+    for (size_t i = 0; i < number; i++)
+        block_add(&blocks->data[i / BLOCK_SIZE], &placed[i]);
+    for (size_t i = 0; ok && i < blocks->count; i++)
+        block_enclose(&blocks->data[i]);
+    free(placed);
+    if (!ok)
+        blocks_free(blocks);
+    return ok;
+}
+
+void blocks_free(TriangleBlocks *blocks)
+{
+    free(blocks->data);
+    *blocks = (TriangleBlocks){0};
+}
+
+// Whether the ray comes within the block's sphere before far.
+static bool block_is_near(const TriangleBlock *block, const OracleRay *ray, double far)
+{
+    const Vec3 toward = vec3_sub(block->center, ray->origin);
+    const double along = vec3_dot(toward, ray->direction);
+    if (along + block->radius < 0 || along - block->radius > far)
+        return false;
+    const Vec3 aside = vec3_cross(toward, ray->direction);
+    return vec3_dot(aside, aside) <= block->radius * block->radius;
+}
+
+// Writes for every place where the ray meets its triangle, INFINITY where it does not.  Nothing
+// branches here and conditions are joined by &, so that the loop becomes vector instructions.
+static void block_distances(const TriangleBlock *block, const OracleRay *ray,
+                            double distances[BLOCK_SIZE])
+{
+    const Vec3 d = ray->direction, o = ray->origin;
+    for (uint32_t i = 0; i < block->count; i++) {
+        const Vec3 first = load(&block->first, i), second = load(&block->second, i);
+        const Vec3 s = vec3_sub(o, load(&block->corner, i));
+        const Vec3 p = vec3_cross(d, second), q = vec3_cross(s, first);
+        const double determinant = vec3_dot(first, p);
+        const double reciprocal = 1 / determinant;
+        const double u = vec3_dot(s, p) * reciprocal, v = vec3_dot(d, q) * reciprocal;
+        const double t = vec3_dot(second, q) * reciprocal;
+        const int inside = (u >= -TOLERANCE) & (v >= -TOLERANCE) & (u + v <= 1 + TOLERANCE);
+        const int seen = (determinant > block->least[i]) & (determinant != 0);
+        const int reached = (t > ray->near) & (t < ray->far);
+        distances[i] = inside & seen & reached ? t : INFINITY;
+    }
+}
+
+static bool precedes(double t, uint32_t id, const OracleHit *hit)
+{
+    return t < hit->t || (t == hit->t && t < INFINITY && id < hit->id);
+}
+
+void blocks_meet(const TriangleBlocks *blocks, const OracleRay *ray, OracleHit *hit)
+{
+    double distances[BLOCK_SIZE];
+    for (size_t i = 0; i < blocks->count; i++) {
+        const TriangleBlock *block = &blocks->data[i];
+        if (!blocks->tests_all && !block_is_near(block, ray, fmin(hit->t, ray->far)))
+            continue;
+        block_distances(block, ray, distances);
+        for (uint32_t place = 0; place < block->count; place++)
+            if (precedes(distances[place], block->ids[place], hit) && block->ids[place] != ray->own)
+                *hit = (OracleHit){distances[place], block->ids[place]};
+    }
+}
+
+bool blocks_block(const TriangleBlocks *blocks, const OracleRay *ray)
+{
+    double distances[BLOCK_SIZE];
+    for (size_t i = 0; i < blocks->count; i++) {
+        const TriangleBlock *block = &blocks->data[i];
+        if (!blocks->tests_all && !block_is_near(block, ray, ray->far))
+            continue;
+        block_distances(block, ray, distances);
+        for (uint32_t place = 0; place < block->count; place++)
+            if (distances[place] < INFINITY && block->ids[place] != ray->own)
+                return true;
+    }
+    return false;
+}

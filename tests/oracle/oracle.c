@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// Traces and shades by the course's rules (research: the course framework, sections 3 to 5) and
+// clrt's: what a ray leaves cannot stop it, light shines only where the interpolated normal faces
+// it, and a reflected ray that would enter the surface is mirrored out of it.
+#include "oracle/oracle.h"
+
+#include "oracle/surface.h"
+
+// The sine of a light's height over a true surface below which it grazes.  A float tracer lifts a
+// point off its face by up to 2^-20 of the scene; so low a light then sees it across the edge of
+// a neighbor 2^-12 of the scene away.
+#define HORIZON 0x1p-8
+
+bool oracle_make(Oracle *oracle, const Scene *scene, Error *error)
+{
+    *oracle = (Oracle){.scene = scene};
+    return blocks_make(&oracle->blocks, scene, error);
+}
+
+void oracle_free(Oracle *oracle)
+{
+    blocks_free(&oracle->blocks);
+    *oracle = (Oracle){0};
+}
+
+OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_t width,
+                       uint32_t height, uint32_t max_level)
+{
+    const double radians = viewpoint->fov_degrees * (acos(-1) / 180);
+    const double pixel = 2 * tan(radians / 2) / height;
+    const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
+    const Vec3 right = vec3_normalize(vec3_cross(forward, vec3_normalize(viewpoint->up)));
+    return (OracleView){.oracle = oracle,
+                        .eye = viewpoint->eye,
+                        .forward = forward,
+                        .right = vec3_scale(right, pixel),
+                        .down = vec3_scale(vec3_cross(forward, right), pixel),
+                        .width = width,
+                        .height = height,
+                        .max_level = max_level};
+}
+
+// The textbook quadratic in long double, whose 64 bits bear its cancellation.  A ray inside meets
+// the far wall; of the sphere it starts on only that can be met.
+static double sphere_distance(const Sphere *sphere, const OracleRay *ray, double near)
+{
+    const Vec3 d = ray->direction;
+    const long double x = (long double)ray->origin.x - sphere->center.x;
+    const long double y = (long double)ray->origin.y - sphere->center.y;
+    const long double z = (long double)ray->origin.z - sphere->center.z;
+    const long double a = (long double)d.x * d.x + (long double)d.y * d.y + (long double)d.z * d.z;
+    const long double b = 2 * (x * d.x + y * d.y + z * d.z);
+    const long double c = x * x + y * y + z * z - (long double)sphere->radius * sphere->radius;
+    const long double discriminant = b * b - 4 * a * c;
+    if (!(discriminant >= 0))
+        return INFINITY;
+    const double nearer = (double)((-b - sqrtl(discriminant)) / (2 * a));
+    const double farther = (double)((-b + sqrtl(discriminant)) / (2 * a));
+    return nearer > near ? nearer : farther > near ? farther : INFINITY;
+}
+
+static OracleHit meet_spheres(const Scene *scene, const OracleRay *ray)
+{
+    OracleHit hit = {INFINITY, NOTHING};
+    for (uint32_t id = 0; id < scene->spheres.count; id++) {
+        const Sphere *sphere = &scene->spheres.data[id];
+        const double near = id == ray->own ? 1e-9 * sphere->radius : ray->near;
+        const double t = sphere_distance(sphere, ray, near);
+        if (t < hit.t && t < ray->far)
+            hit = (OracleHit){t, id};
+    }
+    return hit;
+}
+
+static bool light_reaches(const Oracle *oracle, const OracleSurface *surface, Vec3 toward_light,
+                          double distance)
+{
+    const OracleRay ray = {surface->point, toward_light, surface->near, distance, surface->id};
+    return meet_spheres(oracle->scene, &ray).id == NOTHING && !blocks_block(&oracle->blocks, &ray);
+}
+
+static double highlight(const Material *material, const OracleSurface *surface, Vec3 toward_light)
+{
+    Vec3 half_vector = vec3_normalize(vec3_add(toward_light, surface->toward_viewer));
+    if (!(vec3_extent(half_vector) > 0))
+        half_vector = surface->normal;
+    const double cosine = vec3_dot(surface->normal, half_vector);
+    return pow(fmin(fmax(cosine, 0), 1), (double)material->shininess);
+}
+
+static void sign(OracleDecisions *decisions, uint64_t word)
+{
+    decisions->signature = (decisions->signature + word + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    decisions->signature ^= decisions->signature >> 29;
+}
+
+typedef struct {
+    double diffuse, specular;
+} Received;
+
+static Received light_received(const Oracle *oracle, const OracleSurface *surface,
+                               OracleDecisions *decisions)
+{
+    const Scene *scene = oracle->scene;
+    const Material *material = &scene->materials.data[surface->material];
+    Received received = {0, 0};
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        const Light *light = &scene->lights.data[i];
+        const Vec3 apart = vec3_sub(light->position, surface->point);
+        const Vec3 toward_light = vec3_normalize(apart);
+        const double cosine = vec3_dot(surface->normal, toward_light);
+        const bool lit = cosine > 0 &&
+                         light_reaches(oracle, surface, toward_light, sqrt(vec3_dot(apart, apart)));
+        sign(decisions, lit);
+        if (cosine > 0 && fabs(vec3_dot(surface->face, toward_light)) < HORIZON)
+            decisions->grazes = true;
+        if (!lit)
+            continue;
+        received.diffuse += light->intensity * cosine;
+        if (material->shader == SHADER_BLINN_PHONG)
+            received.specular += light->intensity * highlight(material, surface, toward_light);
+    }
+    return received;
+}
+
+static double clamped(double value)
+{
+    return fmin(fmax(value, 0), 1);
+}
+
+static Vec3 shade(const Oracle *oracle, const OracleSurface *surface, OracleDecisions *decisions)
+{
+    const Material *material = &oracle->scene->materials.data[surface->material];
+    const Vec3 body = {(double)material->diffuse[0], (double)material->diffuse[1],
+                       (double)material->diffuse[2]};
+    if (material->shader == SHADER_SILHOUETTE)
+        return body;
+    const Received received = light_received(oracle, surface, decisions);
+    const Vec3 gloss = {(double)material->specular[0], (double)material->specular[1],
+                        (double)material->specular[2]};
+    const Vec3 color =
+        vec3_add(vec3_scale(body, oracle->scene->ambient + (double)material->kd * received.diffuse),
+                 vec3_scale(gloss, (double)material->ks * received.specular));
+    return vec3(clamped(color.x), clamped(color.y), clamped(color.z));
+}
+
+static Vec3 reflected(const OracleSurface *surface)
+{
+    const double cosine = vec3_dot(surface->normal, surface->toward_viewer);
+    const Vec3 direction =
+        vec3_sub(vec3_scale(surface->normal, 2 * cosine), surface->toward_viewer);
+    const double height = vec3_dot(direction, surface->face);
+    const Vec3 outward =
+        height < 0 ? vec3_sub(direction, vec3_scale(surface->face, 2 * height)) : direction;
+    return vec3_normalize(outward);
+}
+
+static Vec3 trace(const OracleView *view, OracleRay ray, uint32_t level, OracleDecisions *decisions)
+{
+    const Oracle *oracle = view->oracle;
+    const Scene *scene = oracle->scene;
+    if (level >= view->max_level)
+        return scene->background;
+    OracleHit hit = meet_spheres(scene, &ray);
+    blocks_meet(&oracle->blocks, &ray, &hit);
+    if (hit.id == NOTHING) {
+        sign(decisions, NOTHING);
+        return scene->background;
+    }
+    const OracleSurface surface = surface_at(scene, &ray, hit);
+    sign(decisions, 2 * (uint64_t)surface.object + surface.front);
+    const Vec3 shaded = shade(oracle, &surface, decisions);
+    const double reflectivity = (double)scene->materials.data[surface.material].reflectivity;
+    if (!(reflectivity > 0))
+        return shaded;
+    const OracleRay next = {surface.point, reflected(&surface), surface.near, INFINITY, surface.id};
+    const Vec3 mirrored = trace(view, next, level + 1, decisions);
+    return vec3_add(vec3_scale(shaded, 1 - reflectivity), vec3_scale(mirrored, reflectivity));
+}
+
+OracleSample oracle_sample(const OracleView *view, double x, double y)
+{
+    OracleSample sample = {.color = {0, 0, 0}};
+    const Vec3 across = vec3_add(vec3_scale(view->right, x - view->width / 2.0),
+                                 vec3_scale(view->down, y - view->height / 2.0));
+    const Vec3 direction = vec3_normalize(vec3_add(view->forward, across));
+    const OracleRay ray = {view->eye, direction, 0, INFINITY, NOTHING};
+    sample.color = trace(view, ray, 0, &sample.decisions);
+    return sample;
+}
+
+typedef struct {
+    Vec3 low, high;
+} ColorRange;
+
+static void range_include(ColorRange *range, Vec3 color)
+{
+    range->low =
+        vec3(fmin(range->low.x, color.x), fmin(range->low.y, color.y), fmin(range->low.z, color.z));
+    range->high = vec3(fmax(range->high.x, color.x), fmax(range->high.y, color.y),
+                       fmax(range->high.z, color.z));
+}
+
+static bool spans(double low, double high, float value)
+{
+    return (double)value >= low - 1e-5 && (double)value <= high + 1e-5;
+}
+
+Explanation oracle_explains(const OracleView *view, uint32_t x, uint32_t y, const float color[3])
+{
+    const OracleSample center = oracle_sample(view, x + 0.5, y + 0.5);
+    ColorRange range = {center.color, center.color};
+    for (int row = 0; row < 5; row++)
+        for (int column = 0; column < 5; column++) {
+            const OracleSample sample =
+                oracle_sample(view, x + (column - 1) / 2.0, y + (row - 1) / 2.0);
+            if (sample.decisions.signature != center.decisions.signature)
+                return EXPLAINED_BY_EDGE;
+            range_include(&range, sample.color);
+        }
+    const bool spanned = spans(range.low.x, range.high.x, color[0]) &&
+                         spans(range.low.y, range.high.y, color[1]) &&
+                         spans(range.low.z, range.high.z, color[2]);
+    if (spanned)
+        return EXPLAINED_BY_CREASE;
+    return center.decisions.grazes ? EXPLAINED_BY_HORIZON : EXPLAINED_NOT;
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Normals of spheres point outward, from wherever they are seen; those of a triangle, and its true
+// face, turn to the viewer who sees it from behind.
+#include "oracle/surface.h"
+
+// Points are this far off at most, relative to the coordinates and distances that made them; what
+// is nearer to a new ray's start does not count as met.
+#define POINT_ERROR 1e-10
+
+static void sphere_surface(OracleSurface *surface, const Scene *scene)
+{
+    const Sphere *sphere = &scene->spheres.data[surface->id];
+    surface->object = surface->id;
+    surface->material = sphere->material;
+    surface->normal = vec3_normalize(vec3_sub(surface->point, sphere->center));
+    surface->front = vec3_dot(surface->normal, surface->toward_viewer) >= 0;
+    surface->face = vec3_scale(surface->normal, surface->front ? 1 : -1);
+}
+
+// The weight of a corner is the area that the point and the opposite edge span.
+static double weight_of_corner(Vec3 point, Vec3 b, Vec3 c, Vec3 normal)
+{
+    const Vec3 area = vec3_cross(vec3_sub(b, point), vec3_sub(c, point));
+    return vec3_dot(area, normal);
+}
+
+static Vec3 vertex_normal(const Mesh *mesh, uint32_t vertex, Vec3 face)
+{
+    const float *normal = mesh->normals[vertex];
+    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0)
+        return face;
+    return vec3((double)normal[0], (double)normal[1], (double)normal[2]);
+}
+
+static Vec3 interpolated_normal(const Mesh *mesh, const uint32_t corners[3], Vec3 point, Vec3 face)
+{
+    Vec3 p[3], sum = {0, 0, 0};
+    for (int corner = 0; corner < 3; corner++) {
+        const double *position = mesh->positions[corners[corner]];
+        p[corner] = vec3(position[0], position[1], position[2]);
+    }
+    for (int corner = 0; corner < 3; corner++) {
+        const double weight =
+            weight_of_corner(point, p[(corner + 1) % 3], p[(corner + 2) % 3], face);
+        sum = vec3_add(sum, vec3_scale(vertex_normal(mesh, corners[corner], face), weight));
+    }
+    return vec3_extent(sum) > 0 ? vec3_normalize(sum) : face;
+}
+
+static Vec3 face_normal(const Mesh *mesh, const uint32_t corners[3])
+{
+    const double *a = mesh->positions[corners[0]];
+    const double *b = mesh->positions[corners[1]];
+    const double *c = mesh->positions[corners[2]];
+    return vec3_normalize(vec3_cross(vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]),
+                                     vec3(c[0] - a[0], c[1] - a[1], c[2] - a[2])));
+}
+
+static void triangle_surface(OracleSurface *surface, const Scene *scene)
+{
+    size_t number = surface->id - scene->spheres.count, object = 0;
+    while (number >= scene->objects.data[object].mesh.triangle_count)
+        number -= scene->objects.data[object++].mesh.triangle_count;
+    const MeshObject *owner = &scene->objects.data[object];
+    const uint32_t *corners = owner->mesh.triangles[number];
+    surface->object = (uint32_t)(scene->spheres.count + object);
+    surface->material = owner->material;
+    surface->face = surface->normal = face_normal(&owner->mesh, corners);
+    if (owner->smooth && owner->mesh.normals != NULL)
+        surface->normal = interpolated_normal(&owner->mesh, corners, surface->point, surface->face);
+    surface->front = vec3_dot(surface->face, surface->toward_viewer) > 0;
+    if (!surface->front) {
+        surface->face = vec3_scale(surface->face, -1);
+        surface->normal = vec3_scale(surface->normal, -1);
+    }
+}
+
+OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit)
+{
+    OracleSurface surface = {.id = hit.id, .toward_viewer = vec3_scale(ray->direction, -1)};
+    surface.point = vec3_add(ray->origin, vec3_scale(ray->direction, hit.t));
+    surface.near = POINT_ERROR * (hit.t + vec3_extent(surface.point));
+    if (hit.id < scene->spheres.count)
+        sphere_surface(&surface, scene);
+    else
+        triangle_surface(&surface, scene);
+    return surface;
+}
