@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Makes rays in the normalized frame and counts those that meet nothing.
+#pragma once
+
+#include "ray_batch.h"
+#include "room.h"
+
+// A corner of a triangle.
+Vec3 aim_corner(const Triangles *triangles, size_t triangle, size_t corner);
+
+// A camera ray between two points, each rounded to float; the direction is rounded from the
+// difference of the rounded origin and the target.
+TestRay aim_at(Vec3 origin, Vec3 target);
+
+// From random points of the room in random directions.
+void aim_randomly(TestRay *rays, size_t count, const Room *room, Random *random);
+
+// From random points of the room at random points of random edges.
+void aim_at_edges(TestRay *rays, size_t count, const Room *room, const Triangles *triangles,
+                  Random *random);
+
+// From random points of the room at random vertices.
+void aim_at_vertices(TestRay *rays, size_t count, const Room *room, const Triangles *triangles,
+                     Random *random);
+
+// The same without any rounding: origin + direction is the vertex.
+void aim_exactly_at_vertices(TestRay *rays, size_t count, const Room *room,
+                             const Triangles *triangles, Random *random);
+
+// Traces the rays; the number of those that meet nothing or something at no finite distance.
+size_t aim_count_misses(const RayBatch *batch, const TestRay *rays, size_t count);
+
+// Room for count rays; the caller frees it.
+TestRay *aim_make_rays(size_t count);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The stages of the program's main, from a Scene on.
+#include "picture.h"
+
+#include "check.h"
+#include "scene/camera.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int picture_setup(void **state)
+{
+    static Studio studio;
+    Error error = {0};
+    cache_open(&studio.cache);
+    require(device_open(&studio.device, getenv("CLRT_DEVICE"), &error), &error);
+    *state = &studio;
+    return 0;
+}
+
+int picture_teardown(void **state)
+{
+    Studio *studio = *state;
+    device_close(&studio->device);
+    cache_close(&studio->cache);
+    return 0;
+}
+
+PictureSettings picture_settings(void)
+{
+    return (PictureSettings){.tree = TREE_SAH,
+                             .render = {.width = 64,
+                                        .height = 64,
+                                        .samples = 1,
+                                        .max_level = 4,
+                                        .tile_width = 32,
+                                        .tile_height = 32,
+                                        .group_width = 8,
+                                        .group_height = 8,
+                                        .specialization = SPECIALIZE_NEVER}};
+}
+
+void picture_open(Renderer *renderer, const Studio *studio, const Scene *scene,
+                  const PictureSettings *settings)
+{
+    Stage stage;
+    Error error = {0};
+    const RendererSetup setup = {
+        &studio->device,
+        &studio->cache,
+        {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .extra_options = settings->extra_options}};
+    stage_make(&stage, scene, settings->tree);
+    const bool ok = renderer_open(renderer, &setup, &stage.flat, &settings->render, &error);
+    stage_free(&stage);
+    require(ok, &error);
+}
+
+CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
+{
+    const Normalization normalization = normalization_of(scene);
+    return camera_make(&scene->viewpoints.data[0], &normalization, settings->height,
+                       settings->samples);
+}
+
+void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
+                  const PictureSettings *settings)
+{
+    Renderer renderer;
+    Error error = {0};
+    const RenderSettings *render = &settings->render;
+    const CameraData camera = picture_camera(scene, render);
+    picture_open(&renderer, studio, scene, settings);
+    const bool ok = framebuffer_make(framebuffer, render->width, render->height, &error) &&
+                    renderer_draw(&renderer, &camera, NULL, framebuffer, &error);
+    renderer_close(&renderer);
+    require(ok, &error);
+}
+
+size_t picture_count_differences(const Framebuffer *a, const Framebuffer *b)
+{
+    size_t count = 0;
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    for (size_t pixel = 0; pixel < (size_t)a->width * a->height; pixel++)
+        count += memcmp(a->pixels[pixel], b->pixels[pixel], sizeof a->pixels[pixel]) != 0;
+    return count;
+}
+
+size_t picture_count_faults(const Framebuffer *framebuffer)
+{
+    size_t count = 0;
+    for (size_t pixel = 0; pixel < (size_t)framebuffer->width * framebuffer->height; pixel++) {
+        bool valid = true;
+        for (int channel = 0; channel < 3; channel++) {
+            const float value = framebuffer->pixels[pixel][channel];
+            valid = valid && value >= 0 && value <= 1;
+        }
+        count += !valid;
+    }
+    return count;
+}
+
+size_t picture_count_covered(const Framebuffer *framebuffer)
+{
+    size_t count = 0;
+    const float(*pixels)[3] = (const float(*)[3])framebuffer->pixels;
+    for (size_t pixel = 0; pixel < (size_t)framebuffer->width * framebuffer->height; pixel++)
+        count += memcmp(pixels[pixel], pixels[0], sizeof *pixels) != 0;
+    return count;
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// All launches have one size: PoCL compiles a kernel again for each local size and kind of grid,
+// and compiling has to happen under the cache's lock, which only ray_batch_open holds.
+#include "ray_batch.h"
+
+#include "base/file.h"
+#include "check.h"
+
+#include <stdlib.h>
+
+#define BATCH_GRID  65536
+#define BATCH_GROUP 64
+
+static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
+                                                      "batch_each", "batch_boxes"};
+
+static void require_success(cl_int status, const char *attempt)
+{
+    Error error = {0};
+    require(cl_succeeded(status, attempt, &error), &error);
+}
+
+static cl_mem make_buffer(const RayBatch *batch, const void *data, size_t size)
+{
+    static const char nothing[64];
+    cl_int status;
+    const cl_mem buffer = clCreateBuffer(
+        batch->device.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+        size > 0 ? size : sizeof nothing, (void *)(size > 0 ? data : nothing), &status);
+    require_success(status, "make a buffer");
+    return buffer;
+}
+
+static cl_mem make_room(const RayBatch *batch, size_t size)
+{
+    cl_int status;
+    const cl_mem buffer =
+        clCreateBuffer(batch->device.context, CL_MEM_READ_WRITE, size, NULL, &status);
+    require_success(status, "make a buffer");
+    return buffer;
+}
+
+// Runs a kernel over the first count rays in the buffer.
+static void launch(const RayBatch *batch, BatchTask task, cl_uint count)
+{
+    const size_t grid = BATCH_GRID, group = BATCH_GROUP;
+    cl_kernel kernel = batch->kernels[task];
+    cl_int status = clSetKernelArg(kernel, 0, sizeof batch->frame, &batch->frame);
+    status |= clSetKernelArg(kernel, 1, sizeof(cl_mem), &batch->spheres);
+    status |= clSetKernelArg(kernel, 2, sizeof(cl_mem), &batch->nodes);
+    status |= clSetKernelArg(kernel, 3, sizeof(cl_mem), &batch->triangles);
+    status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &batch->rays);
+    status |= clSetKernelArg(kernel, 5, sizeof count, &count);
+    status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &batch->hits);
+    require_success(status, "set the arguments of a kernel");
+    status =
+        clEnqueueNDRangeKernel(batch->device.queue, kernel, 1, NULL, &grid, &group, 0, NULL, NULL);
+    require_success(status, "run a kernel");
+}
+
+static void build(RayBatch *batch, const char *kernel_folder)
+{
+    Error error = {0};
+    File file = {0};
+    const SceneTraits traits = traits_general(false);
+    require(file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error), &error);
+    const ProgramSource source = {
+        .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
+        .appended = file.bytes};
+    require(program_build(&batch->program, &batch->device, &source, &traits, &error), &error);
+    file_free(&file);
+    for (int task = 0; task < BATCH_TASKS; task++) {
+        cl_int status;
+        batch->kernels[task] = clCreateKernel(batch->program.handle, kernel_names[task], &status);
+        require_success(status, kernel_names[task]);
+        launch(batch, (BatchTask)task, 0);
+    }
+    require_success(clFinish(batch->device.queue), "finish the first runs");
+}
+
+void ray_batch_open(RayBatch *batch, const char *kernel_folder)
+{
+    Error error = {0};
+    *batch = (RayBatch){0};
+    cache_open(&batch->cache);
+    require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error), &error);
+    batch->rays = make_room(batch, BATCH_GRID * sizeof(TestRay));
+    batch->hits = make_room(batch, BATCH_GRID * sizeof(TestHit));
+    ray_batch_upload(batch, &(FlatScene){0});
+    const int lock = cache_lock(&batch->cache);
+    build(batch, kernel_folder);
+    cache_unlock(lock);
+}
+
+static void release_scene(RayBatch *batch)
+{
+    cl_mem *buffers[] = {&batch->spheres, &batch->nodes, &batch->triangles};
+    for (int i = 0; i < 3; i++) {
+        if (*buffers[i] != NULL)
+            clReleaseMemObject(*buffers[i]);
+        *buffers[i] = NULL;
+    }
+}
+
+void ray_batch_close(RayBatch *batch)
+{
+    release_scene(batch);
+    for (int task = 0; task < BATCH_TASKS; task++)
+        if (batch->kernels[task] != NULL)
+            clReleaseKernel(batch->kernels[task]);
+    if (batch->rays != NULL)
+        clReleaseMemObject(batch->rays);
+    if (batch->hits != NULL)
+        clReleaseMemObject(batch->hits);
+    program_free(&batch->program);
+    device_close(&batch->device);
+    cache_close(&batch->cache);
+    *batch = (RayBatch){0};
+}
+
+int ray_batch_setup(void **state)
+{
+    static RayBatch batch;
+    ray_batch_open(&batch, NULL);
+    *state = &batch;
+    return 0;
+}
+
+int ray_batch_teardown(void **state)
+{
+    ray_batch_close(*state);
+    return 0;
+}
+
+void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
+{
+    release_scene(batch);
+    batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
+    batch->nodes = make_buffer(batch, flat->nodes, flat->node_count * sizeof(BvhPair));
+    batch->triangles =
+        make_buffer(batch, flat->triangles, flat->triangle_count * sizeof(TriangleData));
+    batch->frame = (FrameData){.sphere_count = flat->sphere_count,
+                               .triangle_count = flat->triangle_count,
+                               .uses_bvh = flat->node_count > 0};
+}
+
+static void write_rays(const RayBatch *batch, const TestRay *rays, size_t count)
+{
+    require_success(clEnqueueWriteBuffer(batch->device.queue, batch->rays, CL_TRUE, 0,
+                                         count * sizeof *rays, rays, 0, NULL, NULL),
+                    "write rays");
+}
+
+static void read_hits(const RayBatch *batch, TestHit *hits, size_t count)
+{
+    require_success(clEnqueueReadBuffer(batch->device.queue, batch->hits, CL_TRUE, 0,
+                                        count * sizeof *hits, hits, 0, NULL, NULL),
+                    "read hits");
+}
+
+static size_t chunk_of(size_t first, size_t count)
+{
+    return count - first < BATCH_GRID ? count - first : BATCH_GRID;
+}
+
+void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
+                     TestHit *hits)
+{
+    for (size_t first = 0; first < count; first += BATCH_GRID) {
+        const size_t chunk = chunk_of(first, count);
+        write_rays(batch, rays + first, chunk);
+        launch(batch, task, (cl_uint)chunk);
+        read_hits(batch, hits + first, chunk);
+    }
+}
+
+void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
+{
+    assert_true(batch->frame.triangle_count <= BATCH_GRID);
+    write_rays(batch, ray, 1);
+    launch(batch, BATCH_EACH, batch->frame.triangle_count);
+    read_hits(batch, hits, batch->frame.triangle_count);
+}
+
+void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,
+                     TestHit *hits)
+{
+    for (size_t first = 0; first < count; first += BATCH_GRID) {
+        const size_t chunk = chunk_of(first, count);
+        release_scene(batch);
+        batch->spheres = make_buffer(batch, NULL, 0);
+        batch->triangles = make_buffer(batch, NULL, 0);
+        batch->nodes = make_buffer(batch, nodes + first, chunk * sizeof *nodes);
+        write_rays(batch, rays + first, chunk);
+        launch(batch, BATCH_BOXES, (cl_uint)chunk);
+        read_hits(batch, hits + first, chunk);
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Traces arrays of rays on the device with the functions of the real kernels (ray_batch.cl).
+// What goes wrong in here ends the test.
+#pragma once
+
+#include "accel/flat.h"
+#include "device/cache.h"
+#include "device/program.h"
+
+// As in kernels/triangle.cl.
+typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
+
+// In the normalized frame.
+typedef struct {
+    float origin[3];
+    uint32_t own; // NOTHING for none
+    float direction[3];
+    uint32_t kind; // a RayKind
+} TestRay;
+
+typedef struct {
+    float t;     // INFINITY where nothing is met
+    uint32_t id; // NOTHING where nothing is met
+} TestHit;
+
+typedef enum {
+    BATCH_NEAREST, // nearest_hit
+    BATCH_BLOCKED, // is_blocked: id 1 or 0
+    BATCH_EACH,    // one ray against each triangle: ray_batch_each
+    BATCH_BOXES,   // ray_batch_boxes
+    BATCH_TASKS
+} BatchTask;
+
+typedef struct {
+    Device device;
+    Cache cache;
+    Program program;
+    cl_kernel kernels[BATCH_TASKS];
+    cl_mem rays, hits;
+    cl_mem spheres, nodes, triangles; // of the scene
+    FrameData frame;
+} RayBatch;
+
+// Takes the kernels from a folder; where it is NULL, from the environment variable CLRT_KERNEL_DIR,
+// or those that are built in.  The device is the one that CLRT_DEVICE names, unset the best.
+void ray_batch_open(RayBatch *batch, const char *kernel_folder);
+void ray_batch_close(RayBatch *batch);
+
+// The same as fixtures of a group of tests, which find the batch in *state.
+int ray_batch_setup(void **state);
+int ray_batch_teardown(void **state);
+
+// Replaces the scene that rays are traced through.
+void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
+
+// Fills hits[i] from rays[i]; task is BATCH_NEAREST or BATCH_BLOCKED.
+void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
+                     TestHit *hits);
+
+// Fills one hit for each triangle of the scene, in the order of its leaves.
+void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
+
+// Which boxes of nodes[i] does rays[i] meet?  Replaces the scene.
+void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,
+                     TestHit *hits);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Distances to triangles, and the solid angles by which a closed surface winds around a point (Van
+// Oosterom and Strackee, "The solid angle of a plane triangle", 1983).
+#include "room.h"
+
+#include "check.h"
+
+static Vec3 corner_of(const float corner[3])
+{
+    return vec3((double)corner[0], (double)corner[1], (double)corner[2]);
+}
+
+static double length_of(Vec3 v)
+{
+    return sqrt(vec3_dot(v, v));
+}
+
+// From the origin to the segment a b.
+static double segment_distance(Vec3 a, Vec3 b)
+{
+    const Vec3 along = vec3_sub(b, a);
+    const double squared = vec3_dot(along, along);
+    const double place = squared > 0 ? -vec3_dot(a, along) / squared : 0;
+    return length_of(vec3_add(a, vec3_scale(along, fmin(fmax(place, 0), 1))));
+}
+
+double triangle_distance_to(const float corners[3][3], Vec3 point)
+{
+    const Vec3 a = vec3_sub(corner_of(corners[0]), point);
+    const Vec3 b = vec3_sub(corner_of(corners[1]), point);
+    const Vec3 c = vec3_sub(corner_of(corners[2]), point);
+    const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+    const double outline =
+        fmin(segment_distance(a, b), fmin(segment_distance(b, c), segment_distance(c, a)));
+    // The foot of the perpendicular lies inside where it is on the inner side of all edges.
+    const bool inside = vec3_dot(normal, vec3_cross(a, b)) > 0 &&
+                        vec3_dot(normal, vec3_cross(b, c)) > 0 &&
+                        vec3_dot(normal, vec3_cross(c, a)) > 0;
+    return inside ? fabs(vec3_dot(normal, a)) / length_of(normal) : outline;
+}
+
+// Of the triangle seen from point, signed, as a part of the whole sphere.
+static double solid_angle(const float corners[3][3], Vec3 point)
+{
+    const Vec3 a = vec3_normalize(vec3_sub(corner_of(corners[0]), point));
+    const Vec3 b = vec3_normalize(vec3_sub(corner_of(corners[1]), point));
+    const Vec3 c = vec3_normalize(vec3_sub(corner_of(corners[2]), point));
+    const double volume = vec3_dot(a, vec3_cross(b, c));
+    const double sum = 1 + vec3_dot(a, b) + vec3_dot(b, c) + vec3_dot(c, a);
+    return atan2(volume, sum) / (2 * 3.14159265358979323846);
+}
+
+Room room_inside(const Stage *stage, Vec3 center, double half_side)
+{
+    Room room = {normalize_point(&stage->normalization, center),
+                 half_side * stage->normalization.scale, INFINITY};
+    double winding = 0;
+    for (size_t i = 0; i < stage->triangles.count; i++) {
+        const float(*corners)[3] = (const float(*)[3])stage->triangles.corners[i];
+        room.radius = fmin(room.radius, 0.999 * triangle_distance_to(corners, room.center));
+        winding += solid_angle(corners, room.center);
+    }
+    assert_true(room.radius > 0);
+    assert_true(fabs(fabs(winding) - 1) < 1e-6);
+    return room;
+}
+
+bool room_contains(const Room *room, Vec3 point)
+{
+    const Vec3 from_center = vec3_sub(point, room->center);
+    return vec3_extent(from_center) <= room->half_side && length_of(from_center) <= room->radius;
+}
+
+Vec3 room_point(const Room *room, Random *random)
+{
+    for (;;) {
+        const Vec3 point = vec3_add(room->center, random_in_cube(random, room->half_side));
+        if (room_contains(room, point))
+            return point;
+    }
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Lays out vertices and triangles.  Sines are the project's own, so that every machine tests the
+// same shapes.
+#include "shapes.h"
+
+#include "base/trigonometry.h"
+#include "check.h"
+
+static Mesh mesh_with_room(size_t vertices, size_t triangles)
+{
+    Error error = {0};
+    Mesh mesh = {.vertex_count = vertices, .triangle_count = triangles};
+    mesh.positions = memory_raw(vertices, sizeof *mesh.positions, &error);
+    mesh.triangles = memory_raw(triangles, sizeof *mesh.triangles, &error);
+    require(mesh.positions != NULL && mesh.triangles != NULL, &error);
+    return mesh;
+}
+
+static void put_vertex(Mesh *mesh, size_t vertex, Vec3 position)
+{
+    mesh->positions[vertex][0] = shape_rounded(position.x);
+    mesh->positions[vertex][1] = shape_rounded(position.y);
+    mesh->positions[vertex][2] = shape_rounded(position.z);
+}
+
+static size_t put_triangle(Mesh *mesh, size_t triangle, uint32_t a, uint32_t b, uint32_t c)
+{
+    mesh->triangles[triangle][0] = a;
+    mesh->triangles[triangle][1] = b;
+    mesh->triangles[triangle][2] = c;
+    return triangle + 1;
+}
+
+Vec3 shape_center(int exponent)
+{
+    const double s = ldexp(1, exponent);
+    return vec3(s, -0.75 * s, 0.5 * s);
+}
+
+// Vertex 0 is the pole at +z, the last one that at -z; between them lie rings - 1 circles.
+static void connect_globe(Mesh *mesh, uint32_t rings, uint32_t segments)
+{
+    size_t triangle = 0;
+    const uint32_t last = (uint32_t)mesh->vertex_count - 1;
+    for (uint32_t segment = 0; segment < segments; segment++) {
+        const uint32_t next = (segment + 1) % segments;
+        triangle = put_triangle(mesh, triangle, 0, 1 + segment, 1 + next);
+        for (uint32_t ring = 0; ring + 2 < rings; ring++) {
+            const uint32_t upper = 1 + ring * segments, lower = upper + segments;
+            triangle = put_triangle(mesh, triangle, upper + segment, lower + segment, lower + next);
+            triangle = put_triangle(mesh, triangle, upper + segment, lower + next, upper + next);
+        }
+        triangle =
+            put_triangle(mesh, triangle, last - segments + segment, last, last - segments + next);
+    }
+}
+
+static Mesh make_globe(uint32_t rings, uint32_t segments)
+{
+    const size_t vertices = 2 + (size_t)(rings - 1) * segments;
+    Mesh mesh = mesh_with_room(vertices, 2 * (size_t)segments * (rings - 1));
+    connect_globe(&mesh, rings, segments);
+    return mesh;
+}
+
+// The direction from the center to a vertex of a globe.
+static Vec3 globe_direction(uint32_t vertex, uint32_t rings, uint32_t segments)
+{
+    const uint32_t last = 1 + (rings - 1) * segments;
+    if (vertex == 0 || vertex == last)
+        return vec3(0, 0, vertex == 0 ? 1 : -1);
+    const double polar = 180.0 * (1 + (vertex - 1) / segments) / rings;
+    const double around = 360.0 * ((vertex - 1) % segments) / segments;
+    const double radius = sine_of_degrees(polar);
+    return vec3(radius * cosine_of_degrees(around), radius * sine_of_degrees(around),
+                cosine_of_degrees(polar));
+}
+
+Mesh shape_sphere(uint32_t rings, Vec3 center)
+{
+    Mesh mesh = make_globe(rings, 2 * rings);
+    for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
+        const Vec3 direction = globe_direction(vertex, rings, 2 * rings);
+        put_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, SPHERE_RADIUS)));
+    }
+    return mesh;
+}
+
+Mesh shape_bumpy(Random *random, Vec3 center)
+{
+    Mesh mesh = make_globe(16, 16);
+    for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
+        const Vec3 direction = globe_direction(vertex, 16, 16);
+        const double radius = random_between(random, 1, 6);
+        put_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, radius)));
+    }
+    return mesh;
+}
+
+Mesh shape_fan(uint32_t count)
+{
+    Mesh mesh = mesh_with_room((size_t)count + 1, count);
+    put_vertex(&mesh, 0, vec3(0, 0, 0));
+    for (uint32_t spoke = 0; spoke < count; spoke++) {
+        const double angle = 360.0 * spoke / count;
+        put_vertex(&mesh, 1 + spoke,
+                   vec3(cosine_of_degrees(angle), sine_of_degrees(angle),
+                        0.05 * cosine_of_degrees(4 * angle)));
+        put_triangle(&mesh, spoke, 0, 1 + spoke, 1 + (spoke + 1) % count);
+    }
+    return mesh;
+}
+
+// Writes a grid of cells * cells quads whose vertices and triangles start at the given places.
+static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t cells)
+{
+    const uint32_t first = (uint32_t)place * (cells + 1) * (cells + 1);
+    size_t triangle = place * 2 * cells * cells;
+    for (uint32_t row = 0; row <= cells; row++)
+        for (uint32_t column = 0; column <= cells; column++) {
+            const Vec3 across = vec3_scale(spans[1], (double)column / cells);
+            const Vec3 down = vec3_scale(spans[2], (double)row / cells);
+            const uint32_t corner = first + row * (cells + 1) + column;
+            put_vertex(mesh, corner, vec3_add(spans[0], vec3_add(across, down)));
+            if (row == cells || column == cells)
+                continue;
+            const uint32_t below = corner + cells + 1;
+            triangle = put_triangle(mesh, triangle, corner, corner + 1, below + 1);
+            triangle = put_triangle(mesh, triangle, corner, below + 1, below);
+        }
+}
+
+Mesh shape_plane(Vec3 corner, Vec3 across, Vec3 down, uint32_t cells)
+{
+    const size_t side = (size_t)cells + 1;
+    Mesh mesh = mesh_with_room(side * side, 2 * (size_t)cells * cells);
+    put_plane(&mesh, 0, (Vec3[3]){corner, across, down}, cells);
+    return mesh;
+}
+
+Mesh shape_cube(double half_side, uint32_t cells)
+{
+    const double h = half_side;
+    const Vec3 x = vec3(2 * h, 0, 0), y = vec3(0, 2 * h, 0), z = vec3(0, 0, 2 * h);
+    const Vec3 low = vec3(-h, -h, -h);
+    const Vec3 faces[6][3] = {{low, y, x}, {vec3(-h, -h, h), x, y},
+                              {low, z, y}, {vec3(h, -h, -h), y, z},
+                              {low, x, z}, {vec3(-h, h, -h), z, x}};
+    const size_t side = (size_t)cells + 1;
+    Mesh mesh = mesh_with_room(6 * side * side, 12 * (size_t)cells * cells);
+    for (size_t face = 0; face < 6; face++)
+        put_plane(&mesh, face, faces[face], cells);
+    return mesh;
+}
+
+Mesh shape_soup(Random *random, uint32_t count, double size)
+{
+    Mesh mesh = mesh_with_room(3 * (size_t)count, count);
+    for (uint32_t triangle = 0; triangle < count; triangle++) {
+        const Vec3 place = random_in_cube(random, 1);
+        for (uint32_t corner = 0; corner < 3; corner++)
+            put_vertex(&mesh, 3 * triangle + corner, vec3_add(place, random_in_cube(random, size)));
+        put_triangle(&mesh, triangle, 3 * triangle, 3 * triangle + 1, 3 * triangle + 2);
+    }
+    return mesh;
+}
+
+Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
+{
+    Mesh mesh = mesh_with_room(3, 1);
+    put_vertex(&mesh, 0, a);
+    put_vertex(&mesh, 1, b);
+    put_vertex(&mesh, 2, c);
+    put_triangle(&mesh, 0, 0, 1, 2);
+    return mesh;
+}
+
+void shape_add(Scene *scene, Mesh mesh, uint32_t material)
+{
+    Error error = {0};
+    const MeshObject object = {.mesh = mesh, .material = material, .two_sided = true};
+    require(array_push(&scene->objects, object, &error), &error);
+}
+
+Scene shape_scene(Mesh mesh)
+{
+    Error error = {0};
+    Scene scene;
+    require(scene_init(&scene, &error), &error);
+    shape_add(&scene, mesh, 1);
+    return scene;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The stages in their order.
+#include "stage.h"
+
+#include "check.h"
+
+const char *const tree_names[TREE_KINDS] = {"sah", "midpoint", "none"};
+
+void stage_make(Stage *stage, const Scene *scene, TreeKind tree)
+{
+    Error error = {0};
+    *stage = (Stage){.normalization = normalization_of(scene)};
+    const BvhBuilder builder = tree == TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
+    const bool ok =
+        normalization_check(&stage->normalization, scene, &error) &&
+        triangles_make(&stage->triangles, scene, &stage->normalization, &error) &&
+        (tree == TREE_NONE || bvh_build(&stage->bvh, &stage->triangles, builder, &error)) &&
+        flat_make(&stage->flat, scene, &stage->triangles, &stage->bvh, &error);
+    require(ok, &error);
+}
+
+void stage_free(Stage *stage)
+{
+    flat_free(&stage->flat);
+    bvh_free(&stage->bvh);
+    triangles_free(&stage->triangles);
+    *stage = (Stage){0};
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Scene -> all that is traced of it, by the stages of the program's main.
+#pragma once
+
+#include "accel/flat.h"
+
+typedef enum { TREE_SAH, TREE_MIDPOINT, TREE_NONE, TREE_KINDS } TreeKind;
+
+extern const char *const tree_names[TREE_KINDS];
+
+typedef struct {
+    Normalization normalization;
+    Triangles triangles; // normalized
+    Bvh bvh;             // empty for TREE_NONE
+    FlatScene flat;
+} Stage;
+
+// Scene is needed no longer than the call takes.
+void stage_make(Stage *stage, const Scene *scene, TreeKind tree);
+void stage_free(Stage *stage);

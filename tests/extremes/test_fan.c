@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Ten thousand triangles around one vertex: rays at it and along the spokes meet many of them at
+// once, and of the nearest the lowest id must win.
+#include "support/aim.h"
+#include "support/check.h"
+#include "support/shapes.h"
+
+#include <stdlib.h>
+
+#define TRIANGLES 10000
+#define RAYS      50000
+#define JUDGED    1000 // of them, by each triangle alone
+
+// Above the fan, whose apex is the origin of the frame.
+static Vec3 point_above(Random *random)
+{
+    Vec3 point = random_in_cube(random, 0.5);
+    point.z = random_between(random, 0.5, 2);
+    return point;
+}
+
+// Every other ray is sheared without rounding, so that it runs through the very apex and meets all
+// triangles at once.
+static void aim_at_apex(TestRay *rays, Random *random)
+{
+    for (int i = 0; i < RAYS; i++) {
+        Vec3 origin = point_above(random);
+        if (i % 2 == 0)
+            origin.z = 1;
+        rays[i] = aim_at(origin, vec3(0, 0, 0));
+    }
+}
+
+static void aim_along_spokes(TestRay *rays, const Triangles *triangles, Random *random)
+{
+    for (int i = 0; i < RAYS; i++) {
+        const Vec3 spoke = aim_corner(triangles, random_below(random, TRIANGLES), 1);
+        const Vec3 target = vec3_scale(spoke, random_between(random, 0, 0.95));
+        rays[i] = aim_at(point_above(random), target);
+    }
+}
+
+// The smallest (t, id) of all triangles, and how many share its t.
+static TestHit nearest_of(const RayBatch *batch, const TestRay *ray, TestHit *each, size_t *equals)
+{
+    TestHit nearest = {INFINITY, NOTHING};
+    ray_batch_each(batch, ray, each);
+    *equals = 0;
+    for (int i = 0; i < TRIANGLES; i++) {
+        if (each[i].t < nearest.t)
+            *equals = 0;
+        *equals += each[i].t <= nearest.t && each[i].t < INFINITY;
+        if (each[i].t < nearest.t || (each[i].t == nearest.t && each[i].id < nearest.id))
+            nearest = each[i];
+    }
+    return nearest;
+}
+
+// How many of the first rays get another answer than the smallest (t, id); adds the number of those
+// where several triangles share the smallest t to *ties.
+static size_t wrong_answers(const RayBatch *batch, const TestRay *rays, size_t *ties)
+{
+    Error error = {0};
+    size_t wrong = 0;
+    TestHit hits[JUDGED];
+    TestHit *each = memory_raw(TRIANGLES, sizeof *each, &error);
+    require(each != NULL, &error);
+    ray_batch_trace(batch, BATCH_NEAREST, rays, JUDGED, hits);
+    for (int i = 0; i < JUDGED; i++) {
+        size_t equals;
+        const TestHit nearest = nearest_of(batch, &rays[i], each, &equals);
+        wrong += nearest.t != hits[i].t || nearest.id != hits[i].id;
+        *ties += equals > 1;
+    }
+    free(each);
+    return wrong;
+}
+
+static void fan_stage(Stage *stage, RayBatch *batch)
+{
+    Scene scene = shape_scene(shape_fan(TRIANGLES));
+    stage_make(stage, &scene, TREE_SAH);
+    scene_free(&scene);
+    ray_batch_upload(batch, &stage->flat);
+}
+
+static void no_ray_slips_between_the_triangles_of_a_fan_t07(void **state)
+{
+    Stage stage;
+    Random random = {7};
+    TestRay *rays = aim_make_rays(RAYS);
+    fan_stage(&stage, *state);
+    aim_at_apex(rays, &random);
+    size_t misses = report_case("T-07", "aim=apex", RAYS, aim_count_misses(*state, rays, RAYS));
+    aim_along_spokes(rays, &stage.triangles, &random);
+    misses += report_case("T-07", "aim=spokes", RAYS, aim_count_misses(*state, rays, RAYS));
+    free(rays);
+    stage_free(&stage);
+    assert_int_equal(misses, 0);
+}
+
+static void of_equally_near_triangles_the_lowest_id_is_hit_t07(void **state)
+{
+    Stage stage;
+    Random random = {77};
+    size_t apex_ties = 0, spoke_ties = 0;
+    TestRay *rays = aim_make_rays(RAYS);
+    fan_stage(&stage, *state);
+    aim_at_apex(rays, &random);
+    size_t wrong =
+        report_case("T-07", "answer=apex", JUDGED, wrong_answers(*state, rays, &apex_ties));
+    aim_along_spokes(rays, &stage.triangles, &random);
+    wrong += report_case("T-07", "answer=spokes", JUDGED, wrong_answers(*state, rays, &spoke_ties));
+    free(rays);
+    stage_free(&stage);
+    assert_int_equal(wrong, 0);
+    // Without ties this would test nothing.
+    assert_in_range(apex_ties, JUDGED / 4, JUDGED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_ray_slips_between_the_triangles_of_a_fan_t07),
+        cmocka_unit_test(of_equally_near_triangles_the_lowest_id_is_hit_t07),
+    };
+    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Rays through the seams of open shapes: a target well inside the outline must be met.
+#include "support/aim.h"
+#include "support/check.h"
+#include "support/shapes.h"
+
+#include <stdlib.h>
+
+#define ROTATIONS    1000
+#define ROTATED_RAYS 1024
+
+// The rotation that a random quaternion stands for (Shoemake, "Uniform random rotations", 1992).
+static void random_rotation(Random *random, Vec3 axes[3])
+{
+    double q[4], squared;
+    do {
+        squared = 0;
+        for (int i = 0; i < 4; i++) {
+            q[i] = random_between(random, -1, 1);
+            squared += q[i] * q[i];
+        }
+    } while (squared > 1 || squared < 0.01);
+    const double s = 2 / squared, w = q[0], x = q[1], y = q[2], z = q[3];
+    axes[0] = vec3(1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y));
+    axes[1] = vec3(s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x));
+    axes[2] = vec3(s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y));
+}
+
+static Vec3 combined(const Vec3 axes[3], Vec3 weights)
+{
+    return vec3_add(vec3_scale(axes[0], weights.x),
+                    vec3_add(vec3_scale(axes[1], weights.y), vec3_scale(axes[2], weights.z)));
+}
+
+// Rays from one side of the unit quad that axes 0 and 1 span to points of its diagonal.
+static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3], Random *random)
+{
+    for (int i = 0; i < ROTATED_RAYS; i++) {
+        const double place = random_between(random, 0.01, 0.99);
+        Vec3 from = random_in_cube(random, 2);
+        from.z = random_between(random, 0.5, 3);
+        const Vec3 target = combined(axes, vec3(place, place, 0));
+        rays[i] = aim_at(normalize_point(&stage->normalization, combined(axes, from)),
+                         normalize_point(&stage->normalization, target));
+    }
+}
+
+static size_t misses_through_diagonal(RayBatch *batch, const Vec3 axes[3], Random *random)
+{
+    Stage stage;
+    TestRay rays[ROTATED_RAYS];
+    Scene scene = shape_scene(shape_plane(vec3(0, 0, 0), axes[0], axes[1], 1));
+    stage_make(&stage, &scene, TREE_SAH);
+    aim_at_diagonal(rays, &stage, axes, random);
+    ray_batch_upload(batch, &stage.flat);
+    const size_t misses = aim_count_misses(batch, rays, ROTATED_RAYS);
+    stage_free(&stage);
+    scene_free(&scene);
+    return misses;
+}
+
+static void no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05(void **state)
+{
+    Random random = {5};
+    // A turn by 90 degrees around (1, 1, 1) first.
+    const double a = 1.0 / 3, b = sqrt(a);
+    const Vec3 turned[3] = {{a, a + b, a - b}, {a - b, a, a + b}, {a + b, a - b, a}};
+    size_t misses = misses_through_diagonal(*state, turned, &random);
+    for (int i = 1; i < ROTATIONS; i++) {
+        Vec3 rotation[3], axes[3];
+        random_rotation(&random, rotation);
+        for (int axis = 0; axis < 3; axis++)
+            axes[axis] = combined(rotation, turned[axis]);
+        misses += misses_through_diagonal(*state, axes, &random);
+    }
+    report_case("T-05", "rotations=1000", (size_t)ROTATIONS * ROTATED_RAYS, misses);
+    assert_int_equal(misses, 0);
+}
+
+#define PAIRS     8
+#define PAIR_RAYS 50000
+
+// Two triangles a b c and b a d that share the edge a b, with c and d on either side of it.
+static Scene random_pair(Random *random)
+{
+    Vec3 corners[4];
+    for (int corner = 0; corner < 4; corner++) {
+        corners[corner] = random_in_cube(random, 0.5);
+        corners[corner].z *= 0.2;
+    }
+    const Vec3 a = vec3_add(corners[0], vec3(0, 2, 0)), b = vec3_sub(corners[1], vec3(0, 2, 0));
+    const Vec3 c = vec3_add(corners[2], vec3(2, 0, 0)), d = vec3_sub(corners[3], vec3(2, 0, 0));
+    Scene scene = shape_scene(shape_triangle(a, b, c));
+    shape_add(&scene, shape_triangle(b, a, d), 1);
+    return scene;
+}
+
+static size_t misses_through_pair(RayBatch *batch, Random *random, TestRay *rays)
+{
+    Stage stage;
+    Scene scene = random_pair(random);
+    stage_make(&stage, &scene, TREE_SAH);
+    const Vec3 a = aim_corner(&stage.triangles, 0, 0);
+    const Vec3 b = aim_corner(&stage.triangles, 0, 1);
+    for (int i = 0; i < PAIR_RAYS; i++) {
+        const Vec3 along = vec3_scale(vec3_sub(b, a), random_between(random, 0.01, 0.99));
+        const Vec3 from = vec3_add(random_in_cube(random, 1), vec3(0, 0, 3));
+        rays[i] = aim_at(normalize_point(&stage.normalization, from), vec3_add(a, along));
+    }
+    ray_batch_upload(batch, &stage.flat);
+    const size_t misses = aim_count_misses(batch, rays, PAIR_RAYS);
+    stage_free(&stage);
+    scene_free(&scene);
+    return misses;
+}
+
+static size_t misses_through_pairs(RayBatch *batch, const char *details)
+{
+    Random random = {6};
+    size_t misses = 0;
+    TestRay *rays = aim_make_rays(PAIR_RAYS);
+    for (int pair = 0; pair < PAIRS; pair++)
+        misses += misses_through_pair(batch, &random, rays);
+    free(rays);
+    return report_case("T-06", details, (size_t)PAIRS * PAIR_RAYS, misses);
+}
+
+static void no_ray_slips_between_two_triangles_whether_contracted_or_not_t06(void **state)
+{
+    RayBatch contracted;
+    size_t misses = misses_through_pairs(*state, "contraction=off");
+    ray_batch_open(&contracted, CONTRACTED_KERNELS);
+    misses += misses_through_pairs(&contracted, "contraction=on");
+    ray_batch_close(&contracted);
+    assert_int_equal(misses, 0);
+}
+
+#define PLANE_X    148376.0
+#define PLANE_RAYS 250000
+
+typedef enum { PLANE_POINTS, PLANE_EDGES, PLANE_VERTICES } PlaneTarget;
+
+// A point of the plane, of one of its lines or of its vertices, in the file's coordinates.
+static Vec3 plane_target(PlaneTarget kind, Random *random)
+{
+    const double cell = 12.0 / 200;
+    Vec3 target = {PLANE_X, random_between(random, -5.9, 5.9), random_between(random, -5.9, 5.9)};
+    if (kind != PLANE_POINTS)
+        target.y = shape_rounded(-6 + cell * rint((target.y + 6) / cell));
+    if (kind == PLANE_VERTICES)
+        target.z = shape_rounded(-6 + cell * rint((target.z + 6) / cell));
+    return target;
+}
+
+static size_t misses_of_plane(RayBatch *batch, const Stage *stage, double distance,
+                              PlaneTarget kind)
+{
+    Random random = {(uint64_t)(8000 + kind)};
+    TestRay *rays = aim_make_rays(PLANE_RAYS);
+    for (int i = 0; i < PLANE_RAYS; i++) {
+        const Vec3 from = vec3_sub(random_in_cube(&random, 2), vec3(distance - PLANE_X, 0, 0));
+        const Vec3 target = plane_target(kind, &random);
+        rays[i] = aim_at(normalize_point(&stage->normalization, from),
+                         normalize_point(&stage->normalization, target));
+    }
+    const size_t misses = aim_count_misses(batch, rays, PLANE_RAYS);
+    free(rays);
+    return misses;
+}
+
+static void no_ray_passes_a_plane_far_from_the_origin_t08(void **state)
+{
+    Stage stage;
+    Scene scene =
+        shape_scene(shape_plane(vec3(PLANE_X, -6, -6), vec3(0, 12, 0), vec3(0, 0, 12), 200));
+    stage_make(&stage, &scene, TREE_SAH);
+    ray_batch_upload(*state, &stage.flat);
+    const double near = 2.5, far = PLANE_X;
+    size_t misses = report_case("T-08", "aim=points from=near", PLANE_RAYS,
+                                misses_of_plane(*state, &stage, near, PLANE_POINTS));
+    misses += report_case("T-08", "aim=edges from=near", PLANE_RAYS,
+                          misses_of_plane(*state, &stage, near, PLANE_EDGES));
+    misses += report_case("T-08", "aim=vertices from=near", PLANE_RAYS,
+                          misses_of_plane(*state, &stage, near, PLANE_VERTICES));
+    misses += report_case("T-08", "aim=edges from=far", PLANE_RAYS,
+                          misses_of_plane(*state, &stage, far, PLANE_EDGES));
+    stage_free(&stage);
+    scene_free(&scene);
+    assert_int_equal(misses, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05),
+        cmocka_unit_test(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06),
+        cmocka_unit_test(no_ray_passes_a_plane_far_from_the_origin_t08),
+    };
+    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Every tree finds what testing all primitives finds, bit by bit.
+#include "support/aim.h"
+#include "support/check.h"
+#include "support/tree_scenes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define RAYS 100000
+
+static Vec3 random_corner(const Triangles *triangles, Random *random)
+{
+    const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
+    return aim_corner(triangles, triangle, random_below(random, 3));
+}
+
+// A point of a random triangle's edge, or of the line through it.
+static Vec3 random_target(const Triangles *triangles, Random *random)
+{
+    const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
+    const Vec3 a = aim_corner(triangles, triangle, 0), b = aim_corner(triangles, triangle, 1);
+    return vec3_add(a, vec3_scale(vec3_sub(b, a), random_between(random, -0.2, 1.2)));
+}
+
+static TestRay along_an_axis(Vec3 through, Random *random)
+{
+    const double directions[3] = {-1, 0, 1};
+    const uint32_t axis = random_below(random, 3);
+    const double sign = directions[2 * random_below(random, 2)];
+    const Vec3 step = {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
+    TestRay ray = aim_at(vec3_sub(through, vec3_scale(step, 2)), through);
+    for (uint32_t i = 0; i < 3; i++)
+        ray.direction[i] = i == axis ? (float)sign : 0;
+    return ray;
+}
+
+// Rays from everywhere to everywhere: random ones, at vertices and edges, from afar, from vertices
+// themselves, and along the axes.
+static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
+{
+    for (size_t i = 0; i < RAYS; i++) {
+        Vec3 origin = random_in_cube(random, 2);
+        Vec3 target = random_in_cube(random, 1);
+        if (i % 8 == 1 || i % 8 == 2)
+            target = random_corner(triangles, random);
+        else if (i % 8 == 3 || i % 8 == 4)
+            target = random_target(triangles, random);
+        if (i % 8 == 4)
+            origin = random_in_cube(random, 1000);
+        if (i % 8 == 5)
+            origin = random_corner(triangles, random);
+        rays[i] = aim_at(origin, target);
+        if (i % 8 == 6)
+            rays[i] = along_an_axis(random_corner(triangles, random), random);
+        if (i % 8 == 7) {
+            rays[i].own = random_below(random, (uint32_t)triangles->count);
+            rays[i].kind = RAY_REFLECTED;
+        }
+    }
+}
+
+// A tree's answers to some rays beside those of the same scene without one.
+typedef struct {
+    BatchTask task;
+    TestRay *rays;
+    TestHit *expected, *found;
+} Comparison;
+
+static Comparison comparison_make(BatchTask task)
+{
+    Error error = {0};
+    const Comparison comparison = {task, aim_make_rays(RAYS),
+                                   memory_raw(RAYS, sizeof(TestHit), &error),
+                                   memory_raw(RAYS, sizeof(TestHit), &error)};
+    require(comparison.expected != NULL && comparison.found != NULL, &error);
+    return comparison;
+}
+
+static void comparison_free(Comparison *comparison)
+{
+    free(comparison->rays);
+    free(comparison->expected);
+    free(comparison->found);
+}
+
+static void trace_scene(const Comparison *comparison, RayBatch *batch, size_t number, TreeKind tree)
+{
+    Stage stage;
+    Scene scene = tree_scene_make(number);
+    TestHit *hits = tree == TREE_NONE ? comparison->expected : comparison->found;
+    stage_make(&stage, &scene, tree);
+    ray_batch_upload(batch, &stage.flat);
+    ray_batch_trace(batch, comparison->task, comparison->rays, RAYS, hits);
+    stage_free(&stage);
+    scene_free(&scene);
+}
+
+static size_t differences_of(const Comparison *comparison, RayBatch *batch, size_t number)
+{
+    size_t differences = 0;
+    trace_scene(comparison, batch, number, TREE_NONE);
+    for (TreeKind tree = TREE_SAH; tree < TREE_NONE; tree++) {
+        char details[64];
+        size_t wrong = 0;
+        trace_scene(comparison, batch, number, tree);
+        for (size_t i = 0; i < RAYS; i++)
+            wrong += memcmp(&comparison->found[i], &comparison->expected[i], sizeof(TestHit)) != 0;
+        snprintf(details, sizeof details, "scene=%s tree=%s task=%s", tree_scenes[number].name,
+                 tree_names[tree], comparison->task == BATCH_NEAREST ? "nearest" : "blocked");
+        differences += report_case("T-25", details, RAYS, wrong);
+    }
+    return differences;
+}
+
+static void make_scene_rays(TestRay *rays, size_t number)
+{
+    Stage stage;
+    Random random = {25 + number};
+    Scene scene = tree_scene_make(number);
+    stage_make(&stage, &scene, TREE_NONE);
+    make_rays(rays, &stage.triangles, &random);
+    stage_free(&stage);
+    scene_free(&scene);
+}
+
+static void every_tree_finds_the_hits_that_testing_all_triangles_finds_t25(void **state)
+{
+    size_t differences = 0;
+    Comparison comparison = comparison_make(BATCH_NEAREST);
+    for (size_t number = 0; number < TREE_SCENES; number++) {
+        size_t hits = 0;
+        make_scene_rays(comparison.rays, number);
+        differences += differences_of(&comparison, *state, number);
+        for (size_t i = 0; i < RAYS; i++)
+            hits += comparison.expected[i].id != NOTHING;
+        assert_in_range(hits, RAYS / 20, RAYS);
+    }
+    comparison_free(&comparison);
+    assert_int_equal(differences, 0);
+}
+
+// A ray of twice the length meets its target halfway; others end there.
+static void make_shadow_ray(TestRay *ray, bool doubled)
+{
+    ray->kind = RAY_SHADOW;
+    for (int axis = 0; axis < 3 && doubled; axis++)
+        ray->direction[axis] *= 2;
+}
+
+static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(void **state)
+{
+    size_t differences = 0;
+    Comparison comparison = comparison_make(BATCH_BLOCKED);
+    for (size_t number = 0; number < TREE_SCENES; number++) {
+        size_t blocked = 0;
+        make_scene_rays(comparison.rays, number);
+        for (size_t i = 0; i < RAYS; i++)
+            make_shadow_ray(&comparison.rays[i], i % 16 < 8);
+        differences += differences_of(&comparison, *state, number);
+        for (size_t i = 0; i < RAYS; i++)
+            blocked += comparison.expected[i].id;
+        assert_in_range(blocked, RAYS / 100, RAYS);
+    }
+    comparison_free(&comparison);
+    assert_int_equal(differences, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
+        cmocka_unit_test(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25),
+    };
+    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
+}

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Reads every #include and names those that do not go downward.  A floor is a folder of host/; a
+# file includes headers of its own folder and of the floors below it, never in a circle.  Kernels
+# form one chain: each includes only files before it in CMakeLists.txt's list.
+import argparse
+import pathlib
+import re
+import sys
+
+# What each floor may include besides itself.  Pictures are beside the scene, not above it.
+BELOW = {
+    "base": [],
+    "image": ["base"],
+    "scene": ["base"],
+    "accel": ["base", "scene"],
+    "device": ["base", "scene", "accel"],
+    "render": ["base", "scene", "accel", "device", "image"],
+    "cli": ["base", "scene", "accel", "device", "image", "render"],
+}
+
+# The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.
+CORE = ["base", "scene", "accel"]
+FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson)\.h$")
+
+# Host and kernels share one header, and one host file brings it in for all floors above.
+SHARED = "../kernels/shared.h"
+SHARED_BY = "scene/scene.h"
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
+
+
+def read_includes(file):
+    """Yields line number, '"' or '<', and the path of each #include."""
+    text = file.read_text()
+    for match in INCLUDE.finditer(text):
+        yield text.count("\n", 0, match.start()) + 1, match[1], match[2]
+
+
+def judge_own(name, target):
+    """Says what is wrong with a host file's include of a host file; None where nothing is."""
+    floor, other = name.split("/")[0], target.split("/")[0]
+    if not target.endswith(".h"):
+        return f"{target} is not a header"
+    if other != floor and other not in BELOW[floor]:
+        return f"{other} is not below {floor}"
+    return None
+
+
+def judge_outside(name, quote, target):
+    """The same for an include of anything else."""
+    if quote == '"':
+        if target != SHARED:
+            return f"{target} is no header of host/"
+        return None if name == SHARED_BY else f"only {SHARED_BY} includes {SHARED}"
+    if name.split("/")[0] in CORE and FOREIGN.match(target):
+        return f"the core does without <{target}>"
+    return None
+
+
+def find_cycle(graph):
+    """Returns one circle of includes as a list of names, or None."""
+    finished = set()
+
+    def visit(name, path):
+        if name in path:
+            return path[path.index(name) :] + [name]
+        if name in finished:
+            return None
+        for target in graph.get(name, []):
+            cycle = visit(target, path + [name])
+            if cycle:
+                return cycle
+        finished.add(name)
+        return None
+
+    return next(filter(None, (visit(name, []) for name in graph)), None)
+
+
+def check_host(host):
+    files = {
+        file.relative_to(host).as_posix(): file
+        for file in sorted(host.rglob("*"))
+        if file.suffix in (".c", ".h", ".cpp")
+    }
+    if not files:
+        yield f"{host}: no source files"
+    graph = {name: [] for name in files}
+    for name, file in files.items():
+        if name.split("/")[0] not in BELOW:
+            yield f"host/{name}: the folder is no floor that tools/check_floors.py knows"
+            continue
+        for line, quote, target in read_includes(file):
+            own = target in files
+            problem = judge_own(name, target) if own else judge_outside(name, quote, target)
+            if problem:
+                yield f"host/{name}:{line}: {problem}"
+            elif own:
+                graph[name].append(target)
+    cycle = find_cycle(graph)
+    if cycle:
+        yield "host: a circle of includes: " + " -> ".join(cycle)
+
+
+def check_kernels(root):
+    match = re.search(r"set\(kernels\s+([^)]*)\)", (root / "CMakeLists.txt").read_text())
+    order = match[1].split() if match else []
+    present = sorted(file.name for file in (root / "kernels").iterdir())
+    if sorted(order) != present:
+        yield f"CMakeLists.txt lists the kernels {order}, but kernels/ holds {present}"
+        return
+    for place, name in enumerate(order):
+        for line, quote, target in read_includes(root / "kernels" / name):
+            if quote == '"' and target not in order[:place]:
+                yield f"kernels/{name}:{line}: {target} is not before it in CMakeLists.txt's list"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Fails when an #include does not go downward.")
+    own_root = pathlib.Path(__file__).resolve().parent.parent
+    parser.add_argument("--root", type=pathlib.Path, default=own_root, help="the checkout to read")
+    root = parser.parse_args().root
+    problems = [*check_host(root / "host"), *check_kernels(root)]
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
