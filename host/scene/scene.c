@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The course's constants (research: the course framework, sections 3 and 4) and a scene's memory.
+// The constants of the UvA course "Graphics and Game Technology" and a scene's memory.
 #include "scene/scene.h"
 
 #include "base/trigonometry.h"

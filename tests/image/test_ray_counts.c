@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The renderer's counters against the ray counts of the course's tracer (research: the course
-// framework, section 10).  Rays along an edge may fall on either side of it.
+// The renderer's counters against those of the course's own tracer on its scenes.  Rays along an
+// edge may fall on either side of it.
 #include "image/course.h"
 #include "image/picture.h"
 #include "unit/cmocka_all.h"

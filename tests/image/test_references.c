@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The renderer against the course's own pictures (research: the course framework, section 10).
+// The renderer against the course's own pictures.
 // They stem from a float tracer with another triangle test, so a few pixels on edges differ; the
 // oracle must see the edge at each.
 #include "image/comparison.h"

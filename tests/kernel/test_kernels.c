@@ -130,7 +130,7 @@ static SphereCase sphere_case(double radius, double distance, uint64_t *random)
 
 #define CASES 20000
 
-// numerics.md: two-float spheres of radius 1 stay right to a distance of 1e4 and their distance
+// Two-float spheres of radius 1 stay right to a distance of 1e4 and their distance
 // within 3e-7; plain floats get a quarter of these rays wrong at 1e4.
 static void far_spheres_are_hit_and_missed_as_exactly(void **state)
 {

@@ -41,7 +41,7 @@ static cl_mem make_room(const RayBatch *batch, size_t size)
 }
 
 // Runs a kernel over the first count rays in the buffer.
-static void launch(const RayBatch *batch, BatchTask task, cl_uint count)
+static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *error)
 {
     const size_t grid = BATCH_GRID, group = BATCH_GROUP;
     cl_kernel kernel = batch->kernels[task];
@@ -52,44 +52,61 @@ static void launch(const RayBatch *batch, BatchTask task, cl_uint count)
     status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &batch->rays);
     status |= clSetKernelArg(kernel, 5, sizeof count, &count);
     status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &batch->hits);
-    require_success(status, "set the arguments of a kernel");
+    if (!cl_succeeded(status, "set the arguments of a kernel", error))
+        return false;
     status =
         clEnqueueNDRangeKernel(batch->device.queue, kernel, 1, NULL, &grid, &group, 0, NULL, NULL);
-    require_success(status, "run a kernel");
+    return cl_succeeded(status, "run a kernel", error);
 }
 
-static void build(RayBatch *batch, const char *kernel_folder)
+static void run(const RayBatch *batch, BatchTask task, size_t count)
 {
     Error error = {0};
-    File file = {0};
+    require(launch(batch, task, (cl_uint)count, &error), &error);
+}
+
+static bool build(RayBatch *batch, const ProgramSource *source, Error *error)
+{
     const SceneTraits traits = traits_general(false);
-    require(file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error), &error);
-    const ProgramSource source = {
-        .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
-        .appended = file.bytes};
-    require(program_build(&batch->program, &batch->device, &source, &traits, &error), &error);
-    file_free(&file);
+    if (!program_build(&batch->program, &batch->device, source, &traits, error))
+        return false;
     for (int task = 0; task < BATCH_TASKS; task++) {
         cl_int status;
         batch->kernels[task] = clCreateKernel(batch->program.handle, kernel_names[task], &status);
-        require_success(status, kernel_names[task]);
-        launch(batch, (BatchTask)task, 0);
+        if (!cl_succeeded(status, kernel_names[task], error) ||
+            !launch(batch, (BatchTask)task, 0, error))
+            return false;
     }
-    require_success(clFinish(batch->device.queue), "finish the first runs");
+    return cl_succeeded(clFinish(batch->device.queue), "finish the first runs", error);
+}
+
+// Ends the test only after the lock is given back: the next test of the process waits for it.
+static void build_locked(RayBatch *batch, const ProgramSource *source)
+{
+    Error error = {0};
+    const int lock = cache_lock(&batch->cache);
+    const bool ok = build(batch, source, &error);
+    cache_unlock(lock);
+    require(ok, &error);
 }
 
 void ray_batch_open(RayBatch *batch, const char *kernel_folder)
 {
     Error error = {0};
+    File file = {0};
     *batch = (RayBatch){0};
     cache_open(&batch->cache);
-    require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error), &error);
+    require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&
+                file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error),
+            &error);
     batch->rays = make_room(batch, BATCH_GRID * sizeof(TestRay));
     batch->hits = make_room(batch, BATCH_GRID * sizeof(TestHit));
     ray_batch_upload(batch, &(FlatScene){0});
-    const int lock = cache_lock(&batch->cache);
-    build(batch, kernel_folder);
-    cache_unlock(lock);
+    const ProgramSource source = {
+        .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
+        .appended = file.bytes};
+    build_locked(batch, &source);
+    file_free(&file);
 }
 
 static void release_scene(RayBatch *batch)
@@ -169,7 +186,7 @@ void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays,
     for (size_t first = 0; first < count; first += BATCH_GRID) {
         const size_t chunk = chunk_of(first, count);
         write_rays(batch, rays + first, chunk);
-        launch(batch, task, (cl_uint)chunk);
+        run(batch, task, chunk);
         read_hits(batch, hits + first, chunk);
     }
 }
@@ -178,7 +195,7 @@ void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
 {
     assert_true(batch->frame.triangle_count <= BATCH_GRID);
     write_rays(batch, ray, 1);
-    launch(batch, BATCH_EACH, batch->frame.triangle_count);
+    run(batch, BATCH_EACH, batch->frame.triangle_count);
     read_hits(batch, hits, batch->frame.triangle_count);
 }
 
@@ -192,7 +209,7 @@ void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes,
         batch->triangles = make_buffer(batch, NULL, 0);
         batch->nodes = make_buffer(batch, nodes + first, chunk * sizeof *nodes);
         write_rays(batch, rays + first, chunk);
-        launch(batch, BATCH_BOXES, (cl_uint)chunk);
+        run(batch, BATCH_BOXES, chunk);
         read_hits(batch, hits + first, chunk);
     }
 }
