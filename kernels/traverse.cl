@@ -32,7 +32,8 @@ typedef struct {
 } Hit;
 
 // The ray as six planes' constants: distance to a plane = fma(plane, inverse, offset).  A zero
-// direction is replaced by 2^-30 of the largest, so that no infinity or NaN can arise.
+// direction is replaced by 2^-30 of the largest, so that no infinity or NaN can arise from rays
+// whose largest component is above 2^-96; shorter ones have no length to speak of.
 typedef struct {
     float3 inverse, near_offset, far_offset;
     uint negative_x, negative_y, negative_z; // which plane of each axis the ray meets first

@@ -7,6 +7,7 @@ set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+export LSAN_OPTIONS=suppressions=$root/tests/memory/leaks.supp:print_suppressions=0
 failed=0
 for scene in "$@"; do
   for command in "valgrind -q --error-exitcode=9 --leak-check=full --suppressions=$root/tests/memory/drivers.supp $root/build/release/clrt" \

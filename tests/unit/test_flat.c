@@ -58,12 +58,17 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
 static void sphere_parts_add_up_to_the_double(void **state)
 {
     (void)state;
-    Flattened all = flattened("sphere 0.1 0.2 0.3 0.7", true);
+    Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
     const Normalization frame = normalization_of(&all.scene);
     const SphereData *sphere = &all.flat.spheres[0];
     const double radius = (double)sphere->radius + (double)sphere->radius_low;
     assert_true(fabs(radius - 0.7 * frame.scale) < 0x1p-48);
     assert_true(sphere->radius_low != 0);
+    const Vec3 center = normalize_point(&frame, vec3(0.1, 0.2, 0.3));
+    const double x = (double)sphere->center[0] + (double)sphere->center_low[0];
+    const double z = (double)sphere->center[2] + (double)sphere->center_low[2];
+    assert_true(fabs(x - center.x) < 0x1p-48 && fabs(z - center.z) < 0x1p-48);
+    assert_true(sphere->center_low[0] != 0 && sphere->center_low[2] != 0);
     release(&all);
 }
 

@@ -107,7 +107,7 @@ static inline double shape_curve(Vec3 p, const Vec3 control[4], double radius_a,
     double field = HUGE_VAL, radius = radius_a;
     Vec3 start = control[0];
     for (int piece = 1; piece <= PIECES; piece++) {
-        const double t = (double)piece / PIECES, s = 1 - t;
+        const double t = (double)piece / (double)PIECES, s = 1 - t;
         const Vec3 first =
             vec3_add(vec3_scale(control[0], s * s * s), vec3_scale(control[1], 3 * s * s * t));
         const Vec3 second =
