@@ -4,8 +4,8 @@
 // are the same on every device that rounds these correctly.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
-#include "shared.h"
 #include "config.h"
+#include "shared.h"
 
 #pragma OPENCL FP_CONTRACT OFF
 

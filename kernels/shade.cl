@@ -56,8 +56,8 @@ static inline float2 light_received(const SceneView *scene, const FrameData *fra
             continue;
         sum.x += intensity * cosine;
         if (CLRT_SPECULAR && material->shader == SHADER_BLINN_PHONG)
-            sum.y += intensity * highlight(material, surface->normal,
-                                           half_vector_of(surface, toward_light));
+            sum.y += intensity *
+                     highlight(material, surface->normal, half_vector_of(surface, toward_light));
     }
     return min(sum, (float2)(BRIGHTEST));
 }

@@ -36,8 +36,8 @@ typedef struct {
     float kd;
     float specular[3];
     float ks;
-    uint shader;    // a Shader
-    uint exponent;  // the shininess where it is an integer up to 1024, else UINT_MAX
+    uint shader;   // a Shader
+    uint exponent; // the shininess where it is an integer up to 1024, else UINT_MAX
     float shininess;
     float reflectivity;
 } Material;

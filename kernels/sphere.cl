@@ -130,8 +130,8 @@ static inline float sphere_distance(global const SphereData *sphere, float3 orig
     return near > 0.0f ? near : far > 0.0f ? far : INFINITY;
 }
 
-// Where the ray that meets the sphere at t does so.  The point on the ray is pulled onto the sphere,
-// so that its error is that of rounding it, whatever the radius.
+// Where the ray that meets the sphere at t does so.  The point on the ray is pulled onto the
+// sphere, so that its error is that of rounding it, whatever the radius.
 static inline float3 sphere_point(global const SphereData *sphere, float3 origin, float3 d, float t,
                                   float3 *normal)
 {
@@ -144,14 +144,14 @@ static inline float3 sphere_point(global const SphereData *sphere, float3 origin
     const float pull = 0.5f * inside / sphere->radius;
     const float3 n = unit_vector((float3)(q.x.high, q.y.high, q.z.high));
     *normal = n;
-    return (float3)(
-        two_add(two_add(q.x, (TwoFloat){pull * n.x, 0.0f}), sphere_center(sphere, 0)).high,
-        two_add(two_add(q.y, (TwoFloat){pull * n.y, 0.0f}), sphere_center(sphere, 1)).high,
-        two_add(two_add(q.z, (TwoFloat){pull * n.z, 0.0f}), sphere_center(sphere, 2)).high);
+    return (
+        float3)(two_add(two_add(q.x, (TwoFloat){pull * n.x, 0.0f}), sphere_center(sphere, 0)).high,
+                two_add(two_add(q.y, (TwoFloat){pull * n.y, 0.0f}), sphere_center(sphere, 1)).high,
+                two_add(two_add(q.z, (TwoFloat){pull * n.z, 0.0f}), sphere_center(sphere, 2)).high);
 }
 
-// sphere_distance for a ray that starts on this sphere: its near root is zero by construction, and the
-// chord to the far wall is kept where it is longer than the origin's own error.
+// sphere_distance for a ray that starts on this sphere: its near root is zero by construction, and
+// the chord to the far wall is kept where it is longer than the origin's own error.
 static inline float sphere_chord(global const SphereData *sphere, float3 origin, float3 d)
 {
     const float b = -two_dot(sphere_to_origin(sphere, origin), d).high;

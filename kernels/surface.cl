@@ -9,8 +9,8 @@
 
 typedef struct {
     float3 point;
-    float3 normal; // unit, interpolated, what is shaded with
-    float3 face;   // unit, of the true surface, on the side the ray came from
+    float3 normal;        // unit, interpolated, what is shaded with
+    float3 face;          // unit, of the true surface, on the side the ray came from
     float3 toward_viewer; // unit
     uint id, material;
 } Surface;
@@ -28,9 +28,9 @@ static inline float3 triangle_normal(const SceneView *scene, uint corners, float
     if (corners == NOTHING)
         return face;
     global const CornerNormals *data = &scene->normals[corners];
-    const float3 normal = unit_vector(weights.x * load3(data->normals[0]) +
-                                      weights.y * load3(data->normals[1]) +
-                                      weights.z * load3(data->normals[2]));
+    const float3 normal =
+        unit_vector(weights.x * load3(data->normals[0]) + weights.y * load3(data->normals[1]) +
+                    weights.z * load3(data->normals[2]));
     return largest_component(normal) > 0.0f ? normal : face;
 }
 

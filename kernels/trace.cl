@@ -15,8 +15,7 @@ static inline Ray camera_ray(const FrameData *frame, uint sample_x, uint sample_
     const float3 right =
         (float3)(camera->right_step[0], camera->right_step[1], camera->right_step[2]);
     const float3 down = (float3)(camera->down_step[0], camera->down_step[1], camera->down_step[2]);
-    const float3 forward =
-        (float3)(camera->forward[0], camera->forward[1], camera->forward[2]);
+    const float3 forward = (float3)(camera->forward[0], camera->forward[1], camera->forward[2]);
     const float3 direction = fma((float3)(x), right, fma((float3)(y), down, forward));
     return (Ray){eye, direction, NOTHING, RAY_CAMERA, eye};
 }

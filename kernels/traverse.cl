@@ -77,12 +77,12 @@ static inline void slabs_meet(global const BvhPair *node, const Slabs *slabs, fl
                               (float2)(slabs->near_offset.y));
     const float2 near_z = fma(plane_pair(node, 2, slabs->negative_z), (float2)(slabs->inverse.z),
                               (float2)(slabs->near_offset.z));
-    const float2 far_x = fma(plane_pair(node, 0, 1 - slabs->negative_x),
-                             (float2)(slabs->inverse.x), (float2)(slabs->far_offset.x));
-    const float2 far_y = fma(plane_pair(node, 1, 1 - slabs->negative_y),
-                             (float2)(slabs->inverse.y), (float2)(slabs->far_offset.y));
-    const float2 far_z = fma(plane_pair(node, 2, 1 - slabs->negative_z),
-                             (float2)(slabs->inverse.z), (float2)(slabs->far_offset.z));
+    const float2 far_x = fma(plane_pair(node, 0, 1 - slabs->negative_x), (float2)(slabs->inverse.x),
+                             (float2)(slabs->far_offset.x));
+    const float2 far_y = fma(plane_pair(node, 1, 1 - slabs->negative_y), (float2)(slabs->inverse.y),
+                             (float2)(slabs->far_offset.y));
+    const float2 far_z = fma(plane_pair(node, 2, 1 - slabs->negative_z), (float2)(slabs->inverse.z),
+                             (float2)(slabs->far_offset.z));
     *entry = max(max(near_x, near_y), max(near_z, (float2)(0.0f)));
     *leave = min(min(far_x, far_y), min(far_z, (float2)(reach)));
 }

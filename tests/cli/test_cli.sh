@@ -85,6 +85,7 @@ check "devices are listed" run 0 --list-devices
 check "... as clinfo prints them" grep -q "^Platform #0: " out
 device=$(sed -n 's/.*Device #0: //p' out | head -n 1)
 check "a device is taken by its indices" pixels a.pfm --device 0:0
+check "a device is taken by its type" pixels a.pfm --device cpu
 check "a device is taken by part of its name" pixels a.pfm --device "${device:0:5}"
 
 check "a picture is written" pixels plain.pfm -q

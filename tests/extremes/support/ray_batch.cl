@@ -87,6 +87,5 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const Slabs slabs = slabs_of(&ray);
     float2 entry, leave;
     slabs_meet(&nodes[place], &slabs, INFINITY, &entry, &leave);
-    hits[place] =
-        (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
+    hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
