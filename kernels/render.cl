@@ -53,7 +53,7 @@ kernel void render_tile(const FrameData frame, global const PointLight *lights,
     Tally tally = {0};
     const uint2 pixel = (uint2)(frame.tile_x + column, frame.tile_y + row);
     const float3 color = pixel_color(&scene, &frame, pixel, &tally);
-    const uint place = row * frame.tile_width + column;
+    const size_t place = (size_t)row * frame.tile_width + column;
     vstore3(color, place, pixels);
     if (CLRT_STATISTICS)
         store_tally(tallies + place * TALLY_KINDS, &tally);

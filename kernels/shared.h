@@ -2,7 +2,7 @@
 // The vocabulary host and kernels share: compiled twice, as C17 and as OpenCL C, and meaning the
 // same bytes in both.  Members are float, uint and arrays of them; every struct is a multiple of
 // 16 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout on the
-// device.  All positions are in the normalized frame (host/scene/frame.h).
+// device.  All positions are in the normalized frame (host/scene/normalize.h).
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
 

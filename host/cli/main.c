@@ -13,6 +13,7 @@
 #include "scene/camera.h"
 #include "scene/scn.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -201,6 +202,8 @@ static ExitCode render(Run *run, Error *error)
         return EXIT_OUTPUT;
     if (!prepare_scene(run, error))
         return EXIT_SCENE;
+    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+        return EXIT_OUTPUT;
     if (!open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
@@ -266,7 +269,13 @@ static ExitCode perform(int count, char **words, Error *error)
 int main(int count, char **words)
 {
     Error error = {0};
-    const ExitCode code = perform(count, words, &error);
+    // A reader that leaves early is a failed write, to be told and cleaned up after.
+    signal(SIGPIPE, SIG_IGN);
+    ExitCode code = perform(count, words, &error);
+    if (code == EXIT_DONE && (fflush(stdout) != 0 || ferror(stdout))) {
+        error_set(&error, "standard output cannot be written");
+        code = EXIT_OUTPUT;
+    }
     if (error.text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", error.text);
     return (int)code;

@@ -330,8 +330,10 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
     if (optind >= count)
         return error_set(error, "no scene is named; clrt --help shows the usage");
     if (optind + 1 < count)
-        return error_set(error, "one scene at a time: '%s' comes after '%s'", words[optind + 1],
-                         words[optind]);
+        return error_set(error,
+                         "one scene at a time: '%s' comes after '%s' (values of --aa and --stats "
+                         "need an equals sign)",
+                         words[optind + 1], words[optind]);
     options->scene_path = words[optind];
     return check_output(options, error);
 }

@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,17 +17,26 @@ static void stop(int signal_number)
     stopped_by = signal_number;
 }
 
-Progress progress_begin(bool silent)
+// A signal that is ignored, as in a background job, stays so.
+static void take_signal(int number, struct sigaction *before)
 {
     // SA_RESETHAND: the second signal meets the default action.
     struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    sigaction(number, NULL, before);
+    if (before->sa_handler != SIG_IGN)
+        sigaction(number, &action, NULL);
+}
+
+Progress progress_begin(bool silent)
+{
     const char *kind = getenv("TERM");
     const bool dumb = kind == NULL || strcmp(kind, "dumb") == 0;
-    return (Progress){
+    Progress progress = {
         .silent = silent, .terminal = isatty(STDERR_FILENO) && !dumb, .start = clock_seconds()};
+    take_signal(SIGINT, &progress.interrupt);
+    take_signal(SIGTERM, &progress.terminate);
+    return progress;
 }
 
 static void print_progress(Progress *progress, double done, double elapsed)
@@ -59,5 +67,7 @@ int progress_end(Progress *progress)
     if (progress->line_open)
         fprintf(stderr, "\r\033[K");
     progress->line_open = false;
+    sigaction(SIGINT, &progress->interrupt, NULL);
+    sigaction(SIGTERM, &progress->terminate, NULL);
     return stopped_by;
 }

@@ -4,19 +4,24 @@
 
 #include "render/renderer.h"
 
+#include <signal.h>
+
 typedef struct {
     bool silent;
-    bool terminal;    // standard error is one: a line that rewrites itself
-    double start;     // seconds of the clock
-    unsigned printed; // percent in the last plain line
-    bool line_open;   // a rewriting line stands unfinished
+    bool terminal;                         // standard error is one: a line that rewrites itself
+    double start;                          // seconds of the clock
+    unsigned printed;                      // percent in the last plain line
+    bool line_open;                        // a rewriting line stands unfinished
+    struct sigaction interrupt, terminate; // what the signals did before
 } Progress;
 
-// Takes over SIGINT and SIGTERM: the first asks tile_done to stop, the second ends the process.
+// Takes over SIGINT and SIGTERM where they are not ignored: the first asks tile_done to stop, the
+// second ends the process.
 Progress progress_begin(bool silent);
 
 // The observer's function; context is a Progress.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
-// Clears the line and returns the signal that asked to stop, 0 where none did.
+// Clears the line, gives the signals back and returns the signal that asked to stop, 0 where none
+// did.
 int progress_end(Progress *progress);

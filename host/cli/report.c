@@ -94,12 +94,27 @@ static json_t *seconds_json(const Report *report)
                      report->trace, "write", report->write, "total", report->total);
 }
 
+// JSON is UTF-8 and a path need not be: bytes past ASCII in one that is not become '?'.
+static json_t *path_json(const char *path)
+{
+    char shown[4096];
+    json_t *valid = json_string(path);
+    if (valid != NULL)
+        return valid;
+    snprintf(shown, sizeof shown, "%s", path);
+    for (char *c = shown; *c != '\0'; c++)
+        if ((unsigned char)*c >= 0x80)
+            *c = '?';
+    return json_string(shown);
+}
+
 static json_t *scene_json(const Report *report, const ReportTexts *texts)
 {
-    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "path", report->options->scene_path, "hash",
-                     texts->scene_hash, "lights", integer(report->lights), "spheres",
-                     integer(report->spheres), "triangles", integer(report->triangles),
-                     "dropped_triangles", integer(report->dropped_triangles));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "path",
+                     path_json(report->options->scene_path), "hash", texts->scene_hash, "lights",
+                     integer(report->lights), "spheres", integer(report->spheres), "triangles",
+                     integer(report->triangles), "dropped_triangles",
+                     integer(report->dropped_triangles));
 }
 
 static json_t *tree_json(const Report *report)
@@ -143,7 +158,7 @@ bool report_write_json(const Report *report, const char *path, Error *error)
     char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_SORT_KEYS);
     json_decref(root);
     if (text == NULL)
-        return error_set(error, "the statistics cannot be written as JSON");
+        return error_set(error, "%s: the statistics cannot be written as JSON", path);
     FILE *stream = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
     bool ok = stream != NULL && fprintf(stream, "%s\n", text) > 0 && fflush(stream) == 0;
     if (stream != NULL && stream != stdout)

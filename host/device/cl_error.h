@@ -10,5 +10,5 @@
 // True for CL_SUCCESS; otherwise records "cannot ATTEMPT: CL_..." and returns false.
 bool cl_succeeded(cl_int status, const char *attempt, Error *error);
 
-// "CL_OUT_OF_RESOURCES"; the number where OpenCL 1.2 has no name for it.
+// "CL_OUT_OF_RESOURCES"; words that say so for a code that is not in the list.
 const char *cl_error_name(cl_int status);

@@ -8,9 +8,8 @@ typedef struct {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
-    char name[256];    // as the driver gives it
-    char version[256]; // of the driver
-    cl_device_type type;
+    char name[256];              // as the driver gives it
+    char version[256];           // of the driver
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool correct_division; // offers correctly rounded divide and square root

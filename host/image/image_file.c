@@ -7,12 +7,15 @@
 #include "image/pfm.h"
 
 #include <errno.h>
-#include <libgen.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+// libjpeg ends the process past it.
+#define JPEG_SIZE_MAX 65500
 
 typedef struct {
     const char *name;   // also the usual ending
@@ -64,34 +67,78 @@ void image_prepare(const char *format)
         image_loader_start();
 }
 
+static bool is_replaceable(const char *path)
+{
+    struct stat status;
+    return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
+}
+
+// Makes an empty file for the unfinished picture, in the folder of path, so that it can be renamed
+// to it, or among the system's temporary files, and returns its name.
+static char *temporary_file(const char *path, bool beside, Error *error)
+{
+    const char *slash = strrchr(path, '/');
+    const char *system = getenv("TMPDIR");
+    const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
+    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+    const size_t size = strlen(path) + strlen(folder) + 32;
+    char *name = memory_raw(size, 1, error);
+    if (name == NULL)
+        return NULL;
+    if (beside)
+        snprintf(name, size, "%.*s.clrt-XXXXXX", (int)length, path);
+    else
+        snprintf(name, size, "%s/clrt-XXXXXX", folder);
+    const int file = mkstemp(name);
+    if (file >= 0) {
+        const mode_t mask = umask(0);
+        umask(mask);
+        fchmod(file, 0666 & ~mask);
+        close(file);
+        return name;
+    }
+    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    free(name);
+    return NULL;
+}
+
 bool image_check_path(const char *path, Error *error)
 {
     struct stat status;
-    if (strcmp(path, "-") == 0)
-        return true;
-    if (stat(path, &status) == 0) {
-        if (S_ISDIR(status.st_mode))
-            return error_set(error, "%s: cannot be written: it is a folder", path);
-        return access(path, W_OK) == 0 ||
-               error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    const bool exists = stat(path, &status) == 0;
+    if (path[strlen(path) - 1] == '/' || (exists && S_ISDIR(status.st_mode)))
+        return error_set(error, "%s: cannot be written: it is a folder", path);
+    if (!is_replaceable(path)) {
+        const bool writable = strcmp(path, "-") == 0 || access(path, W_OK) == 0;
+        return writable || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
     }
-    char *copy = strdup(path);
-    if (copy == NULL)
-        return error_out_of_memory(error, strlen(path));
-    const bool writable = access(dirname(copy), W_OK | X_OK) == 0;
-    free(copy);
-    return writable || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    char *temporary = temporary_file(path, true, error);
+    if (temporary == NULL)
+        return false;
+    unlink(temporary);
+    free(temporary);
+    return strlen(strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path) <= NAME_MAX ||
+           error_set(error, "%s: cannot be written: the name is too long", path);
 }
 
-static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
-                            const ImageSettings *settings, Error *error)
+bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error)
 {
-    ImageModuleWrite *write = image_loader_finish(error);
+    const char *module = find_format(format)->module;
+    const bool is_jpeg = module != NULL && strcmp(module, "jpeg") == 0;
+    return !is_jpeg || (width <= JPEG_SIZE_MAX && height <= JPEG_SIZE_MAX) ||
+           error_set(error, "a JPEG has at most %d pixels a side", JPEG_SIZE_MAX);
+}
+
+// These name the reason alone; image_write names the picture.
+static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
+                            const ImageSettings *settings, Error *cause)
+{
+    ImageModuleWrite *write = image_loader_finish(cause);
     unsigned char *bytes = NULL;
     if (write == NULL)
         return false;
     if (!format->is_float) {
-        bytes = encode_bytes(framebuffer, settings->encoding, error);
+        bytes = encode_bytes(framebuffer, settings->encoding, cause);
         if (bytes == NULL)
             return false;
     }
@@ -108,28 +155,27 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
     };
     const bool ok = write(&picture, message, sizeof message);
     free(bytes);
-    return ok || error_set(error, "%s: cannot be written: %s", path, message);
+    return ok || error_set(cause, "%s", message);
 }
 _Static_assert(sizeof(ImageText) == 2 * sizeof(char *), "texts are read as pairs of strings");
 
-static bool write_pfm(const Framebuffer *framebuffer, const char *path, Error *error)
+static bool write_pfm(const Framebuffer *framebuffer, const char *path, Error *cause)
 {
     FILE *stream = fopen(path, "wb");
     if (stream == NULL)
-        return error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+        return error_set(cause, "%s", strerror(errno));
     const bool written = pfm_write(framebuffer, stream);
     const bool closed = fclose(stream) == 0;
-    return (written && closed) ||
-           error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    return (written && closed) || error_set(cause, "%s", strerror(errno));
 }
 
 static bool write_format(const Framebuffer *framebuffer, const char *path,
-                         const ImageSettings *settings, Error *error)
+                         const ImageSettings *settings, Error *cause)
 {
     const Format *format = find_format(settings->format);
     if (format->module == NULL)
-        return write_pfm(framebuffer, path, error);
-    return write_by_module(framebuffer, path, format, settings, error);
+        return write_pfm(framebuffer, path, cause);
+    return write_by_module(framebuffer, path, format, settings, cause);
 }
 
 static bool copy_stream(FILE *from, FILE *to)
@@ -143,15 +189,16 @@ static bool copy_stream(FILE *from, FILE *to)
 }
 
 // Pipes and devices cannot be replaced by a file: the finished bytes are copied into them.
-static bool copy_file(const char *from, const char *path, Error *error)
+static bool copy_file(const char *from, const char *path, Error *cause)
 {
     const bool standard = strcmp(path, "-") == 0;
     FILE *source = fopen(from, "rb");
     FILE *target = standard ? stdout : fopen(path, "wb");
+    // Gone by name already, so that nothing is left of it if the process is ended here.
+    unlink(from);
     const bool ok = source != NULL && target != NULL && copy_stream(source, target);
     if (!ok)
-        error_set(error, "%s: cannot be written: %s", standard ? "standard output" : path,
-                  strerror(errno));
+        error_set(cause, "%s", strerror(errno));
     if (source != NULL)
         fclose(source);
     if (target != NULL && !standard)
@@ -159,53 +206,24 @@ static bool copy_file(const char *from, const char *path, Error *error)
     return ok;
 }
 
-static bool is_replaceable(const char *path)
-{
-    struct stat status;
-    return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
-}
-
-// A name for the unfinished file: beside its final place, so that it can be renamed into it.
-static char *temporary_name(const char *path, bool beside, Error *error)
-{
-    const char *folder = getenv("TMPDIR");
-    if (folder == NULL || folder[0] != '/')
-        folder = "/tmp";
-    const size_t size = strlen(path) + strlen(folder) + 32;
-    char *name = memory_raw(size, 1, error);
-    if (name == NULL)
-        return NULL;
-    if (beside)
-        snprintf(name, size, "%s.XXXXXX", path);
-    else
-        snprintf(name, size, "%s/clrt-XXXXXX", folder);
-    const int file = mkstemp(name);
-    if (file >= 0) {
-        const mode_t mask = umask(0);
-        umask(mask);
-        fchmod(file, 0666 & ~mask);
-        close(file);
-        return name;
-    }
-    error_set(error, "%s: cannot be written: %s", name, strerror(errno));
-    free(name);
-    return NULL;
-}
-
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error)
 {
     const bool replaceable = is_replaceable(path);
-    char *temporary = temporary_name(path, replaceable, error);
+    char *temporary = temporary_file(path, replaceable, error);
     if (temporary == NULL)
         return false;
-    bool ok = write_format(framebuffer, temporary, settings, error);
+    Error cause = {0};
+    bool ok = write_format(framebuffer, temporary, settings, &cause);
     if (ok && !replaceable)
-        ok = copy_file(temporary, path, error);
+        ok = copy_file(temporary, path, &cause);
     if (ok && replaceable && rename(temporary, path) != 0)
-        ok = error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    if (!ok || !replaceable)
+        ok = error_set(&cause, "%s", strerror(errno));
+    if (!ok) {
         unlink(temporary);
+        error_set(error, "%s: cannot be written: %s",
+                  strcmp(path, "-") == 0 ? "standard output" : path, cause.text);
+    }
     free(temporary);
     return ok;
 }

@@ -32,10 +32,14 @@ const char *image_format_names(void);
 // Starts loading what writing the format needs; returns at once.
 void image_prepare(const char *format);
 
-// Whether a file at path could be written: fails where its folder is not there or not writable.
-// Asked before the picture is traced, so that no work is lost.
+// Whether a picture can be written to path, as far as that shows beforehand: asked before the
+// picture is traced, so that no work is lost.
 bool image_check_path(const char *path, Error *error);
 
-// Writes the picture to path ("-": standard output).  The file appears whole or not at all.
+// Whether the format has room for a picture of that size.
+bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error);
+
+// Writes the picture to path ("-": standard output).  A new or regular file appears whole or not
+// at all; into links, pipes and devices the finished bytes are copied.
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);

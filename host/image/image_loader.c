@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 #include <libgen.h>
+#include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -13,12 +14,12 @@ static struct {
     bool started;
     void *module;
     char message[512];
-} loader;
+} loader = {.message = "no thread could be started for it"};
 
 static void *open_module(void *unused)
 {
     (void)unused;
-    char program[512], path[1200];
+    char program[PATH_MAX], path[2 * PATH_MAX];
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = '\0';
     const char *folder = dirname(program);

@@ -76,6 +76,9 @@ static bool specialization_pays(const RendererSetup *setup, const SceneTraits *s
     char key[PROGRAM_KEY_SIZE];
     if (settings->specialization != SPECIALIZE_AUTO)
         return settings->specialization == SPECIALIZE_ALWAYS;
+    // Kernels under development change too often for marks to mean anything.
+    if (setup->source.kernel_folder != NULL)
+        return false;
     program_key(setup->device, &setup->source, special, key);
     return cache_has_mark(setup->cache, key) ||
            expected_saving(setup->device, settings) > COMPILE_SECONDS;

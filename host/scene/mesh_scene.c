@@ -2,6 +2,7 @@
 // Chooses camera distance and lights by the sphere around the mesh's bounds.
 #include "scene/mesh_scene.h"
 
+#include "base/clock.h"
 #include "scene/ply.h"
 
 #include <string.h>
@@ -17,12 +18,12 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
 static double radius_of(const Mesh *mesh, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const double *p = mesh->positions[i];
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        const double *p = mesh->positions[mesh->triangles[i / 3][i % 3]];
         low = vec3(fmin(low.x, p[0]), fmin(low.y, p[1]), fmin(low.z, p[2]));
         high = vec3(fmax(high.x, p[0]), fmax(high.y, p[1]), fmax(high.z, p[2]));
     }
-    if (mesh->vertex_count == 0)
+    if (mesh->triangle_count == 0)
         low = high = vec3(0, 0, 0);
     *center = vec3_scale(vec3_add(low, high), 0.5);
     const Vec3 half = vec3_scale(vec3_sub(high, low), 0.5);
@@ -61,7 +62,9 @@ bool mesh_scene_parse(Scene *scene, const char *bytes, size_t size, const char *
 {
     Vec3 center;
     MeshObject object = {.material = 1, .two_sided = true, .smooth = true};
+    const double start = clock_seconds();
     bool ok = scene_init(scene, error) && ply_parse(&object.mesh, bytes, size, name, error);
+    scene->mesh_seconds = clock_seconds() - start;
     scene_hash_input(scene, bytes, size);
     const double radius = radius_of(&object.mesh, &center);
     const bool kept = ok && array_push(&scene->objects, object, error);

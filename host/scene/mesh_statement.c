@@ -17,9 +17,21 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
+// Normals of any length are read; turned, a component may grow by the root of three.  Only their
+// lengths against each other count, so all of a mesh's are shortened where one could overflow.
+static double normal_scale(const Mesh *mesh)
+{
+    for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (fabsf(mesh->normals[i][axis]) > 0x1p125f)
+                return 0.125;
+    return 1;
+}
+
 static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
 {
     const double sine = sine_of_degrees(degrees), cosine = cosine_of_degrees(degrees);
+    const double scale = normal_scale(mesh);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double *p = mesh->positions[i];
         const Vec3 turned = rotated(vec3(p[0], p[1], p[2]), axis, sine, cosine);
@@ -27,8 +39,8 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
         if (mesh->normals == NULL)
             continue;
         float *n = mesh->normals[i];
-        const Vec3 normal =
-            rotated(vec3((double)n[0], (double)n[1], (double)n[2]), axis, sine, cosine);
+        const Vec3 given = {(double)n[0], (double)n[1], (double)n[2]};
+        const Vec3 normal = rotated(vec3_scale(given, scale), axis, sine, cosine);
         n[0] = (float)normal.x, n[1] = (float)normal.y, n[2] = (float)normal.z;
     }
 }
@@ -93,8 +105,8 @@ static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
     for (size_t i = 0; i < mesh->vertex_count; i++)
         for (int axis = 0; axis < 3; axis++)
             if (!(mesh->positions[i][axis] >= -1e30 && mesh->positions[i][axis] <= 1e30))
-                return tokens_fail(tokens, tokens->last, "the transforms move vertex %zu past 1e30",
-                                   i);
+                return error_set(tokens->error, "%s:%u: the transforms move vertex %zu past 1e30",
+                                 tokens->name, tokens->line, i);
     return true;
 }
 

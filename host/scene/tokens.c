@@ -15,9 +15,11 @@
 
 Tokens tokens_of(const char *text, size_t size, const char *name, Error *error)
 {
-    return (Tokens){.next = text,
+    // Some editors put a byte order mark before UTF-8 text.
+    const bool marked = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
+    return (Tokens){.next = marked ? text + 3 : text,
                     .end = text + size,
-                    .line_start = text,
+                    .line_start = marked ? text + 3 : text,
                     .name = name,
                     .line = 1,
                     .error = error};
@@ -57,13 +59,22 @@ static bool ends_token(char c, bool quoted)
     return quoted ? c == '"' || is_line_end(c) : c == ' ' || c == '\t' || is_line_end(c);
 }
 
+// Without one, the quote is taken for a part of the word, and the message shows it.
+static bool has_closing_quote(const Tokens *tokens)
+{
+    const char *c = tokens->next + 1;
+    while (c < tokens->end && *c != '"' && !is_line_end(*c))
+        c++;
+    return c < tokens->end && *c == '"';
+}
+
 Token tokens_next(Tokens *tokens)
 {
     skip_blanks_and_comment(tokens);
     const unsigned column = (unsigned)(tokens->next - tokens->line_start) + 1;
     Token token = {.line = tokens->line, .column = column};
     if (tokens->next < tokens->end && !is_line_end(*tokens->next)) {
-        const bool quoted = *tokens->next == '"';
+        const bool quoted = *tokens->next == '"' && has_closing_quote(tokens);
         tokens->next += quoted;
         token.text = tokens->next;
         while (tokens->next < tokens->end && !ends_token(*tokens->next, quoted))

@@ -30,7 +30,7 @@ Tokens tokens_of(const char *text, size_t size, const char *name, Error *error);
 Token tokens_next_statement(Tokens *tokens);
 
 // The next token of this line; text is NULL where the line ends.  A token that begins with a
-// double quote runs to the next one, blanks included, and comes back without them.
+// double quote runs to the next one, blanks included, and comes back without the quotes.
 Token tokens_next(Tokens *tokens);
 
 // Whether token is exactly that word.
@@ -46,6 +46,7 @@ bool tokens_integer(Tokens *tokens, int64_t *value, int64_t low, int64_t high);
 // Fails unless the line has ended.
 bool tokens_end(Tokens *tokens);
 
-// Fails at the token (or at the line's end): "name:line:column: WHAT, in 'USAGE'".
+// Fails at the token (or at the line's end): "name:line:column: WHAT: found TOKEN; the
+// statement is 'USAGE'".
 __attribute__((format(printf, 3, 4))) bool tokens_fail(const Tokens *tokens, Token token,
                                                        const char *format, ...);

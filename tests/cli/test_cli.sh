@@ -55,7 +55,9 @@ check "an option without its value is named" refuses 2 "--size wants a value" "$
 check "a value out of range is named" \
   refuses 2 "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '0x5'" --size 0x5 "$scene"
 check "two scenes are one too many" \
-  refuses 2 "one scene at a time: 'b.scn' comes after 'a.scn'" a.scn b.scn -o a.pfm
+  refuses 2 "one scene at a time: 'b.scn' comes after 'a.scn' (values of --aa and --stats need an equals sign)" a.scn b.scn -o a.pfm
+check "a value after a blank is explained" refuses 2 "one scene at a time: '4' comes after \
+'a.scn' (values of --aa and --stats need an equals sign)" a.scn --aa 4 -o a.pfm
 check "an unknown ending is refused before any work" \
   refuses 2 "a.xyz: the ending names no format; this build writes $FORMATS" \
   nowhere.scn -o a.xyz
@@ -69,6 +71,8 @@ printf 'ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n' >l
 check "a lying mesh is exit 3" run 3 lie.ply -o a.pfm
 check "a view that is not there is named" \
   refuses 3 "$scene has 6 viewpoints, so there is no view 7" "$scene" --view 7 -o a.pfm
+check "a picture with the name of a folder is refused before any work" \
+  refuses 5 "no/: cannot be written: it is a folder" nowhere.scn --format pfm -o no/
 check "a folder that is not there is exit 5 before any work" \
   refuses 5 "no/a.pfm: cannot be written: No such file or directory" nowhere.scn -o no/a.pfm
 check "a device that is not there is exit 4" run 4 "$scene" --device nosuchdevice -o a.pfm
@@ -136,6 +140,11 @@ HOME=/proc XDG_CACHE_HOME=/proc POCL_CACHE_DIR='' TMPDIR=$work/cold check "an un
   env -u POCL_CACHE_DIR "$CLRT" "$scene" -s 8x8 -o a.pfm
 check "... and its temporary cache is gone afterwards" test -z "$(ls cold)"
 
+check "a reader that leaves early is exit 5" bash -c \
+  "set -o pipefail; TMPDIR=$work/cold '$CLRT' '$scene' -s 800x800 -o - --format pfm 2>err | head -c 9 >out; \
+  [ \${PIPESTATUS[0]} = 5 ]"
+check "... with its reason" says "clrt: standard output: cannot be written: Broken pipe"
+check "... and leaves nothing behind" test -z "$(ls cold)"
 check "a mesh alone is a scene" run 0 "$source/scenes/cone.ply" -s 32x32 -o a.pfm
 check "a pipe is a scene" bash -c "'$CLRT' <(cat '$source/scenes/simple.scn' | sed 's#ply_file #ply_file $source/scenes/#') -s 8x8 -o a.pfm"
 check "PFM goes to standard output" run 0 "$scene" -s 8x8 -o - --format pfm
@@ -179,6 +188,8 @@ if [ "${FORMATS:-}" != pfm ]; then
   check "... the same as to a file" cmp out a.png
   check "--format decides whatever the ending" pixels odd.bin --format png
   check "... as the same PNG" cmp odd.bin a.png
+  check "a JPEG past its size is refused" refuses 5 "a JPEG has at most 65500 pixels a side" \
+    "$scene" -s 65536x1 -o a.jpg
   check "PNG holds metadata" grep -aq "clrt:scene_hash" a.png
   check "EXR holds metadata" grep -aq "clrt:settings" a.exr
   check "/dev/null takes a picture" run 0 "$scene" -s 8x8 -o /dev/null --format png

@@ -251,6 +251,17 @@ static void transforms_out_of_range_are_refused(void **state)
     assert_non_null(strstr(error.text, "past 1e30"));
 }
 
+static void the_longest_normals_can_be_rotated(void **state)
+{
+    (void)state;
+    Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
+    const float *normal = scene.objects.data[0].mesh.normals[0];
+    // 20 degrees about x: y shrinks by cos - sin, z grows by cos + sin.
+    assert_true(isfinite(normal[2]));
+    assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
+    scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +282,7 @@ int main(void)
         cmocka_unit_test(values_out_of_range_are_refused),
         cmocka_unit_test(a_missing_mesh_is_an_error_at_its_path),
         cmocka_unit_test(transforms_out_of_range_are_refused),
+        cmocka_unit_test(the_longest_normals_can_be_rotated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

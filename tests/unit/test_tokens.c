@@ -75,6 +75,25 @@ static void messages_show_no_control_bytes_and_shorten_long_tokens(void **state)
                         "a.scn:1:1: no: found '?[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx'...");
 }
 
+static void an_unclosed_quote_is_part_of_the_word(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Tokens tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
+    tokens_next_statement(&tokens);
+    assert_true(token_is(tokens_next(&tokens), "\"my"));
+}
+
+static void a_byte_order_mark_is_passed_over(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Tokens tokens = tokens_in("\xef\xbb\xbflight", &error);
+    const Token token = tokens_next_statement(&tokens);
+    assert_true(token_is(token, "light"));
+    assert_int_equal(token.column, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -83,6 +102,8 @@ int main(void)
         cmocka_unit_test(slashes_inside_a_path_are_no_comment),
         cmocka_unit_test(all_three_line_ends_count_one_line),
         cmocka_unit_test(quotes_hold_blanks_together),
+        cmocka_unit_test(an_unclosed_quote_is_part_of_the_word),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(messages_show_no_control_bytes_and_shorten_long_tokens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
