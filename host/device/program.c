@@ -68,7 +68,7 @@ bool program_build(Program *program, const Device *device, const ProgramSource *
                    const SceneTraits *traits, Error *error)
 {
     char options[OPTIONS_SIZE];
-    *program = (Program){.traits = *traits};
+    *program = (Program){0};
     if (!write_options(options, device, source, traits))
         return error_set(error, "the options for the kernels' compiler are too long");
     if (!create_program(program, device, source, error))

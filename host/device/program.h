@@ -11,7 +11,6 @@ extern const size_t kernel_source_size;
 
 typedef struct {
     cl_program handle;
-    SceneTraits traits; // what it was built for
 } Program;
 
 typedef struct {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces and shades by the course's rules and
-// clrt's: what a ray leaves cannot stop it, light shines only where the interpolated normal faces
-// it, and a reflected ray that would enter the surface is mirrored out of it.
+// Traces and shades by the course's rules and clrt's: what a ray leaves cannot stop it, light
+// shines only where the interpolated normal faces it, and a reflected ray that would enter the
+// surface is mirrored out of it.
 #include "oracle/oracle.h"
 
 #include "oracle/surface.h"
