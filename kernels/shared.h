@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The vocabulary host and kernels share: compiled twice, as C17 and as OpenCL C, and meaning the
 // same bytes in both.  Members are float, uint and arrays of them; every struct is a multiple of
-// 16 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout on the
+// 8 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout on the
 // device.  All positions are in the normalized frame (host/scene/normalize.h).
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
@@ -87,6 +87,36 @@ typedef struct {
     uint count[2];
 } BvhPair;
 CLRT_SAME_SIZE(BvhPair, 64)
+
+// Children of a wide node, and triangles of a block: one 256-bit vector of floats.
+#define WIDE 8
+
+// An inner node of the wide tree: its children's boxes side by side, so that one instruction tests
+// a plane of all.  A child is the index of an inner node, or with WIDE_LEAF set that of a block.
+// The children that are there come first; the boxes of missing ones are inverted.
+typedef struct {
+    float planes[3][2][WIDE]; // [axis][low, high][child], grown by the slack of traverse.cl
+    uint child[WIDE];
+    uint child_count;
+    uint padding[7]; // keeps nodes on cache lines of 64 bytes
+} BvhWide;
+CLRT_SAME_SIZE(BvhWide, 256)
+#define WIDE_LEAF 0x80000000u
+
+// A leaf of the wide tree: up to WIDE triangles, component by component.  Places without a
+// triangle hold three corners at the origin, which no ray meets, and the id NOTHING.
+typedef struct {
+    float corners[3][3][WIDE]; // [corner][axis][triangle]
+    uint id[WIDE];             // TRIANGLE_TWO_SIDED may be set
+} TriangleBlock;
+CLRT_SAME_SIZE(TriangleBlock, 320)
+
+// What shading a triangle of a block takes beside its corners, by triangle in file order.
+typedef struct {
+    uint material; // index
+    uint normals;  // index of its CornerNormals, NOTHING where it is flat
+} TriangleLook;
+CLRT_SAME_SIZE(TriangleLook, 8)
 
 // A camera ray's direction is forward + x * right_step + y * down_step, where x and y are the odd
 // numbers 2 * sample + 1 - samples across the picture: exact in float and mirror symmetric.
