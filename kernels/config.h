@@ -24,4 +24,12 @@
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif
 
+// Choices of the user's, which host/device/kernel_choice.c sets.
+#ifndef CLRT_WIDE_NODES
+#define CLRT_WIDE_NODES 0 // BvhWide and TriangleBlock take the places of BvhPair and TriangleData
+#endif
+#ifndef CLRT_PACKET
+#define CLRT_PACKET 0 // a work-item renders a block of pixels
+#endif
+
 #endif

@@ -43,8 +43,8 @@ static inline void store_tally(global uint *counts, const Tally *tally)
 kernel void render_tile(const FrameData frame, global const PointLight *lights,
                         global const Material *materials, global const SphereData *spheres,
                         global const BvhPair *nodes, global const TriangleData *triangles,
-                        global const CornerNormals *normals, global float *pixels,
-                        global uint *tallies)
+                        global const TriangleLook *looks, global const CornerNormals *normals,
+                        global float *pixels, global uint *tallies)
 {
     const uint column = get_global_id(0), row = get_global_id(1);
     if (column >= frame.tile_width || row >= frame.tile_height)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Flattens a scene: everything but the tree, which flat_tree.c lays out.
+// Flattens a scene: everything but the triangles and their tree, which flat_pair.c and flat_wide.c
+// lay out.
 #include "accel/flat.h"
 
-#include "accel/flat_tree.h"
+#include "accel/flat_pair.h"
+#include "accel/flat_wide.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static void split_float(double value, float *high, float *low)
 {
@@ -77,17 +78,16 @@ static bool object_is_smooth(const MeshObject *object)
     return object->smooth && object->mesh.normals != NULL;
 }
 
-// Everything of a triangle but its corners, which the tree's order decides the place of.
-static void flatten_object(FlatScene *flat, const MeshObject *object, TriangleData *triangles)
+// A look carries the mark of two-sided triangles until the layout moves it to its place.
+static void flatten_object(FlatScene *flat, const MeshObject *object, TriangleLook *looks)
 {
     for (size_t i = 0; i < object->mesh.triangle_count; i++) {
-        triangles[i].material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
-        triangles[i].normals = NOTHING;
+        looks[i].material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
+        looks[i].normals = NOTHING;
         if (!object_is_smooth(object))
             continue;
-        triangles[i].normals = flat->normals_count++;
-        flatten_normals(&flat->normals[triangles[i].normals], &object->mesh,
-                        object->mesh.triangles[i]);
+        looks[i].normals = flat->normals_count++;
+        flatten_normals(&flat->normals[looks[i].normals], &object->mesh, object->mesh.triangles[i]);
     }
 }
 
@@ -100,42 +100,19 @@ static size_t smooth_triangle_count(const Scene *scene)
     return count;
 }
 
-static bool allocate(FlatScene *flat, const Scene *scene, const Bvh *bvh, Error *error)
+static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
 {
     flat->light_count = (uint32_t)scene->lights.count;
     flat->material_count = (uint32_t)scene->materials.count;
     flat->sphere_count = (uint32_t)scene->spheres.count;
     flat->triangle_count = (uint32_t)scene_triangle_count(scene);
-    flat->node_count = flat_tree_size(bvh);
     flat->lights = memory_zeroed(flat->light_count, sizeof *flat->lights, error);
     flat->materials = memory_zeroed(flat->material_count, sizeof *flat->materials, error);
     flat->spheres = memory_zeroed(flat->sphere_count, sizeof *flat->spheres, error);
-    flat->nodes = memory_zeroed(flat->node_count, sizeof *flat->nodes, error);
-    flat->triangles = memory_zeroed(flat->triangle_count, sizeof *flat->triangles, error);
+    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
     flat->normals = memory_zeroed(smooth_triangle_count(scene), sizeof *flat->normals, error);
     return flat->lights != NULL && flat->materials != NULL && flat->spheres != NULL &&
-           flat->nodes != NULL && flat->triangles != NULL && flat->normals != NULL;
-}
-
-// Moves the triangles, made in file order, to their leaves.
-static bool place_triangles(FlatScene *flat, const Triangles *triangles, const Bvh *bvh,
-                            Error *error)
-{
-    TriangleData *placed = memory_raw(flat->triangle_count, sizeof *placed, error);
-    if (placed == NULL)
-        return false;
-    for (uint32_t place = 0; place < flat->triangle_count; place++) {
-        const uint32_t number = bvh->order == NULL ? place : bvh->order[place];
-        TriangleData *triangle = &placed[place];
-        *triangle = flat->triangles[number];
-        triangle->id = flat->sphere_count + number;
-        memcpy(triangle->a, triangles->corners[number][0], sizeof triangle->a);
-        memcpy(triangle->b, triangles->corners[number][1], sizeof triangle->b);
-        memcpy(triangle->c, triangles->corners[number][2], sizeof triangle->c);
-    }
-    free(flat->triangles);
-    flat->triangles = placed;
-    return true;
+           flat->looks != NULL && flat->normals != NULL;
 }
 
 static void flatten_constants(FlatScene *flat, const Scene *scene)
@@ -148,12 +125,21 @@ static void flatten_constants(FlatScene *flat, const Scene *scene)
         flat->materials[i] = scene->materials.data[i];
 }
 
-bool flat_make(FlatScene *flat, const Scene *scene, const Triangles *triangles, const Bvh *bvh,
-               Error *error)
+static void flatten_objects(FlatScene *flat, const Scene *scene)
 {
+    TriangleLook *next = flat->looks;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        flatten_object(flat, &scene->objects.data[i], next);
+        next += scene->objects.data[i].mesh.triangle_count;
+    }
+}
+
+bool flat_make(FlatScene *flat, const FlatSource *source, Error *error)
+{
+    const Scene *scene = source->scene;
     const Normalization normalization = normalization_of(scene);
-    *flat = (FlatScene){0};
-    if (!allocate(flat, scene, bvh, error)) {
+    *flat = (FlatScene){.layout = source->layout};
+    if (!allocate(flat, scene, error)) {
         flat_free(flat);
         return false;
     }
@@ -162,13 +148,9 @@ bool flat_make(FlatScene *flat, const Scene *scene, const Triangles *triangles, 
         flatten_light(&flat->lights[i], &scene->lights.data[i], &normalization);
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], &normalization);
-    TriangleData *next = flat->triangles;
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        flatten_object(flat, &scene->objects.data[i], next);
-        next += scene->objects.data[i].mesh.triangle_count;
-    }
-    flat_tree_write(flat->nodes, bvh);
-    if (place_triangles(flat, triangles, bvh, error))
+    flatten_objects(flat, scene);
+    if (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
+                                     : flat_pair_make(flat, source, error))
         return true;
     flat_free(flat);
     return false;
@@ -179,17 +161,24 @@ void flat_free(FlatScene *flat)
     free(flat->lights);
     free(flat->materials);
     free(flat->spheres);
-    free(flat->nodes);
+    free(flat->pairs);
     free(flat->triangles);
+    free(flat->wides);
+    free(flat->blocks);
+    free(flat->looks);
     free(flat->normals);
     *flat = (FlatScene){0};
 }
 
 size_t flat_size(const FlatScene *flat)
 {
-    return flat->light_count * sizeof *flat->lights +
-           flat->material_count * sizeof *flat->materials +
-           flat->sphere_count * sizeof *flat->spheres + flat->node_count * sizeof *flat->nodes +
-           flat->triangle_count * sizeof *flat->triangles +
-           flat->normals_count * sizeof *flat->normals;
+    const size_t common =
+        flat->light_count * sizeof *flat->lights + flat->material_count * sizeof *flat->materials +
+        flat->sphere_count * sizeof *flat->spheres + flat->normals_count * sizeof *flat->normals;
+    if (flat->layout == NODES_WIDE)
+        return common + flat->node_count * sizeof *flat->wides +
+               flat->block_count * sizeof *flat->blocks +
+               flat->triangle_count * sizeof *flat->looks;
+    return common + flat->node_count * sizeof *flat->pairs +
+           flat->triangle_count * sizeof *flat->triangles;
 }

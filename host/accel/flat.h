@@ -5,21 +5,39 @@
 
 #include "accel/bvh.h"
 
+// How triangles and their tree lie in memory; the picture is the same.
+typedef enum {
+    NODES_PAIR, // two children a node, triangles one by one: for GPUs and as the plain reading
+    NODES_WIDE  // eight children a node, triangles in blocks of eight: for vector instructions
+} NodeLayout;
+
 typedef struct {
+    NodeLayout layout;
     PointLight *lights;
     Material *materials;
     SphereData *spheres;
-    BvhPair *nodes;          // none without triangles or without a tree
-    TriangleData *triangles; // in the order of the leaves
+    BvhPair *pairs;          // of NODES_PAIR: none without triangles or without a tree
+    TriangleData *triangles; // of NODES_PAIR: in the order of the leaves
+    BvhWide *wides;          // of NODES_WIDE: none without triangles or without a tree
+    TriangleBlock *blocks;   // of NODES_WIDE: in the order of the leaves
+    TriangleLook *looks;     // of NODES_WIDE: in file order
     CornerNormals *normals;  // of the smooth triangles, in file order
     uint32_t light_count, material_count, sphere_count;
-    uint32_t node_count, triangle_count, normals_count;
+    uint32_t node_count; // of the layout's kind
+    uint32_t triangle_count, block_count, normals_count;
     float background[3], ambient;
 } FlatScene;
 
-// A bvh without nodes gives a scene whose triangles are all tested.
-bool flat_make(FlatScene *flat, const Scene *scene, const Triangles *triangles, const Bvh *bvh,
-               Error *error);
+// What a scene is flattened from.  A bvh without nodes gives a scene whose triangles are all
+// tested.
+typedef struct {
+    const Scene *scene;
+    const Triangles *triangles;
+    const Bvh *bvh;
+    NodeLayout layout;
+} FlatSource;
+
+bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
 // Bytes of all arrays: what goes to the device.

@@ -11,6 +11,12 @@ static void add_material(SceneTraits *traits, const Material *material)
     traits->specular |= material->shader == SHADER_BLINN_PHONG;
 }
 
+static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
+{
+    return flat->layout == NODES_WIDE ? flat->looks[triangle].material
+                                      : flat->triangles[triangle].material & ~TRIANGLE_TWO_SIDED;
+}
+
 SceneTraits traits_of(const FlatScene *flat, bool statistics)
 {
     SceneTraits traits = {.spheres = flat->sphere_count > 0,
@@ -19,10 +25,8 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics)
                           .statistics = statistics};
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         add_material(&traits, &flat->materials[flat->spheres[i].material]);
-    for (uint32_t i = 0; i < flat->triangle_count; i++) {
-        const uint32_t material = flat->triangles[i].material & ~TRIANGLE_TWO_SIDED;
-        add_material(&traits, &flat->materials[material]);
-    }
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        add_material(&traits, &flat->materials[material_of(flat, i)]);
     return traits;
 }
 

@@ -25,6 +25,10 @@ typedef enum {
     EXIT_OUTPUT = 5
 } ExitCode;
 
+// Work-items along the sides of a work-group.
+#define RAY_GROUP    8
+#define PACKET_GROUP 2
+
 typedef struct {
     const Options *options;
     Cache cache;
@@ -32,6 +36,7 @@ typedef struct {
     Normalization normalization;
     FlatScene flat;
     Device device;
+    KernelChoice choice;
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
@@ -79,11 +84,8 @@ static void count_scene(Report *report, const Scene *scene, const Bvh *bvh)
     report->bvh_largest_leaf = bvh->largest_leaf;
 }
 
-// The stages that need no device: text to arrays.
-static bool prepare_scene(Run *run, Error *error)
+static bool load_scene(Run *run, Error *error)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
     double moment = clock_seconds();
     const Options *options = run->options;
     bool ok = scn_load(&run->scene, options->scene_path, error);
@@ -96,14 +98,42 @@ static bool prepare_scene(Run *run, Error *error)
     Error cause = {0};
     if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
-    ok = ok && triangles_make(&triangles, &run->scene, &run->normalization, error) &&
-         (!options->uses_bvh || bvh_build(&bvh, &triangles, options->builder, error)) &&
-         flat_make(&run->flat, &run->scene, &triangles, &bvh, error);
     run->report.build = lap(&moment);
-    if (ok) {
-        count_scene(&run->report, &run->scene, &bvh);
-        run->settings = settings_of(options, &run->scene);
+    run->settings = settings_of(options, &run->scene);
+    return ok;
+}
+
+// The device decides about the kernels, and they about the layout.
+static bool open_device(Run *run, Error *error)
+{
+    double moment = clock_seconds();
+    if (!device_open(&run->device, run->options->device, error))
+        return false;
+    run->report.device = lap(&moment);
+    run->report.device_name = run->device.name;
+    run->report.device_version = run->device.version;
+    run->choice = kernel_choose(&run->options->kernel);
+    if (run->settings.group_width == 0) {
+        const uint32_t side = run->choice.family == FAMILY_PACKET ? PACKET_GROUP : RAY_GROUP;
+        run->settings.group_width = run->settings.group_height = side;
     }
+    return true;
+}
+
+// Scene to arrays.
+static bool build_scene(Run *run, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    double moment = clock_seconds();
+    const Options *options = run->options;
+    const FlatSource source = {&run->scene, &triangles, &bvh, run->choice.nodes};
+    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, error) &&
+                    (!options->uses_bvh || bvh_build(&bvh, &triangles, options->builder, error)) &&
+                    flat_make(&run->flat, &source, error);
+    run->report.build += lap(&moment);
+    if (ok)
+        count_scene(&run->report, &run->scene, &bvh);
     bvh_free(&bvh);
     triangles_free(&triangles);
     return ok;
@@ -111,16 +141,12 @@ static bool prepare_scene(Run *run, Error *error)
 
 static bool open_renderer(Run *run, Error *error)
 {
-    double moment = clock_seconds();
-    if (!device_open(&run->device, run->options->device, error))
-        return false;
-    run->report.device = lap(&moment);
     const RendererSetup setup = {
-        &run->device, &run->cache, {.kernel_folder = getenv("CLRT_KERNEL_DIR")}};
+        &run->device,
+        &run->cache,
+        {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = run->choice}};
     if (!renderer_open(&run->renderer, &setup, &run->flat, &run->settings, error))
         return false;
-    run->report.device_name = run->device.name;
-    run->report.device_version = run->device.version;
     run->report.upload = run->renderer.upload_seconds;
     run->report.upload_size = run->renderer.upload_size;
     run->report.kernel_build = run->renderer.build_seconds;
@@ -190,7 +216,8 @@ static void describe(const Run *run)
             report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
     fprintf(stderr, "device: %s, driver %s, %u compute units\n", run->device.name,
             run->device.version, run->device.compute_units);
-    fprintf(stderr, "kernels: %s, ready in %.3f s; uploaded %zu bytes\n",
+    fprintf(stderr, "kernels: %s, %s nodes, %s, ready in %.3f s; uploaded %zu bytes\n",
+            kernel_family_name(run->choice.family), kernel_nodes_name(run->choice.nodes),
             report->specialized ? "specialized" : "general", report->kernel_build,
             report->upload_size);
 }
@@ -200,10 +227,14 @@ static ExitCode render(Run *run, Error *error)
     const double start = clock_seconds();
     if (!image_check_path(run->options->output_path, error))
         return EXIT_OUTPUT;
-    if (!prepare_scene(run, error))
+    if (!load_scene(run, error))
         return EXIT_SCENE;
     if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
+    if (!open_device(run, error))
+        return EXIT_DEVICE;
+    if (!build_scene(run, error))
+        return EXIT_SCENE;
     if (!open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
@@ -222,6 +253,7 @@ static ExitCode run_render(const Options *options, Error *error)
     Run run = {.options = options};
     run.report.options = options;
     run.report.settings = &run.settings;
+    run.report.choice = &run.choice;
     cache_open(&run.cache);
     threads_limit(options->threads);
     const ExitCode code = render(&run, error);

@@ -105,6 +105,33 @@ static bool read_group(Options *options, const char *value, Error *error)
     return ok;
 }
 
+static bool read_kernel(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"auto", "ray", "packet"};
+    const int choice = read_choice(value, "kernel", names, 3, error);
+    options->kernel.family_given = choice > 0;
+    options->kernel.choice.family = choice == 2 ? FAMILY_PACKET : FAMILY_RAY;
+    return choice >= 0;
+}
+
+static bool read_nodes(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"auto", "pair", "wide"};
+    const int choice = read_choice(value, "nodes", names, 3, error);
+    options->kernel.nodes_given = choice > 0;
+    options->kernel.choice.nodes = choice == 2 ? NODES_WIDE : NODES_PAIR;
+    return choice >= 0;
+}
+
+static bool read_lanes(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"auto", "4", "8", "16"};
+    static const uint32_t lanes[] = {0, 4, 8, 16};
+    const int choice = read_choice(value, "lanes", names, 4, error);
+    options->kernel.choice.lanes = choice > 0 ? lanes[choice] : 0;
+    return choice >= 0;
+}
+
 static bool read_no_bvh(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;
@@ -227,9 +254,14 @@ static const struct {
     {"list-devices", 0, NULL, read_list_devices, "list the OpenCL devices"},
     {"threads", 'j', "N", read_threads, "threads of a CPU device (all that the process may use)"},
     {"tile", 0, "WxH", read_tile, "size of the tiles that the picture is traced in (128x128)"},
-    {"work-group", 0, "WxH", read_group, "size of the device's work-groups (8x8)"},
+    {"work-group", 0, "WxH", read_group, "size of the device's work-groups (8x8; 2x2 packets)"},
     {"specialize", 0, "WHEN", read_specialize,
      "compile kernels for the scene: auto (default), always or never"},
+    {"kernel", 0, "KIND", read_kernel,
+     "trace rays one by one or packets of 4x4 pixels: auto (default), ray or packet"},
+    {"nodes", 0, "KIND", read_nodes,
+     "nodes of two children or of eight: auto (default), pair or wide"},
+    {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
     {"stats", 0, "[=FILE]", read_stats,
      "count rays and tests; as JSON with a FILE (- is standard output)"},
     {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
@@ -335,7 +367,7 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
                          "need an equals sign)",
                          words[optind + 1], words[optind]);
     options->scene_path = words[optind];
-    return check_output(options, error);
+    return kernel_check_wish(&options->kernel, error) && check_output(options, error);
 }
 
 bool options_parse(Options *options, int count, char **words, Error *error)
@@ -347,9 +379,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
                          .max_level = -1,
                          .uses_bvh = true,
                          .tile_width = 128,
-                         .tile_height = 128,
-                         .group_width = 8,
-                         .group_height = 8};
+                         .tile_height = 128};
     fill_getopt(longs, shorts);
     opterr = 0;
     optind = 0;

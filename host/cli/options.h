@@ -25,7 +25,8 @@ typedef struct {
     const char *device; // NULL: the best
     uint32_t threads;   // 0: all that the process may use
     uint32_t tile_width, tile_height;
-    uint32_t group_width, group_height;
+    uint32_t group_width, group_height; // 0: what suits the kernels
+    KernelWish kernel;
     Specialization specialization;
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output

@@ -127,12 +127,15 @@ static json_t *tree_json(const Report *report)
 static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b}", "view",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b, s:s, s:s, s:o}", "view",
                      integer(report->options->view), "width", integer(settings->width), "height",
                      integer(settings->height), "samples", integer(settings->samples), "max_level",
                      integer(settings->max_level), "tile", integer(settings->tile_width),
                      integer(settings->tile_height), "work_group", integer(settings->group_width),
-                     integer(settings->group_height), "specialized", report->specialized);
+                     integer(settings->group_height), "specialized", report->specialized, "kernel",
+                     kernel_family_name(report->choice->family), "nodes",
+                     kernel_nodes_name(report->choice->nodes), "lanes",
+                     integer(report->choice->lanes));
 }
 
 static json_t *report_json(const Report *report)

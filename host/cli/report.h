@@ -10,6 +10,7 @@
 typedef struct {
     const Options *options;
     const RenderSettings *settings;
+    const KernelChoice *choice;
     const char *device_name, *device_version;
     uint64_t scene_hash[2];
     uint32_t lights, spheres, triangles;

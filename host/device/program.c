@@ -16,9 +16,11 @@ static bool write_options(char options[OPTIONS_SIZE], const Device *device,
                           const ProgramSource *source, const SceneTraits *traits)
 {
     char switches[TRAITS_OPTIONS_SIZE];
+    char choices[KERNEL_OPTIONS_SIZE];
     traits_write_options(traits, switches);
+    kernel_write_options(&source->choice, choices);
     const int length =
-        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s%s%s%s", switches,
+        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s%s%s%s", switches, choices,
                  device->correct_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
                  source->extra_options != NULL ? " " : "",
                  source->extra_options != NULL ? source->extra_options : "");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Embedded kernel source and SceneTraits -> a built program on a device.
+// Embedded kernel source, SceneTraits and KernelChoice -> a built program on a device.
 #pragma once
 
 #include "accel/traits.h"
 #include "device/device.h"
+#include "device/kernel_choice.h"
 
 // All kernel files in the order of their includes, joined at build time.
 extern const char kernel_source[];
@@ -17,6 +18,7 @@ typedef struct {
     const char *kernel_folder; // read the sources from there; NULL for the embedded ones
     const char *extra_options; // for the compiler, after clrt's own; NULL for none
     const char *appended;      // source to add behind the kernels, for tests; NULL for none
+    KernelChoice choice;
 } ProgramSource;
 
 // The message of a failure holds the compiler's log.  The caller holds the cache's lock around

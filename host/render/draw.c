@@ -39,9 +39,12 @@ static uint32_t tile_height(const RenderSettings *settings)
     return smaller(settings->tile_height, settings->height);
 }
 
-static size_t padded(uint32_t size, uint32_t group)
+// Work-items along a side of a tile, padded to whole work-groups.
+static size_t grid_side(const Renderer *renderer, uint32_t tile_side, uint32_t group)
 {
-    return ((size_t)size + group - 1) / group * group;
+    const uint32_t pixels = renderer->family == FAMILY_PACKET ? PACKET_SIDE : 1;
+    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
+    return (items + group - 1) / group * group;
 }
 
 static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
@@ -82,17 +85,17 @@ static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameDa
     const RenderSettings *settings = &renderer->settings;
     cl_kernel kernel = renderer->kernel;
     cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < 6 && status == CL_SUCCESS; place++)
+    for (cl_uint place = 0; place < RENDERER_ARRAYS && status == CL_SUCCESS; place++)
         status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
     if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, 7, sizeof(cl_mem), &slot->pixels);
+        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &slot->pixels);
     if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, 8, sizeof(cl_mem), &slot->tallies);
+        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &slot->tallies);
     if (!cl_succeeded(status, "set the kernel's arguments", error))
         return false;
     const size_t group[2] = {settings->group_width, settings->group_height};
-    const size_t grid[2] = {padded(tile_width(settings), settings->group_width),
-                            padded(tile_height(settings), settings->group_height)};
+    const size_t grid[2] = {grid_side(renderer, tile_width(settings), settings->group_width),
+                            grid_side(renderer, tile_height(settings), settings->group_height)};
     status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
                                     NULL);
     return cl_succeeded(status, "run the kernel", error);

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "render/draw.h"
 
+#include <assert.h>
 #include <string.h>
 
 // What compiling a program that is not yet cached costs, and what a specialized one saves of the
@@ -30,6 +31,21 @@ static bool upload(Renderer *renderer, int place, const void *data, size_t size,
     return cl_succeeded(status, "upload the scene", error);
 }
 
+static bool upload_pairs(Renderer *renderer, const FlatScene *flat, Error *error)
+{
+    return upload(renderer, 3, flat->pairs, flat->node_count * sizeof *flat->pairs, error) &&
+           upload(renderer, 4, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
+                  error) &&
+           upload(renderer, 5, NULL, 0, error);
+}
+
+static bool upload_wide(Renderer *renderer, const FlatScene *flat, Error *error)
+{
+    return upload(renderer, 3, flat->wides, flat->node_count * sizeof *flat->wides, error) &&
+           upload(renderer, 4, flat->blocks, flat->block_count * sizeof *flat->blocks, error) &&
+           upload(renderer, 5, flat->looks, flat->triangle_count * sizeof *flat->looks, error);
+}
+
 static bool upload_scene(Renderer *renderer, const FlatScene *flat, Error *error)
 {
     const double start = clock_seconds();
@@ -38,10 +54,9 @@ static bool upload_scene(Renderer *renderer, const FlatScene *flat, Error *error
         upload(renderer, 1, flat->materials, flat->material_count * sizeof *flat->materials,
                error) &&
         upload(renderer, 2, flat->spheres, flat->sphere_count * sizeof *flat->spheres, error) &&
-        upload(renderer, 3, flat->nodes, flat->node_count * sizeof *flat->nodes, error) &&
-        upload(renderer, 4, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
-               error) &&
-        upload(renderer, 5, flat->normals, flat->normals_count * sizeof *flat->normals, error);
+        (flat->layout == NODES_WIDE ? upload_wide(renderer, flat, error)
+                                    : upload_pairs(renderer, flat, error)) &&
+        upload(renderer, 6, flat->normals, flat->normals_count * sizeof *flat->normals, error);
     renderer->upload_size = flat_size(flat);
     renderer->upload_seconds = clock_seconds() - start;
     return ok;
@@ -103,8 +118,11 @@ static bool build(Renderer *renderer, const RendererSetup *setup, const SceneTra
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error)
 {
-    *renderer = (Renderer){
-        .device = setup->device, .settings = *settings, .frame = frame_of(flat, settings)};
+    assert(flat->layout == setup->source.choice.nodes);
+    *renderer = (Renderer){.device = setup->device,
+                           .settings = *settings,
+                           .family = setup->source.choice.family,
+                           .frame = frame_of(flat, settings)};
     bool ok = upload_scene(renderer, flat, error);
     const double start = clock_seconds();
     const SceneTraits special = traits_of(flat, settings->statistics);
@@ -122,7 +140,7 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
 
 void renderer_close(Renderer *renderer)
 {
-    for (int place = 0; place < 6; place++)
+    for (int place = 0; place < RENDERER_ARRAYS; place++)
         if (renderer->arrays[place] != NULL)
             clReleaseMemObject(renderer->arrays[place]);
     if (renderer->kernel != NULL)

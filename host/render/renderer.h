@@ -18,10 +18,13 @@ typedef struct {
     uint32_t samples;   // per pixel and axis
     uint32_t max_level; // rays of this level return the background
     uint32_t tile_width, tile_height;
-    uint32_t group_width, group_height; // of work-groups
+    uint32_t group_width, group_height; // of work-groups, in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
+
+// Buffers of the scene, among the kernel's arguments.
+#define RENDERER_ARRAYS 7
 
 // The limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
@@ -47,17 +50,18 @@ typedef struct {
 typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;
+    KernelFamily family;
     FrameData frame;
     Program program;
     cl_kernel kernel;
-    bool is_special;    // the program is specialized for the scene
-    cl_mem arrays[6];   // in the order of the kernel's arguments
-    size_t upload_size; // bytes
+    bool is_special;                // the program is specialized for the scene
+    cl_mem arrays[RENDERER_ARRAYS]; // in the order of the kernel's arguments
+    size_t upload_size;             // bytes
     double upload_seconds, build_seconds;
     RenderProgress progress; // of the latest picture
 } Renderer;
 
-// Uploads the scene and builds the program.
+// Uploads the scene and builds the program.  The scene is flattened for the nodes of the choice.
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);

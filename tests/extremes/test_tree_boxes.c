@@ -57,7 +57,7 @@ static bool child_is_missing(const BvhPair *node, int child)
 static Box check_node(Walk *walk, uint32_t number)
 {
     Box all = box_empty();
-    const BvhPair *node = &walk->flat->nodes[number];
+    const BvhPair *node = &walk->flat->pairs[number];
     for (int child = 0; child < 2; child++) {
         if (child_is_missing(node, child))
             continue;

@@ -48,10 +48,11 @@ static bool flatten(Pipeline *pipeline, Error *error)
 {
     Triangles triangles = {0};
     Bvh bvh = {0};
+    const FlatSource source = {&pipeline->scene, &triangles, &bvh, pipeline->request->choice.nodes};
     const bool ok = triangles_make(&triangles, &pipeline->scene, &pipeline->normalization, error) &&
                     (!pipeline->request->uses_bvh ||
                      bvh_build(&bvh, &triangles, pipeline->request->builder, error)) &&
-                    flat_make(&pipeline->flat, &pipeline->scene, &triangles, &bvh, error);
+                    flat_make(&pipeline->flat, &source, error);
     bvh_free(&bvh);
     triangles_free(&triangles);
     return ok;
@@ -78,7 +79,9 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
     const RendererSetup setup = {
-        &pipeline->device, &pipeline->cache, {.extra_options = request->extra_options}};
+        &pipeline->device,
+        &pipeline->cache,
+        {.extra_options = request->extra_options, .choice = request->choice}};
     const CameraData camera =
         camera_make(&pipeline->scene.viewpoints.data[request->view - 1], &pipeline->normalization,
                     settings.height, settings.samples);

@@ -14,6 +14,7 @@ typedef struct {
     BvhBuilder builder;
     uint32_t tile_width, tile_height, group_width, group_height;
     Specialization specialization;
+    KernelChoice choice;
     const char *extra_options; // for the kernels' compiler, NULL for none
     uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
 } PictureRequest;

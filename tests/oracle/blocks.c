@@ -38,7 +38,7 @@ typedef struct {
     double middle[3], key; // of its corners; the axis to sort by
 } Placed;
 
-static void block_add(TriangleBlock *block, const Placed *placed)
+static void block_add(OracleBlock *block, const Placed *placed)
 {
     const Mesh *mesh = &placed->object->mesh;
     const Vec3 corner = corner_of(mesh, placed->triangle, 0);
@@ -57,7 +57,7 @@ static double distance(Vec3 a, Vec3 b)
 }
 
 // A sphere about the mean of the corners.
-static void block_enclose(TriangleBlock *block)
+static void block_enclose(OracleBlock *block)
 {
     Vec3 sum = {0, 0, 0};
     for (uint32_t place = 0; place < block->count; place++) {
@@ -127,12 +127,12 @@ static void arrange(Placed *placed, size_t count)
     arrange(placed + half, count - half);
 }
 
-bool blocks_make(TriangleBlocks *blocks, const Scene *scene, Error *error)
+bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error)
 {
     const size_t count = scene_triangle_count(scene);
     size_t number = 0;
     Placed *placed = memory_zeroed(count, sizeof *placed, error);
-    *blocks = (TriangleBlocks){.count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE};
+    *blocks = (OracleBlocks){.count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE};
     blocks->data = memory_zeroed(blocks->count, sizeof *blocks->data, error);
     const bool ok = placed != NULL && blocks->data != NULL;
     for (size_t i = 0; ok && i < scene->objects.count; i++) {
@@ -151,14 +151,14 @@ bool blocks_make(TriangleBlocks *blocks, const Scene *scene, Error *error)
     return ok;
 }
 
-void blocks_free(TriangleBlocks *blocks)
+void blocks_free(OracleBlocks *blocks)
 {
     free(blocks->data);
-    *blocks = (TriangleBlocks){0};
+    *blocks = (OracleBlocks){0};
 }
 
 // Whether the ray comes within the block's sphere before far.
-static bool block_is_near(const TriangleBlock *block, const OracleRay *ray, double far)
+static bool block_is_near(const OracleBlock *block, const OracleRay *ray, double far)
 {
     const Vec3 toward = vec3_sub(block->center, ray->origin);
     const double along = vec3_dot(toward, ray->direction);
@@ -170,7 +170,7 @@ static bool block_is_near(const TriangleBlock *block, const OracleRay *ray, doub
 
 // Writes for every place where the ray meets its triangle, INFINITY where it does not.  Nothing
 // branches here and conditions are joined by &, so that the loop becomes vector instructions.
-static void block_distances(const TriangleBlock *block, const OracleRay *ray,
+static void block_distances(const OracleBlock *block, const OracleRay *ray,
                             double distances[BLOCK_SIZE])
 {
     const Vec3 d = ray->direction, o = ray->origin;
@@ -194,11 +194,11 @@ static bool precedes(double t, uint32_t id, const OracleHit *hit)
     return t < hit->t || (t == hit->t && t < INFINITY && id < hit->id);
 }
 
-void blocks_meet(const TriangleBlocks *blocks, const OracleRay *ray, OracleHit *hit)
+void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hit)
 {
     double distances[BLOCK_SIZE];
     for (size_t i = 0; i < blocks->count; i++) {
-        const TriangleBlock *block = &blocks->data[i];
+        const OracleBlock *block = &blocks->data[i];
         if (!blocks->tests_all && !block_is_near(block, ray, fmin(hit->t, ray->far)))
             continue;
         block_distances(block, ray, distances);
@@ -208,11 +208,11 @@ void blocks_meet(const TriangleBlocks *blocks, const OracleRay *ray, OracleHit *
     }
 }
 
-bool blocks_block(const TriangleBlocks *blocks, const OracleRay *ray)
+bool blocks_block(const OracleBlocks *blocks, const OracleRay *ray)
 {
     double distances[BLOCK_SIZE];
     for (size_t i = 0; i < blocks->count; i++) {
-        const TriangleBlock *block = &blocks->data[i];
+        const OracleBlock *block = &blocks->data[i];
         if (!blocks->tests_all && !block_is_near(block, ray, ray->far))
             continue;
         block_distances(block, ray, distances);

@@ -32,19 +32,19 @@ typedef struct {
     uint32_t count;
     Vec3 center; // of a sphere around all of them
     double radius;
-} TriangleBlock;
+} OracleBlock;
 
 typedef struct {
-    TriangleBlock *data; // count of them, owned
+    OracleBlock *data; // count of them, owned
     size_t count;
     bool tests_all; // no block is left out; to check that leaving out changes nothing
-} TriangleBlocks;
+} OracleBlocks;
 
-bool blocks_make(TriangleBlocks *blocks, const Scene *scene, Error *error);
-void blocks_free(TriangleBlocks *blocks);
+bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error);
+void blocks_free(OracleBlocks *blocks);
 
 // Lowers hit to the nearest triangle before it, the lowest id among equals.
-void blocks_meet(const TriangleBlocks *blocks, const OracleRay *ray, OracleHit *hit);
+void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hit);
 
 // Whether the ray meets any triangle at all.
-bool blocks_block(const TriangleBlocks *blocks, const OracleRay *ray);
+bool blocks_block(const OracleBlocks *blocks, const OracleRay *ray);

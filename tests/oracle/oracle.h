@@ -10,7 +10,7 @@
 
 typedef struct {
     const Scene *scene; // borrowed
-    TriangleBlocks blocks;
+    OracleBlocks blocks;
 } Oracle;
 
 // Keeps a pointer to scene, which must outlive the oracle.

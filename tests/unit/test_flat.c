@@ -5,6 +5,7 @@
 
 #include "unit/cmocka_all.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // Keeps what a flattened scene was made from.
@@ -15,19 +16,25 @@ typedef struct {
     FlatScene flat;
 } Flattened;
 
-static Flattened flattened(const char *text, bool uses_bvh)
+static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout)
 {
     Flattened all = {0};
     Error error = {0};
     bool ok =
         scn_parse(&all.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error);
     const Normalization frame = normalization_of(&all.scene);
+    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, layout};
     ok = ok && triangles_make(&all.triangles, &all.scene, &frame, &error) &&
          (!uses_bvh || bvh_build(&all.bvh, &all.triangles, BVH_SAH, &error)) &&
-         flat_make(&all.flat, &all.scene, &all.triangles, &all.bvh, &error);
+         flat_make(&all.flat, &source, &error);
     if (!ok)
         fail_msg("%s", error.text);
     return all;
+}
+
+static Flattened flattened(const char *text, bool uses_bvh)
+{
+    return flattened_as(text, uses_bvh, NODES_PAIR);
 }
 
 static void release(Flattened *all)
@@ -100,10 +107,11 @@ static void a_lone_leaf_gets_a_node_with_one_child(void **state)
     all.bvh.nodes[0].first = 0;
     FlatScene flat = {0};
     Error error = {0};
-    assert_true(flat_make(&flat, &all.scene, &all.triangles, &leaf, &error));
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, NODES_PAIR};
+    assert_true(flat_make(&flat, &source, &error));
     assert_int_equal(flat.node_count, 1);
-    assert_int_equal(flat.nodes[0].count[0], all.triangles.count);
-    assert_true(flat.nodes[0].planes[0][0][1] > flat.nodes[0].planes[0][1][1]);
+    assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
+    assert_true(flat.pairs[0].planes[0][0][1] > flat.pairs[0].planes[0][1][1]);
     flat_free(&flat);
     release(&all);
 }
@@ -120,6 +128,129 @@ static void a_missing_vertex_normal_becomes_the_faces(void **state)
     release(&all);
 }
 
+// Every scene here has one sphere, so that a triangle's id is its number and one more.
+#define NUMBER_OF(id) (((id) & ~TRIANGLE_TWO_SIDED) - 1)
+
+static void check_block(const Flattened *all, uint32_t number, const Box *box, unsigned *seen)
+{
+    assert_true(number < all->flat.block_count);
+    const TriangleBlock *block = &all->flat.blocks[number];
+    for (int i = 0; i < WIDE; i++)
+        for (int corner = 0; corner < 3; corner++)
+            for (int axis = 0; axis < 3; axis++) {
+                const float at = block->corners[corner][axis][i];
+                if (block->id[i] == NOTHING) {
+                    assert_true(at == 0);
+                    continue;
+                }
+                assert_true(at == all->triangles.corners[NUMBER_OF(block->id[i])][corner][axis]);
+                assert_true(box->low[axis] < at && at < box->high[axis]);
+                seen[NUMBER_OF(block->id[i])]++;
+            }
+}
+
+static Box child_box(const BvhWide *wide, uint32_t child)
+{
+    Box box;
+    for (int axis = 0; axis < 3; axis++) {
+        box.low[axis] = wide->planes[axis][0][child];
+        box.high[axis] = wide->planes[axis][1][child];
+    }
+    return box;
+}
+
+static void check_wide(const Flattened *all, uint32_t number, const Box *outer, unsigned *seen)
+{
+    assert_true(number < all->flat.node_count);
+    const BvhWide *wide = &all->flat.wides[number];
+    assert_in_range(wide->child_count, 1, WIDE);
+    for (uint32_t child = 0; child < WIDE; child++) {
+        const Box box = child_box(wide, child);
+        if (child >= wide->child_count) {
+            assert_true(box.low[0] > box.high[0]);
+            continue;
+        }
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(outer->low[axis] <= box.low[axis] && box.high[axis] <= outer->high[axis]);
+        if (wide->child[child] & WIDE_LEAF) {
+            check_block(all, wide->child[child] & ~WIDE_LEAF, &box, seen);
+        } else {
+            assert_true(wide->child[child] > number);
+            check_wide(all, wide->child[child], &box, seen);
+        }
+    }
+}
+
+static void check_all_wide(const Flattened *all)
+{
+    const Box everything = {{-2, -2, -2}, {2, 2, 2}};
+    unsigned *seen = calloc(all->triangles.count, sizeof *seen);
+    assert_non_null(seen);
+    check_wide(all, 0, &everything, seen);
+    for (size_t i = 0; i < all->triangles.count; i++)
+        assert_int_equal(seen[i], 9);
+    free(seen);
+}
+
+static void the_wide_tree_holds_every_triangle_once_inside_nested_boxes(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"sphere 0 0 0 1\nply_file cube.ply\nply_file cone.ply",
+                                         "sphere 0 0 0 1\nply_file tetrahedron.ply"};
+    for (int i = 0; i < 2; i++) {
+        Flattened all = flattened_as(scenes[i], true, NODES_WIDE);
+        check_all_wide(&all);
+        release(&all);
+    }
+}
+
+static void a_leaf_too_large_for_a_block_becomes_several(void **state)
+{
+    (void)state;
+    Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", true, NODES_WIDE);
+    const Bvh leaf = {
+        .node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
+    all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
+    all.bvh.nodes[0].first = 0;
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, NODES_WIDE};
+    Error error = {0};
+    flat_free(&all.flat);
+    assert_true(flat_make(&all.flat, &source, &error));
+    assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
+    check_all_wide(&all);
+    release(&all);
+}
+
+static void without_a_tree_blocks_hold_the_triangles_in_file_order(void **state)
+{
+    (void)state;
+    Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", false, NODES_WIDE);
+    assert_int_equal(all.flat.node_count, 0);
+    assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
+    for (uint32_t i = 0; i < all.triangles.count; i++)
+        assert_int_equal(NUMBER_OF(all.flat.blocks[i / 8].id[i % 8]), i);
+    release(&all);
+}
+
+static void blocks_mark_two_sided_triangles_and_looks_do_not(void **state)
+{
+    (void)state;
+    Flattened all = flattened_as("material 1\nsphere 0 0 0 1\nply_file tetrahedron.ply\n"
+                                 "sides two\nmaterial 2\nnormals flat\nply_file tetrahedron.ply",
+                                 true, NODES_WIDE);
+    const uint32_t half = (uint32_t)all.triangles.count / 2;
+    for (uint32_t block = 0; block < all.flat.block_count; block++)
+        for (int i = 0; i < WIDE; i++) {
+            const uint32_t id = all.flat.blocks[block].id[i];
+            if (id != NOTHING)
+                assert_true((NUMBER_OF(id) >= half) == ((id & TRIANGLE_TWO_SIDED) != 0));
+        }
+    assert_int_equal(all.flat.looks[0].material, 1);
+    assert_int_equal(all.flat.looks[half].material, 2);
+    assert_true(all.flat.looks[half].normals == NOTHING);
+    release(&all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -129,6 +260,10 @@ int main(void)
         cmocka_unit_test(flat_objects_upload_no_normals),
         cmocka_unit_test(a_lone_leaf_gets_a_node_with_one_child),
         cmocka_unit_test(a_missing_vertex_normal_becomes_the_faces),
+        cmocka_unit_test(the_wide_tree_holds_every_triangle_once_inside_nested_boxes),
+        cmocka_unit_test(a_leaf_too_large_for_a_block_becomes_several),
+        cmocka_unit_test(without_a_tree_blocks_hold_the_triangles_in_file_order),
+        cmocka_unit_test(blocks_mark_two_sided_triangles_and_looks_do_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 // Intervals of t as fractions: comparing them by cross-multiplication needs no rounding.
 #include "box_case.h"
 
-#include "accel/flat_tree.h"
+#include "accel/flat_pair.h"
 #include "check.h"
 
 #include <stdlib.h>
@@ -44,8 +44,8 @@ static void write_node(BvhPair *node, const Box boxes[2])
                         {.box = boxes[0], .first = 0, .count = 1},
                         {.box = boxes[1], .first = 1, .count = 1}};
     const Bvh bvh = {.nodes = nodes, .node_count = 3, .leaf_count = 2};
-    assert_int_equal(flat_tree_size(&bvh), 1);
-    flat_tree_write(node, &bvh);
+    assert_int_equal(flat_pair_count(&bvh), 1);
+    flat_pair_write(node, &bvh);
 }
 
 // The device's answers for the cases.

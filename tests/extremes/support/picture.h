@@ -19,6 +19,7 @@ int picture_teardown(void **state);
 typedef struct {
     TreeKind tree;
     RenderSettings render;
+    KernelChoice choice;
     const char *extra_options; // for the kernels' compiler, NULL for none
 } PictureSettings;
 

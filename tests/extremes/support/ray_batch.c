@@ -153,7 +153,7 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
 {
     release_scene(batch);
     batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
-    batch->nodes = make_buffer(batch, flat->nodes, flat->node_count * sizeof(BvhPair));
+    batch->nodes = make_buffer(batch, flat->pairs, flat->node_count * sizeof(BvhPair));
     batch->triangles =
         make_buffer(batch, flat->triangles, flat->triangle_count * sizeof(TriangleData));
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,

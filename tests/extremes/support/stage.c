@@ -6,17 +6,23 @@
 
 const char *const tree_names[TREE_KINDS] = {"sah", "midpoint", "none"};
 
-void stage_make(Stage *stage, const Scene *scene, TreeKind tree)
+void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout layout)
 {
     Error error = {0};
     *stage = (Stage){.normalization = normalization_of(scene)};
+    const FlatSource source = {scene, &stage->triangles, &stage->bvh, layout};
     const BvhBuilder builder = tree == TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
     const bool ok =
         normalization_check(&stage->normalization, scene, &error) &&
         triangles_make(&stage->triangles, scene, &stage->normalization, &error) &&
         (tree == TREE_NONE || bvh_build(&stage->bvh, &stage->triangles, builder, &error)) &&
-        flat_make(&stage->flat, scene, &stage->triangles, &stage->bvh, &error);
+        flat_make(&stage->flat, &source, &error);
     require(ok, &error);
+}
+
+void stage_make(Stage *stage, const Scene *scene, TreeKind tree)
+{
+    stage_make_as(stage, scene, tree, NODES_PAIR);
 }
 
 void stage_free(Stage *stage)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Which of the kernels draw: settings of the user's, as the switches of kernels/config.h.  Every
+// choice draws the same picture.
+#pragma once
+
+#include "accel/flat.h"
+
+typedef enum {
+    FAMILY_RAY,   // a work-item draws a pixel
+    FAMILY_PACKET // a work-item draws a block of PACKET_SIDE x PACKET_SIDE pixels
+} KernelFamily;
+
+#define PACKET_SIDE 4
+
+// Packets walk wide nodes only.
+typedef struct {
+    KernelFamily family;
+    NodeLayout nodes;
+    uint32_t lanes; // of the kernels' vectors: 4, 8 or 16; 0 where the target decides
+} KernelChoice;
+
+// What the user asked for.
+typedef struct {
+    bool family_given, nodes_given;
+    KernelChoice choice; // of which what is not given counts for nothing
+} KernelWish;
+
+// Fails where the wish contradicts itself.
+bool kernel_check_wish(const KernelWish *wish, Error *error);
+
+// Fills in what was not asked for by what suits the device.
+KernelChoice kernel_choose(const KernelWish *wish);
+
+#define KERNEL_OPTIONS_SIZE 80
+
+// The compiler options that set the switches, as a string of less than KERNEL_OPTIONS_SIZE bytes.
+void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE]);
+
+const char *kernel_family_name(KernelFamily family);
+const char *kernel_nodes_name(NodeLayout nodes);
