@@ -1,28 +1,63 @@
 // SPDX-License-Identifier: MIT
-// The kernel of the `ray` family: one work-item renders one pixel of a tile.
+// The kernel: one work-item renders one pixel of a tile, or in the packet family a block of
+// BLOCK x BLOCK pixels, a packet of them after the other.
 #include "trace.cl"
 
+#if CLRT_LANES == 1
+#define PACKET_WIDTH  1
+#define PACKET_HEIGHT 1
+#define BLOCK         1
+#define LANE_X        0
+#define LANE_Y        0
+#elif CLRT_LANES == 4
+#define PACKET_WIDTH  2
+#define PACKET_HEIGHT 2
+#define BLOCK         PACKET_SIDE
+#define LANE_X        (uint4)(0, 1, 0, 1)
+#define LANE_Y        (uint4)(0, 0, 1, 1)
+#elif CLRT_LANES == 8
+#define PACKET_WIDTH  4
+#define PACKET_HEIGHT 2
+#define BLOCK         PACKET_SIDE
+#define LANE_X        (uint8)(0, 1, 2, 3, 0, 1, 2, 3)
+#define LANE_Y        (uint8)(0, 0, 0, 0, 1, 1, 1, 1)
+#else
+#define PACKET_WIDTH  4
+#define PACKET_HEIGHT 4
+#define BLOCK         PACKET_SIDE
+#define LANE_X        (uint16)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)
+#define LANE_Y        (uint16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
+#endif
+
 // Samples are summed as integers of 2^-32: exact in any order, so that a constant color stays
-// itself however many samples there are.
-static inline ulong3 fixed_point(float3 color)
+// itself however many samples there are.  Rounding comes first, so that converting is exact.
+static inline LongCount fixed_point(Real color)
 {
-    return convert_ulong3_rte(clamp(color, 0.0f, 1.0f) * 0x1p32f);
+    return to_long(rint(clamp(color, 0.0f, 1.0f) * 0x1p32f));
 }
 
-static inline float3 pixel_color(const SceneView *scene, const FrameData *frame, uint2 pixel,
-                                 Tally *tally)
+static inline Real mean_of(LongCount sum, ulong count)
 {
-    ulong3 sum = (ulong3)(0);
-    for (uint row = 0; row < frame->samples; row++)
-        for (uint column = 0; column < frame->samples; column++) {
-            const Ray ray = camera_ray(frame, pixel.x * frame->samples + column,
-                                       pixel.y * frame->samples + row);
-            sum += fixed_point(trace(scene, frame, ray, tally));
+    return to_real((sum + count / 2) / count) * 0x1p-32f;
+}
+
+static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
+                                Truth active, Tally *tally)
+{
+    LongCount red = 0, green = 0, blue = 0;
+    const uint samples = frame->samples;
+    for (uint row = 0; row < samples; row++)
+        for (uint column = 0; column < samples; column++) {
+            const Ray ray = camera_ray(frame, x * samples + column, y * samples + row, active);
+            const Real3 color = trace(scene, frame, ray, tally);
+            red += fixed_point(color.x);
+            green += fixed_point(color.y);
+            blue += fixed_point(color.z);
         }
-    const ulong count = (ulong)frame->samples * frame->samples;
+    const ulong count = (ulong)samples * samples;
     if (CLRT_STATISTICS)
-        tally->camera_rays += (uint)count;
-    return convert_float3((sum + count / 2) / count) * 0x1p-32f;
+        tally->camera_rays += (uint)count * lane_count(active);
+    return real3_of(mean_of(red, count), mean_of(green, count), mean_of(blue, count));
 }
 
 static inline void store_tally(global uint *counts, const Tally *tally)
@@ -37,24 +72,44 @@ static inline void store_tally(global uint *counts, const Tally *tally)
     counts[TALLY_SPHERE_TESTS] = tally->sphere_tests;
 }
 
+// Stores the colors of the lanes inside the tile, and with the first of them what all cost.
+static inline void store_packet(const FrameData *frame, uint2 corner, Real3 color,
+                                const Tally *tally, global float *pixels, global uint *tallies)
+{
+    const float *red = (const float *)&color.x, *green = (const float *)&color.y,
+                *blue = (const float *)&color.z;
+    const Tally none = {0};
+    for (uint lane = 0; lane < CLRT_LANES; lane++) {
+        const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
+        if (column >= frame->tile_width || row >= frame->tile_height)
+            continue;
+        const size_t place = (size_t)row * frame->tile_width + column;
+        pixels[3 * place] = red[lane];
+        pixels[3 * place + 1] = green[lane];
+        pixels[3 * place + 2] = blue[lane];
+        if (CLRT_STATISTICS)
+            store_tally(tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
+    }
+}
+
 // pixels holds tile_width * tile_height colors of three floats, rows from the top; tallies as many
 // times TALLY_KINDS counts, written only where statistics are compiled in.  The range is padded to
 // whole work-groups.
 kernel void render_tile(const FrameData frame, global const PointLight *lights,
                         global const Material *materials, global const SphereData *spheres,
-                        global const BvhPair *nodes, global const TriangleData *triangles,
+                        global const Node *nodes, global const Triangles *triangles,
                         global const TriangleLook *looks, global const CornerNormals *normals,
                         global float *pixels, global uint *tallies)
 {
-    const uint column = get_global_id(0), row = get_global_id(1);
-    if (column >= frame.tile_width || row >= frame.tile_height)
-        return;
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, normals};
-    Tally tally = {0};
-    const uint2 pixel = (uint2)(frame.tile_x + column, frame.tile_y + row);
-    const float3 color = pixel_color(&scene, &frame, pixel, &tally);
-    const size_t place = (size_t)row * frame.tile_width + column;
-    vstore3(color, place, pixels);
-    if (CLRT_STATISTICS)
-        store_tally(tallies + place * TALLY_KINDS, &tally);
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
+    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
+        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
+            const Count column = x + LANE_X, row = y + LANE_Y;
+            const Truth active = column < frame.tile_width && row < frame.tile_height;
+            Tally tally = {0};
+            const Real3 color = pixel_color(&scene, &frame, frame.tile_x + column,
+                                            frame.tile_y + row, active, &tally);
+            store_packet(&frame, (uint2)(x, y), color, &tally, pixels, tallies);
+        }
 }

@@ -8,72 +8,87 @@
 // Sums stay finite for lights of any intensity, so that 0 * sum is never a NaN.
 #define BRIGHTEST 1e30f
 
-static inline Ray ray_from_light(float3 light, const Surface *surface)
+static inline Ray ray_from_light(Real3 light, const Surface *surface, Truth active)
 {
-    return (Ray){light, surface->point - light, surface->id, RAY_SHADOW, surface->point};
+    return (Ray){light, difference(surface->point, light), surface->id, RAY_SHADOW, surface->point,
+                 active};
 }
 
 // The highlight (n.h)^shininess.  Past integers the power is exp(shininess * log(n.h)) with n.h
 // taken from |n - h|, which keeps its distance from 1: at shininess 1e6 pow of the rounded dot
 // product is off by 0.14, this by 5e-5.
-static inline float highlight(global const Material *material, float3 normal, float3 half_vector)
+static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
-    if (material->exponent != 0xffffffffu) {
-        const float cosine = dot_product(normal, half_vector);
-        return integer_power(clamp(cosine, 0.0f, 1.0f), material->exponent);
+    const Truth is_integer = material->exponent != 0xffffffffu;
+    const Real cosine = dot_product(normal, half_vector);
+    const Count exponent = is_integer ? material->exponent : (Count)(0);
+    const Real power = integer_power(clamp(cosine, 0.0f, 1.0f), exponent);
+    if (!any_lane(!is_integer))
+        return power;
+    const Real3 apart = difference(normal, half_vector);
+    const Real below_one = -0.5f * dot_product(apart, apart);
+    const Real smooth = exponential(material->shininess * log_one_plus(below_one));
+    const Real other = below_one > -1.0f ? smooth : 0.0f;
+    return is_integer ? power : other;
+}
+
+static inline Real3 half_vector_of(const Surface *surface, Real3 toward_light)
+{
+    const Real3 half_vector = unit_vector(sum3(toward_light, surface->toward_viewer));
+    return choose3(has_length(half_vector), half_vector, surface->normal);
+}
+
+typedef struct {
+    Real diffuse, specular;
+} LightSum;
+
+// Adds what the light at `light` gives to the surfaces.  Those turned away from it get nothing and
+// need no shadow ray.
+static inline void receive_light(const SceneView *scene, const FrameData *frame,
+                                 const Surface *surface, const MaterialLanes *material, uint index,
+                                 Truth wanted, LightSum *sum, Tally *tally)
+{
+    const Real3 light = load3(scene->lights[index].position);
+    const float intensity = scene->lights[index].intensity;
+    const Real3 toward_light = unit_vector(difference(light, surface->point));
+    const Real cosine = dot_product(surface->normal, toward_light);
+    const Truth faces = wanted && cosine > 0.0f;
+    if (!any_lane(faces))
+        return;
+    if (CLRT_STATISTICS)
+        tally->shadow_rays += lane_count(faces);
+    const Ray ray = ray_from_light(light, surface, faces);
+    const Truth is_lit = faces && !is_blocked(scene, frame, &ray, tally);
+    sum->diffuse = is_lit ? sum->diffuse + intensity * cosine : sum->diffuse;
+    const Truth shines = is_lit && material->shader == SHADER_BLINN_PHONG;
+    if (!CLRT_SPECULAR || !any_lane(shines))
+        return;
+    const Real shine =
+        intensity * highlight(material, surface->normal, half_vector_of(surface, toward_light));
+    sum->specular = shines ? sum->specular + shine : sum->specular;
+}
+
+// The color of the surfaces where `met`; other lanes hold anything.
+static inline Real3 shade(const SceneView *scene, const FrameData *frame, const Surface *surface,
+                          const MaterialLanes *material, Truth met, Tally *tally)
+{
+    const Truth is_flat = material->shader == SHADER_SILHOUETTE;
+    const Truth wanted = met && !is_flat;
+    LightSum sum = {0.0f, 0.0f};
+    if (!any_lane(wanted))
+        return material->diffuse;
+    for (uint index = 0; index < frame->light_count; index++)
+        receive_light(scene, frame, surface, material, index, wanted, &sum, tally);
+    const Real diffuse = frame->ambient + material->kd * min(sum.diffuse, BRIGHTEST);
+    Real3 color = scaled3(diffuse, material->diffuse);
+    if (CLRT_SPECULAR) {
+        const Real3 shine =
+            scaled3(material->ks * min(sum.specular, BRIGHTEST), material->specular);
+        color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     }
-    const float3 apart = normal - half_vector;
-    const float below_one = -0.5f * dot_product(apart, apart);
-    if (!(below_one > -1.0f))
-        return 0.0f;
-    return exponential(material->shininess * log_one_plus(below_one));
-}
-
-static inline float3 half_vector_of(const Surface *surface, float3 toward_light)
-{
-    const float3 half_vector = unit_vector(toward_light + surface->toward_viewer);
-    return largest_component(half_vector) > 0.0f ? half_vector : surface->normal;
-}
-
-// Light received by the surface: x diffuse, y specular.  Surfaces turned away from a light get
-// nothing of it and need no shadow ray.
-static inline float2 light_received(const SceneView *scene, const FrameData *frame,
-                                    const Surface *surface, Tally *tally)
-{
-    global const Material *material = &scene->materials[surface->material];
-    float2 sum = (float2)(0.0f);
-    for (uint index = 0; index < frame->light_count; index++) {
-        const float3 light = load3(scene->lights[index].position);
-        const float intensity = scene->lights[index].intensity;
-        const float3 toward_light = unit_vector(light - surface->point);
-        const float cosine = dot_product(surface->normal, toward_light);
-        if (!(cosine > 0.0f))
-            continue;
-        if (CLRT_STATISTICS)
-            tally->shadow_rays++;
-        const Ray ray = ray_from_light(light, surface);
-        if (is_blocked(scene, frame, &ray, tally))
-            continue;
-        sum.x += intensity * cosine;
-        if (CLRT_SPECULAR && material->shader == SHADER_BLINN_PHONG)
-            sum.y += intensity *
-                     highlight(material, surface->normal, half_vector_of(surface, toward_light));
-    }
-    return min(sum, (float2)(BRIGHTEST));
-}
-
-static inline float3 shade(const SceneView *scene, const FrameData *frame, const Surface *surface,
-                           Tally *tally)
-{
-    global const Material *material = &scene->materials[surface->material];
-    const float3 diffuse = load3(material->diffuse);
-    if (material->shader == SHADER_SILHOUETTE)
-        return diffuse;
-    const float2 light = light_received(scene, frame, surface, tally);
-    float3 color = diffuse * (frame->ambient + material->kd * light.x);
-    if (CLRT_SPECULAR && material->shader == SHADER_BLINN_PHONG)
-        color += load3(material->specular) * (material->ks * light.y);
-    return clamp(color, 0.0f, 1.0f);
+    color = real3_of(clamp(color.x, 0.0f, 1.0f), clamp(color.y, 0.0f, 1.0f),
+                     clamp(color.z, 0.0f, 1.0f));
+    return choose3(is_flat, material->diffuse, color);
 }
 
 #endif

@@ -88,6 +88,9 @@ typedef struct {
 } BvhPair;
 CLRT_SAME_SIZE(BvhPair, 64)
 
+// A work-item of the packet family renders PACKET_SIDE x PACKET_SIDE pixels.
+#define PACKET_SIDE 4
+
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.
 #define WIDE 8
 

@@ -8,20 +8,20 @@
 #include "numeric.cl"
 
 typedef struct {
-    float high, low;
+    Real high, low;
 } TwoFloat;
 
-static inline TwoFloat two_sum(float a, float b)
+static inline TwoFloat two_sum(Real a, Real b)
 {
-    const float sum = a + b;
-    const float part = sum - a;
+    const Real sum = a + b;
+    const Real part = sum - a;
     return (TwoFloat){sum, (a - (sum - part)) + (b - part)};
 }
 
 // The same where |a| >= |b|.
-static inline TwoFloat two_sum_ordered(float a, float b)
+static inline TwoFloat two_sum_ordered(Real a, Real b)
 {
-    const float sum = a + b;
+    const Real sum = a + b;
     return (TwoFloat){sum, b - (sum - a)};
 }
 
@@ -38,17 +38,17 @@ static inline TwoFloat two_negate(TwoFloat a)
     return (TwoFloat){-a.high, -a.low};
 }
 
-static inline TwoFloat two_scale(TwoFloat a, float b)
+static inline TwoFloat two_scale(TwoFloat a, Real b)
 {
-    const float product = a.high * b;
-    const float error = fma(a.high, b, -product);
+    const Real product = a.high * b;
+    const Real error = fma(a.high, b, -product);
     return two_sum_ordered(product, fma(a.low, b, error));
 }
 
 static inline TwoFloat two_square(TwoFloat a)
 {
-    const float product = a.high * a.high;
-    const float error = fma(a.high, a.high, -product);
+    const Real product = a.high * a.high;
+    const Real error = fma(a.high, a.high, -product);
     return two_sum_ordered(product, fma(2.0f * a.high, a.low, error));
 }
 
@@ -61,102 +61,116 @@ static inline TwoFloat two_length_squared(TwoFloat3 v)
     return two_add(two_add(two_square(v.x), two_square(v.y)), two_square(v.z));
 }
 
-static inline TwoFloat two_dot(TwoFloat3 v, float3 d)
+static inline TwoFloat two_dot(TwoFloat3 v, Real3 d)
 {
     return two_add(two_add(two_scale(v.x, d.x), two_scale(v.y, d.y)), two_scale(v.z, d.z));
 }
 
-static inline TwoFloat two_from_center(float origin, float center, float center_low)
+typedef struct {
+    TwoFloat3 center;
+    TwoFloat radius;
+} Sphere;
+
+// One sphere in all lanes.
+static inline Sphere sphere_at(global const SphereData *data)
 {
-    const TwoFloat difference = two_sum(origin, -center);
-    return two_sum_ordered(difference.high, difference.low - center_low);
+    return (Sphere){{{data->center[0], data->center_low[0]},
+                     {data->center[1], data->center_low[1]},
+                     {data->center[2], data->center_low[2]}},
+                    {data->radius, data->radius_low}};
 }
 
-static inline TwoFloat sphere_center(global const SphereData *sphere, uint axis)
+static inline TwoFloat two_from_center(Real origin, TwoFloat center)
 {
-    return (TwoFloat){sphere->center[axis], sphere->center_low[axis]};
+    const TwoFloat difference = two_sum(origin, -center.high);
+    return two_sum_ordered(difference.high, difference.low - center.low);
 }
 
-static inline TwoFloat3 sphere_to_origin(global const SphereData *sphere, float3 origin)
+static inline TwoFloat3 sphere_to_origin(const Sphere *sphere, Real3 origin)
 {
-    return (TwoFloat3){two_from_center(origin.x, sphere->center[0], sphere->center_low[0]),
-                       two_from_center(origin.y, sphere->center[1], sphere->center_low[1]),
-                       two_from_center(origin.z, sphere->center[2], sphere->center_low[2])};
+    return (TwoFloat3){two_from_center(origin.x, sphere->center.x),
+                       two_from_center(origin.y, sphere->center.y),
+                       two_from_center(origin.z, sphere->center.z)};
+}
+
+// f + step * d.
+static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
+{
+    const TwoFloat s = {step, 0.0f};
+    return (TwoFloat3){two_add(f.x, two_scale(s, d.x)), two_add(f.y, two_scale(s, d.y)),
+                       two_add(f.z, two_scale(s, d.z))};
 }
 
 // The discriminant over |d|^2: radius^2 minus the squared distance of the center to the line.
 // s only needs to be near the foot of the perpendicular: the last term takes out what it is off.
-static inline float sphere_discriminant(TwoFloat3 f, float3 d, float s, float dd, TwoFloat rr)
+static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
-    const TwoFloat3 foot = {two_add(f.x, two_scale((TwoFloat){s, 0.0f}, d.x)),
-                            two_add(f.y, two_scale((TwoFloat){s, 0.0f}, d.y)),
-                            two_add(f.z, two_scale((TwoFloat){s, 0.0f}, d.z))};
-    const float along = two_dot(foot, d).high;
+    const TwoFloat3 foot = two_stepped(f, s, d);
+    const Real along = two_dot(foot, d).high;
     return two_add(rr, two_negate(two_length_squared(foot))).high + along * along / dd;
 }
 
 // Whether plain floats already prove that the line passes the sphere by.  Their error is below 16
 // units of rounding of the squares of all lengths involved, of which 64 are allowed.  It spares
 // most spheres the exact test: three of them took half the time of a picture without it.
-static inline bool sphere_is_passed(global const SphereData *sphere, float3 origin, float3 d)
+static inline Truth sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
-    const float3 center = load3(sphere->center);
-    const float3 f = origin - center;
-    const float3 foot = f - (dot_product(f, d) / dot_product(d, d)) * d;
-    const float rr = sphere->radius * sphere->radius;
-    const float apart = dot_product(foot, foot) - rr;
-    const float squares = dot_product(origin, origin) + dot_product(center, center) + rr;
+    const Real3 center =
+        real3_of(sphere->center.x.high, sphere->center.y.high, sphere->center.z.high);
+    const Real3 f = difference(origin, center);
+    const Real3 foot = difference(f, scaled3(dot_product(f, d) / dot_product(d, d), d));
+    const Real rr = sphere->radius.high * sphere->radius.high;
+    const Real apart = dot_product(foot, foot) - rr;
+    const Real squares = dot_product(origin, origin) + dot_product(center, center) + rr;
     return apart > 64.0f * UNIT_ROUNDOFF * squares;
 }
 
 // The smallest distance t > 0 at which origin + t * direction meets the sphere, INFINITY where it
-// does not.  A ray inside meets the far wall.
-static inline float sphere_distance(global const SphereData *sphere, float3 origin, float3 d)
+// does not, in the wanted lanes.  A ray inside meets the far wall.
+static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Truth wanted)
 {
-    if (sphere_is_passed(sphere, origin, d))
+    const Truth is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(is_near))
         return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);
-    const TwoFloat rr = two_square((TwoFloat){sphere->radius, sphere->radius_low});
-    const float dd = dot_product(d, d);
-    const float b = -two_dot(f, d).high;
-    const float discriminant = sphere_discriminant(f, d, b / dd, dd, rr);
-    if (!(discriminant >= 0.0f))
-        return INFINITY;
-    const float q = b + copysign(sqrt(dd * discriminant), b);
-    const float c = two_add(two_length_squared(f), two_negate(rr)).high;
-    const float one = c / q, other = q / dd;
-    const float near = one < other ? one : other;
-    const float far = one < other ? other : one;
-    return near > 0.0f ? near : far > 0.0f ? far : INFINITY;
+    const TwoFloat rr = two_square(sphere->radius);
+    const Real dd = dot_product(d, d);
+    const Real b = -two_dot(f, d).high;
+    const Real discriminant = sphere_discriminant(f, d, b / dd, dd, rr);
+    const Real q = b + copysign(sqrt(dd * discriminant), b);
+    const Real c = two_add(two_length_squared(f), two_negate(rr)).high;
+    const Real one = c / q, other = q / dd;
+    const Real near = one < other ? one : other;
+    const Real far = one < other ? other : one;
+    const Real first = far > 0.0f ? far : INFINITY;
+    const Real t = near > 0.0f ? near : first;
+    return is_near && discriminant >= 0.0f ? t : INFINITY;
 }
 
 // Where the ray that meets the sphere at t does so.  The point on the ray is pulled onto the
 // sphere, so that its error is that of rounding it, whatever the radius.
-static inline float3 sphere_point(global const SphereData *sphere, float3 origin, float3 d, float t,
-                                  float3 *normal)
+static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Real t, Real3 *normal)
 {
-    const TwoFloat3 f = sphere_to_origin(sphere, origin);
-    const TwoFloat step = {t, 0.0f};
-    const TwoFloat3 q = {two_add(f.x, two_scale(step, d.x)), two_add(f.y, two_scale(step, d.y)),
-                         two_add(f.z, two_scale(step, d.z))};
-    const TwoFloat rr = two_square((TwoFloat){sphere->radius, sphere->radius_low});
-    const float inside = two_add(rr, two_negate(two_length_squared(q))).high;
-    const float pull = 0.5f * inside / sphere->radius;
-    const float3 n = unit_vector((float3)(q.x.high, q.y.high, q.z.high));
+    const TwoFloat3 q = two_stepped(sphere_to_origin(sphere, origin), t, d);
+    const TwoFloat rr = two_square(sphere->radius);
+    const Real inside = two_add(rr, two_negate(two_length_squared(q))).high;
+    const Real pull = 0.5f * inside / sphere->radius.high;
+    const Real3 n = unit_vector(real3_of(q.x.high, q.y.high, q.z.high));
     *normal = n;
-    return (
-        float3)(two_add(two_add(q.x, (TwoFloat){pull * n.x, 0.0f}), sphere_center(sphere, 0)).high,
-                two_add(two_add(q.y, (TwoFloat){pull * n.y, 0.0f}), sphere_center(sphere, 1)).high,
-                two_add(two_add(q.z, (TwoFloat){pull * n.z, 0.0f}), sphere_center(sphere, 2)).high);
+    const TwoFloat3 on = {two_add(q.x, (TwoFloat){pull * n.x, 0.0f}),
+                          two_add(q.y, (TwoFloat){pull * n.y, 0.0f}),
+                          two_add(q.z, (TwoFloat){pull * n.z, 0.0f})};
+    return real3_of(two_add(on.x, sphere->center.x).high, two_add(on.y, sphere->center.y).high,
+                    two_add(on.z, sphere->center.z).high);
 }
 
 // sphere_distance for a ray that starts on this sphere: its near root is zero by construction, and
 // the chord to the far wall is kept where it is longer than the origin's own error.
-static inline float sphere_chord(global const SphereData *sphere, float3 origin, float3 d)
+static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
-    const float b = -two_dot(sphere_to_origin(sphere, origin), d).high;
-    const float t = 2.0f * b / dot_product(d, d);
-    return t > 0x1p-17f * sphere->radius ? t : INFINITY;
+    const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;
+    const Real t = 2.0f * b / dot_product(d, d);
+    return t > 0x1p-17f * sphere->radius.high ? t : INFINITY;
 }
 
 #endif

@@ -5,46 +5,59 @@
 #define CLRT_TRACE_CL
 #include "shade.cl"
 
-// sample_x and sample_y count sub-pixels across the whole picture.
-static inline Ray camera_ray(const FrameData *frame, uint sample_x, uint sample_y)
+static inline Real3 load_private3(const float *components)
 {
-    const float x = (float)((int)(2 * sample_x + 1) - (int)(frame->width * frame->samples));
-    const float y = (float)((int)(2 * sample_y + 1) - (int)(frame->height * frame->samples));
-    const CameraData *camera = &frame->camera;
-    const float3 eye = (float3)(camera->eye[0], camera->eye[1], camera->eye[2]);
-    const float3 right =
-        (float3)(camera->right_step[0], camera->right_step[1], camera->right_step[2]);
-    const float3 down = (float3)(camera->down_step[0], camera->down_step[1], camera->down_step[2]);
-    const float3 forward = (float3)(camera->forward[0], camera->forward[1], camera->forward[2]);
-    const float3 direction = fma((float3)(x), right, fma((float3)(y), down, forward));
-    return (Ray){eye, direction, NOTHING, RAY_CAMERA, eye};
+    return real3_of(components[0], components[1], components[2]);
 }
 
-static inline float3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)
+// sample_x and sample_y count sub-pixels across the whole picture.
+static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sample_y, Truth active)
 {
-    const float3 background =
-        (float3)(frame->background[0], frame->background[1], frame->background[2]);
-    float3 color = (float3)(0.0f);
-    float weight = 1.0f;
-    for (uint level = 0; level < frame->max_level; level++) {
+    const Real x = to_real(to_int(2 * sample_x + 1) - (int)(frame->width * frame->samples));
+    const Real y = to_real(to_int(2 * sample_y + 1) - (int)(frame->height * frame->samples));
+    const Real3 eye = load_private3(frame->camera.eye);
+    const Real3 right = load_private3(frame->camera.right_step);
+    const Real3 down = load_private3(frame->camera.down_step);
+    const Real3 forward = load_private3(frame->camera.forward);
+    const Real3 direction = {fma(x, right.x, fma(y, down.x, forward.x)),
+                             fma(x, right.y, fma(y, down.y, forward.y)),
+                             fma(x, right.z, fma(y, down.z, forward.z))};
+    return (Ray){eye, direction, NOTHING, RAY_CAMERA, eye, active};
+}
+
+static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
+{
+    tally->camera_hits += level == 0 ? lane_count(met) : 0;
+    tally->reflected_rays += level > 0 ? lane_count(active) : 0;
+    tally->shaded_points += lane_count(met);
+}
+
+static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)
+{
+    Real3 color = real3_of(0.0f, 0.0f, 0.0f);
+    Real weight = 1.0f;
+    Truth ended = 0; // at a surface that does not reflect
+    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
         const Hit hit = nearest_hit(scene, frame, &ray, tally);
-        if (CLRT_STATISTICS) {
-            tally->camera_hits += level == 0 && hit.id != NOTHING;
-            tally->reflected_rays += level > 0;
-            tally->shaded_points += hit.id != NOTHING;
-        }
-        if (hit.id == NOTHING)
+        const Truth met = ray.active && hit.id != NOTHING;
+        if (CLRT_STATISTICS)
+            count_rays(tally, level, ray.active, met);
+        if (!any_lane(met))
             break;
-        const Surface surface = surface_at(scene, frame, &ray, hit);
-        const float3 shaded = shade(scene, frame, &surface, tally);
-        const float reflectivity = scene->materials[surface.material].reflectivity;
-        if (!CLRT_MIRRORS || reflectivity == 0.0f)
-            return color + weight * shaded;
-        color += (weight * (1.0f - reflectivity)) * shaded;
-        weight *= reflectivity;
-        ray = ray_reflected(&surface);
+        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
+        const MaterialLanes material = fetch_material(scene, surface.material);
+        const Real3 shaded = shade(scene, frame, &surface, &material, met, tally);
+        const Truth ends = met && (!CLRT_MIRRORS || material.reflectivity == 0.0f);
+        const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
+        color = choose3(met, sum3(color, scaled3(share, shaded)), color);
+        weight = met && !ends ? weight * material.reflectivity : weight;
+        ended = ended || ends;
+        if (!CLRT_MIRRORS)
+            break;
+        ray = ray_reflected(&surface, met && !ends);
     }
-    return color + weight * background;
+    const Real3 background = load_private3(frame->background);
+    return choose3(ended, color, sum3(color, scaled3(weight, background)));
 }
 
 #endif

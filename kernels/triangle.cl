@@ -2,104 +2,77 @@
 // Ray against triangle, watertight: the triangle is sheared into the ray's frame and the signs of
 // three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013).  Neighbors share the
 // sheared vertices bit for bit, and Kahan's difference of products gives each shared edge the same
-// exact sign from both sides, so no ray passes between them.
-#ifndef CLRT_TRIANGLE_CL
-#define CLRT_TRIANGLE_CL
-#include "numeric.cl"
+// exact sign from both sides, so no ray passes between them.  No include guard: it is compiled for
+// one ray and one triangle, one ray and eight triangles, and a packet of rays and one triangle.
 
-typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
-
-// origin + t * direction.  A shadow ray runs from the light at t = 0 to the shaded point at t = 1.
+// The shear that turns the ray into the axis z: z is the axis the direction is longest along, x and
+// y the ones that follow in the cycle.
 typedef struct {
-    float3 origin, direction;
-    uint own; // id of the primitive it starts or ends on, which it cannot meet
-    RayKind kind;
-    float3 surface; // the point of that primitive
-} Ray;
-
-// The shear that turns the ray into the axis z: z is the axis the direction is longest along.
-typedef struct {
-    uint x, y, z; // the axes, cyclic
-    float origin_x, origin_y, origin_z;
-    float shear_x, shear_y, inverse_z, direction_z;
+    Real shear_x, shear_y, inverse_z, direction_z;
 } Shear;
 
-static inline float component(float3 v, uint axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-static inline Shear shear_along(const Ray *ray)
-{
-    const float3 size = fabs(ray->direction);
-    Shear shear;
-    shear.z = size.y > size.x ? 1 : 0;
-    shear.z = size.z > (shear.z ? size.y : size.x) ? 2 : shear.z;
-    shear.x = shear.z == 2 ? 0 : shear.z + 1;
-    shear.y = shear.x == 2 ? 0 : shear.x + 1;
-    shear.origin_x = component(ray->origin, shear.x);
-    shear.origin_y = component(ray->origin, shear.y);
-    shear.origin_z = component(ray->origin, shear.z);
-    shear.direction_z = component(ray->direction, shear.z);
-    shear.inverse_z = 1.0f / shear.direction_z;
-    shear.shear_x = component(ray->direction, shear.x) * shear.inverse_z;
-    shear.shear_y = component(ray->direction, shear.y) * shear.inverse_z;
-    return shear;
-}
-
-// The corners relative to the origin, sheared.
 typedef struct {
-    float ax, ay, az, bx, by, bz, cx, cy, cz;
-} ShearedTriangle;
-
-// Reading components by axis makes the permutation free.
-static inline ShearedTriangle triangle_sheared(global const TriangleData *triangle,
-                                               const Shear *shear)
-{
-    ShearedTriangle s;
-    s.az = triangle->a[shear->z] - shear->origin_z;
-    s.bz = triangle->b[shear->z] - shear->origin_z;
-    s.cz = triangle->c[shear->z] - shear->origin_z;
-    s.ax = fma(-shear->shear_x, s.az, triangle->a[shear->x] - shear->origin_x);
-    s.ay = fma(-shear->shear_y, s.az, triangle->a[shear->y] - shear->origin_y);
-    s.bx = fma(-shear->shear_x, s.bz, triangle->b[shear->x] - shear->origin_x);
-    s.by = fma(-shear->shear_y, s.bz, triangle->b[shear->y] - shear->origin_y);
-    s.cx = fma(-shear->shear_x, s.cz, triangle->c[shear->x] - shear->origin_x);
-    s.cy = fma(-shear->shear_y, s.cz, triangle->c[shear->y] - shear->origin_y);
-    return s;
-}
+    Real3 a, b, c;
+} Corners;
 
 // The edge functions, which are barycentric weights once divided by their sum.
 typedef struct {
-    float u, v, w, determinant;
+    Real u, v, w, determinant;
 } Edges;
 
-static inline Edges triangle_edges(const ShearedTriangle *s)
+// Corners relative to the ray's origin, their components in the order of the shear.
+static inline Corners OVERLOAD corners_sheared(const Corners *relative, const Shear *shear)
 {
+    Corners s = *relative;
+    s.a.x = fma(-shear->shear_x, s.a.z, s.a.x);
+    s.a.y = fma(-shear->shear_y, s.a.z, s.a.y);
+    s.b.x = fma(-shear->shear_x, s.b.z, s.b.x);
+    s.b.y = fma(-shear->shear_y, s.b.z, s.b.y);
+    s.c.x = fma(-shear->shear_x, s.c.z, s.c.x);
+    s.c.y = fma(-shear->shear_y, s.c.z, s.c.y);
+    return s;
+}
+
+static inline Edges OVERLOAD edges_of(const Corners *sheared)
+{
+    const Real3 a = sheared->a, b = sheared->b, c = sheared->c;
     Edges edges;
-    edges.u = difference_of_products(s->cx, s->by, s->cy, s->bx);
-    edges.v = difference_of_products(s->ax, s->cy, s->ay, s->cx);
-    edges.w = difference_of_products(s->bx, s->ay, s->by, s->ax);
+    edges.u = difference_of_products(c.x, b.y, c.y, b.x);
+    edges.v = difference_of_products(a.x, c.y, a.y, c.x);
+    edges.w = difference_of_products(b.x, a.y, b.y, a.x);
     edges.determinant = (edges.u + edges.v) + edges.w;
     return edges;
 }
 
 // Zero counts for both signs: a ray through an edge meets both triangles, and the lower id wins.
-static inline bool edges_contain(const Edges *edges)
+static inline Truth OVERLOAD edges_contain(const Edges *edges)
 {
-    const float smallest = min(min(edges->u, edges->v), edges->w);
-    const float largest = max(max(edges->u, edges->v), edges->w);
+    const Real smallest = min(min(edges->u, edges->v), edges->w);
+    const Real largest = max(max(edges->u, edges->v), edges->w);
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
+}
+
+// Whether the ray comes from the front, where the corners turn counter-clockwise.
+static inline Truth OVERLOAD edges_face(const Edges *edges, const Shear *shear)
+{
+    return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
+}
+
+static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *edges)
+{
+    const Real r = 1.0f / edges->determinant;
+    return fma(edges->u * r, sheared->a.z,
+               fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
 // How far along z the reported depth may be from the true one: 16 u Q (10 of the weights, 4 of the
 // interpolation, 2 of the division), Q the largest distance of a corner from the origin, and two to
 // spare.
-static inline float triangle_depth_error(const ShearedTriangle *s)
+static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
-    const float depth = max(max(fabs(s->az), fabs(s->bz)), fabs(s->cz));
-    const float across = max(max(max(fabs(s->ax), fabs(s->bx)), fabs(s->cx)),
-                             max(max(fabs(s->ay), fabs(s->by)), fabs(s->cy)));
+    const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
+    const Real across = max(max(max(fabs(s->a.x), fabs(s->b.x)), fabs(s->c.x)),
+                            max(max(fabs(s->a.y), fabs(s->b.y)), fabs(s->c.y)));
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
@@ -107,72 +80,38 @@ static inline float triangle_depth_error(const ShearedTriangle *s)
 // zero where rounding leaves the side open.  Near a triangle this knows far more than the depth
 // of a ray that came from afar.  The bound adds the point's own error, the products' and the
 // normal's.
-static inline float height_over(global const TriangleData *triangle, float3 point)
+static inline Real OVERLOAD height_over(const Corners *corners, Real3 point)
 {
-    const float3 a = load3(triangle->a);
-    const float3 ab = load3(triangle->b) - a, ac = load3(triangle->c) - a;
-    const float3 normal = cross_product(ab, ac), apart = point - a;
-    const float height = dot_product(normal, apart);
-    const float edges = largest_component(ab) * largest_component(ac);
-    const float error =
-        16.0f * dot_product(fabs(normal), fabs(point)) +
-        8.0f * (dot_product(fabs(normal), fabs(apart)) + edges * largest_component(apart));
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real3 normal = cross_product(ab, ac), apart = difference(point, corners->a);
+    const Real height = dot_product(normal, apart);
+    const Real3 size = magnitudes(normal);
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Real error =
+        16.0f * dot_product(size, magnitudes(point)) +
+        8.0f * (dot_product(size, magnitudes(apart)) + edges * largest_component(apart));
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
 }
 
-// Where a ray that leaves or reaches a surface stops on a triangle that t says it meets, INFINITY
-// where it does not.  The side that its surface point lies on decides, beyond doubt, or the
-// neighbors of every point would mirror and shadow it; t near the surface is mere rounding.  From
-// its inner side, which only two-sided triangles show, a convex neighbor lies on the right side as
-// well, and the depth has to be clear too.
-static inline float surface_ray_distance(global const TriangleData *triangle, const Ray *ray,
-                                         bool front, float t, float error)
-{
-    const bool is_shadow = ray->kind == RAY_SHADOW;
-    const bool inner = front == is_shadow;
-    if (!(t > (is_shadow ? 0.0f : -error)))
-        return INFINITY;
-    if (inner && !((is_shadow ? 1.0f - t : t) > error))
-        return INFINITY;
-    const float height = height_over(triangle, ray->surface);
-    return (inner ? height < 0.0f : height > 0.0f) ? max(t, 0.0f) : INFINITY;
-}
+// What a ray that leaves or reaches a surface knows beside its direction.
+typedef struct {
+    Real3 point; // of the surface
+    Truth front; // it comes from the triangle's front
+    bool is_shadow;
+} SurfaceRay;
 
-// Whether the ray comes from the front, where the corners turn counter-clockwise.
-static inline bool triangle_faces(const Shear *shear, const Edges *edges)
+// Where such a ray stops on a triangle that t, within error, says it meets; INFINITY where it does
+// not.  The side that its surface point lies on decides, beyond doubt, or the neighbors of every
+// point would mirror and shadow it; t near the surface is mere rounding.  From its inner side,
+// which only two-sided triangles show, a convex neighbor lies on the right side as well, and the
+// depth has to be clear too.
+static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
+                                                 Real t, Real error)
 {
-    return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
+    const Truth inner = ray->is_shadow ? ray->front : !ray->front;
+    const Truth ahead = ray->is_shadow ? t > 0.0f : t > -error;
+    const Truth clear = (ray->is_shadow ? 1.0f - t : t) > error;
+    const Real height = height_over(corners, ray->point);
+    const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
+    return ahead && beyond ? max(t, 0.0f) : INFINITY;
 }
-
-// One-sided triangles stop what comes from the front.  A shadow ray is traced from the light, so
-// for it the front is where the shaded point lies.
-static inline bool triangle_is_open(global const TriangleData *triangle, const Ray *ray, bool front)
-{
-    return !(triangle->material & TRIANGLE_TWO_SIDED) && front == (ray->kind == RAY_SHADOW);
-}
-
-static inline float triangle_depth(const ShearedTriangle *s, const Edges *edges)
-{
-    const float r = 1.0f / edges->determinant;
-    return fma(edges->u * r, s->az, fma(edges->v * r, s->bz, (edges->w * r) * s->cz));
-}
-
-// The distance t at which the ray meets the triangle, INFINITY where it does not.
-static inline float triangle_distance(global const TriangleData *triangle, const Ray *ray,
-                                      const Shear *shear)
-{
-    const ShearedTriangle sheared = triangle_sheared(triangle, shear);
-    const Edges edges = triangle_edges(&sheared);
-    if (!edges_contain(&edges))
-        return INFINITY;
-    const bool front = triangle_faces(shear, &edges);
-    if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
-        return INFINITY;
-    const float t = triangle_depth(&sheared, &edges) * shear->inverse_z;
-    if (ray->kind == RAY_CAMERA)
-        return t > 0.0f ? t : INFINITY;
-    const float error = triangle_depth_error(&sheared) * fabs(shear->inverse_z);
-    return surface_ray_distance(triangle, ray, front, t, error);
-}
-
-#endif

@@ -1,13 +1,40 @@
 # SPDX-License-Identifier: MIT
-# Joins the kernel files, in the order given, into one C array.  Includes among them are dropped,
-# and a #line before each makes build logs name the real file and line.
-# Usage: cmake -DFOLDER=kernels -DFILES=a;b -DOUTPUT=file.c -P embed.cmake
-set(joined "")
-foreach(file IN LISTS FILES)
+# Joins the kernel files into one C array: each #include of render.cl, and so on down, gives way to
+# the file's text; a file with an include guard comes once, one without wherever it is included.
+# A #line before each piece makes build logs name the real file and line.
+# Usage: cmake -DFOLDER=kernels -DFILE=render.cl -DOUTPUT=file.c -P embed.cmake
+cmake_minimum_required(VERSION 3.25)
+set(seen "")
+
+function(expand file result)
+  if(file IN_LIST seen)
+    set(${result} "" PARENT_SCOPE)
+    return()
+  endif()
   file(READ "${FOLDER}/${file}" text)
-  string(REGEX REPLACE "#include \"[a-z_.]+\"" "" text "${text}")
-  string(APPEND joined "#line 1 \"${file}\"\n${text}")
-endforeach()
+  if(text MATCHES "#ifndef CLRT_[A-Z_]+_(CL|H)\n")
+    list(APPEND seen "${file}")
+  endif()
+  set(joined "#line 1 \"${file}\"\n")
+  set(line 1)
+  while(text MATCHES "#include \"([a-z_.]+)\"\n")
+    set(included "${CMAKE_MATCH_1}")
+    string(FIND "${text}" "${CMAKE_MATCH_0}" place)
+    string(LENGTH "${CMAKE_MATCH_0}" length)
+    string(SUBSTRING "${text}" 0 ${place} before)
+    math(EXPR place "${place} + ${length}")
+    string(SUBSTRING "${text}" ${place} -1 text)
+    string(REGEX MATCHALL "\n" ends "${before}")
+    list(LENGTH ends lines)
+    math(EXPR line "${line} + ${lines} + 1")
+    expand("${included}" inner)
+    string(APPEND joined "${before}${inner}#line ${line} \"${file}\"\n")
+  endwhile()
+  set(seen "${seen}" PARENT_SCOPE)
+  set(${result} "${joined}${text}" PARENT_SCOPE)
+endfunction()
+
+expand("${FILE}" joined)
 string(HEX "${joined}" bytes)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "(................................................................................)" "\\1\n" bytes "${bytes}")

@@ -10,8 +10,6 @@ typedef enum {
     FAMILY_PACKET // a work-item draws a block of PACKET_SIDE x PACKET_SIDE pixels
 } KernelFamily;
 
-#define PACKET_SIDE 4
-
 // Packets walk wide nodes only.
 typedef struct {
     KernelFamily family;

@@ -36,12 +36,14 @@ kernel void probe_spheres(global const SphereData *spheres, global const float *
                           global float *distances)
 {
     const uint item = get_global_id(0);
+    const Sphere sphere = sphere_at(&spheres[item]);
     distances[item] =
-        sphere_distance(&spheres[item], load3(rays + 6 * item), load3(rays + 6 * item + 3));
+        sphere_distance(&sphere, load3(rays + 6 * item), load3(rays + 6 * item + 3), true);
 }
 
 kernel void probe_units(global const float *vectors, global float *results)
 {
     const uint item = get_global_id(0);
-    vstore3(unit_vector(load3(vectors + 3 * item)), item, results);
+    const Real3 unit = unit_vector(load3(vectors + 3 * item));
+    vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }

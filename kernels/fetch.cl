@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Reads what a hit needs of the scene, lane by lane.  Where all lanes want the same, which is the
+// rule on large triangles and for materials, one read serves them all.
+#ifndef CLRT_FETCH_CL
+#define CLRT_FETCH_CL
+#include "ray.cl"
+#include "sphere.cl"
+
+typedef struct {
+    Count material; // index
+    Count normals;  // index of the corners' normals, NOTHING where the triangle is flat
+} Look;
+
+// Where a record of words begins, for each lane.
+typedef struct {
+    global const uint *words;
+    Count place;
+    bool shared; // all lanes have the same place
+} Record;
+
+#if CLRT_LANES == 1
+static inline Count first_lane(Count value, Truth among)
+{
+    (void)among;
+    return value;
+}
+
+static inline Record record_at(global const void *words, Count place)
+{
+    return (Record){(global const uint *)words + place, 0, true};
+}
+#else
+static inline Count first_lane(Count value, Truth among)
+{
+    const uint bits = lane_bits(among);
+    return (Count)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
+}
+
+static inline Record record_at(global const void *words, Count place)
+{
+    global const uint *start = (global const uint *)words;
+    if (any_lane(place != (Count)(place.s0)))
+        return (Record){start, place, false};
+    return (Record){start + place.s0, place, true};
+}
+#endif
+
+static inline Count record_word(const Record *record, uint offset)
+{
+    if (record->shared)
+        return (Count)(record->words[offset]);
+    return gather(record->words + offset, record->place);
+}
+
+static inline Real record_real(const Record *record, uint offset)
+{
+    return as_real(record_word(record, offset));
+}
+
+static inline Real3 record_real3(const Record *record, uint offset, uint stride)
+{
+    return real3_of(record_real(record, offset), record_real(record, offset + stride),
+                    record_real(record, offset + 2 * stride));
+}
+
+#define WORDS(type) ((uint)(sizeof(type) / sizeof(uint)))
+
+// Index counts triangles; in blocks it is block * WIDE + place.
+static inline Corners fetch_corners(const SceneView *scene, Count index)
+{
+#if CLRT_WIDE_NODES
+    const Count place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
+    const uint stride = WIDE, corner = 3 * WIDE;
+#else
+    const Count place = index * WORDS(TriangleData);
+    const uint stride = 1, corner = 4;
+#endif
+    const Record record = record_at(scene->triangles, place);
+    return (Corners){record_real3(&record, 0, stride), record_real3(&record, corner, stride),
+                     record_real3(&record, 2 * corner, stride)};
+}
+
+static inline Look fetch_look(const SceneView *scene, const Hit *hit, uint sphere_count)
+{
+#if CLRT_WIDE_NODES
+    const Count number = hit->id - sphere_count;
+    const Record record = record_at(scene->looks, number * WORDS(TriangleLook));
+    return (Look){record_word(&record, 0), record_word(&record, 1)};
+#else
+    (void)sphere_count;
+    const Record record = record_at(scene->triangles, hit->index * WORDS(TriangleData));
+    return (Look){record_word(&record, 7) & ~TRIANGLE_TWO_SIDED, record_word(&record, 11)};
+#endif
+}
+
+// The corners' normals as if they were corners.
+static inline Corners fetch_normals(const SceneView *scene, Count normals)
+{
+    const Record record = record_at(scene->normals, normals * WORDS(CornerNormals));
+    return (Corners){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
+                     record_real3(&record, 8, 1)};
+}
+
+static inline Sphere fetch_sphere(const SceneView *scene, Count index)
+{
+    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    const Real3 high = record_real3(&record, 0, 1), low = record_real3(&record, 4, 1);
+    return (Sphere){{{high.x, low.x}, {high.y, low.y}, {high.z, low.z}},
+                    {record_real(&record, 3), record_real(&record, 7)}};
+}
+
+static inline Count fetch_sphere_material(const SceneView *scene, Count index)
+{
+    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    return record_word(&record, 8);
+}
+
+typedef struct {
+    Real3 diffuse, specular;
+    Real kd, ks, shininess, reflectivity;
+    Count shader, exponent;
+} MaterialLanes;
+
+static inline MaterialLanes fetch_material(const SceneView *scene, Count material)
+{
+    const Record record = record_at(scene->materials, material * WORDS(Material));
+    return (MaterialLanes){.diffuse = record_real3(&record, 0, 1),
+                           .kd = record_real(&record, 3),
+                           .specular = record_real3(&record, 4, 1),
+                           .ks = record_real(&record, 7),
+                           .shader = record_word(&record, 8),
+                           .exponent = record_word(&record, 9),
+                           .shininess = record_real(&record, 10),
+                           .reflectivity = record_real(&record, 11)};
+}
+
+#endif

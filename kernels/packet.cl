@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+// A packet of rays through the tree of wide nodes (Wald, Benthin, Wagner and Slusallek,
+// "Interactive rendering with coherent ray tracing", 2001; Boulos, Wald and Benthin, "Adaptive ray
+// packet reordering", 2008).
+#ifndef CLRT_PACKET_CL
+#define CLRT_PACKET_CL
+#include "wide.cl"
+
+#if CLRT_PACKET
+
+// The rays of a packet that share their signs and their longest axis, with bounds over all of
+// them.
+typedef struct {
+    Ray ray;
+    Shear shear;
+    Real3 ordered_origin; // in the order of the axes
+    uint axes[3];
+    uint negative[3]; // which plane of an axis the rays meet first
+    Real3 inverse, near_offset, far_offset;
+    // Bounds over the active lanes, for a plane p: fma(p, inverse_low, ...).
+    float inverse_low[3], inverse_high[3];
+    float near_low[3], near_high[3], far_low[3], far_high[3];
+    bool common_origin;
+} Packet;
+
+static inline float lowest(Real v)
+{
+#if CLRT_LANES == 16
+    const float8 a = min(v.lo, v.hi);
+    const float4 b = min(a.lo, a.hi);
+#elif CLRT_LANES == 8
+    const float4 b = min(v.lo, v.hi);
+#else
+    const float4 b = v;
+#endif
+    const float2 c = min(b.lo, b.hi);
+    return min(c.x, c.y);
+}
+
+static inline float highest(Real v)
+{
+    return -lowest(-v);
+}
+
+static inline Real slab_directions(Real direction, Real smallest)
+{
+    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
+}
+
+static inline void slab_bounds(Packet *packet, uint axis, Real direction, Real origin, Real slack,
+                               Real *inverse, Real *near_offset, Real *far_offset)
+{
+    const Real widening = copysign(slack, direction);
+    const Real near = origin + widening, far = origin - widening;
+    *inverse = 1.0f / direction;
+    *near_offset = -near * *inverse;
+    *far_offset = -far * *inverse;
+    const float low = lowest(*inverse), high = highest(*inverse);
+    const bool negative = high < 0.0f;
+    // The bound that lies farther along makes entries early and leaves late.
+    const float near_bound = negative ? lowest(near) : highest(near);
+    const float far_bound = negative ? highest(far) : lowest(far);
+    packet->negative[axis] = negative;
+    packet->inverse_low[axis] = low;
+    packet->inverse_high[axis] = high;
+    packet->near_low[axis] = -near_bound * low;
+    packet->near_high[axis] = -near_bound * high;
+    packet->far_low[axis] = -far_bound * low;
+    packet->far_high[axis] = -far_bound * high;
+}
+
+// All lanes of ray are active or copies of an active one.
+static inline void packet_prepare(Packet *packet)
+{
+    const Real3 d = packet->ray.direction, o = packet->ray.origin;
+    const ShearAxes axes = shear_axes(d);
+    packet->shear = shear_along(d, &axes);
+    packet->ordered_origin = axes_ordered(o, &axes);
+    packet->axes[0] = axes.x.s0;
+    packet->axes[1] = axes.y.s0;
+    packet->axes[2] = axes.z.s0;
+    const Real smallest = 0x1p-30f * largest_component(d);
+    const Real slack = BVH_SLACK * largest_component(o);
+    slab_bounds(packet, 0, slab_directions(d.x, smallest), o.x, slack, &packet->inverse.x,
+                &packet->near_offset.x, &packet->far_offset.x);
+    slab_bounds(packet, 1, slab_directions(d.y, smallest), o.y, slack, &packet->inverse.y,
+                &packet->near_offset.y, &packet->far_offset.y);
+    slab_bounds(packet, 2, slab_directions(d.z, smallest), o.z, slack, &packet->inverse.z,
+                &packet->near_offset.z, &packet->far_offset.z);
+}
+
+static inline float8 entry_bound(global const BvhWide *node, const Packet *packet, uint axis)
+{
+    const float8 plane = vload8(0, node->planes[axis][packet->negative[axis]]);
+    const float8 low =
+        fma(plane, (float8)(packet->inverse_low[axis]), (float8)(packet->near_low[axis]));
+    const float8 high =
+        fma(plane, (float8)(packet->inverse_high[axis]), (float8)(packet->near_high[axis]));
+    return min(low, high);
+}
+
+static inline float8 leave_bound(global const BvhWide *node, const Packet *packet, uint axis)
+{
+    const float8 plane = vload8(0, node->planes[axis][1 - packet->negative[axis]]);
+    const float8 low =
+        fma(plane, (float8)(packet->inverse_low[axis]), (float8)(packet->far_low[axis]));
+    const float8 high =
+        fma(plane, (float8)(packet->inverse_high[axis]), (float8)(packet->far_high[axis]));
+    return max(low, high);
+}
+
+// The children that some ray of the packet may meet before `reach`.
+static inline int8 children_near(global const BvhWide *node, const Packet *packet, float reach,
+                                 float8 *entry)
+{
+    const float8 near_x = entry_bound(node, packet, 0), near_y = entry_bound(node, packet, 1);
+    const float8 near_z = entry_bound(node, packet, 2);
+    const float8 far_x = leave_bound(node, packet, 0), far_y = leave_bound(node, packet, 1);
+    const float8 far_z = leave_bound(node, packet, 2);
+    *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
+    return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
+}
+
+// The lanes whose rays are in the child's box before they reach what they have hit.
+static inline Truth lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
+                                   Real reach)
+{
+    const uint x = packet->negative[0], y = packet->negative[1], z = packet->negative[2];
+    const Real3 i = packet->inverse, near = packet->near_offset, far = packet->far_offset;
+    const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
+    const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
+    const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
+    const Real far_x = fma((Real)(node->planes[0][1 - x][child]), i.x, far.x);
+    const Real far_y = fma((Real)(node->planes[1][1 - y][child]), i.y, far.y);
+    const Real far_z = fma((Real)(node->planes[2][1 - z][child]), i.z, far.z);
+    const Real entry = max(max(near_x, near_y), max(near_z, (Real)(0.0f)));
+    return entry <= min(min(far_x, far_y), min(far_z, reach));
+}
+
+static inline Real3 splat_corner(global const TriangleBlock *block, uint corner, uint place)
+{
+    return real3_of(block->corners[corner][0][place], block->corners[corner][1][place],
+                    block->corners[corner][2][place]);
+}
+
+// The distances at which rays whose lanes are inside the triangle's edges stop on it.
+static inline Real packet_distances(global const TriangleBlock *block, uint place,
+                                    const Packet *packet, const Corners *sheared,
+                                    const Edges *edges)
+{
+    const Ray *ray = &packet->ray;
+    const bool is_shadow = ray->kind == RAY_SHADOW;
+    const uint id = block->id[place];
+    const Truth front = edges_face(edges, &packet->shear);
+    Truth closed = ray->own != (Count)(id & ~TRIANGLE_TWO_SIDED);
+    if ((id & TRIANGLE_TWO_SIDED) == 0)
+        closed = closed && (is_shadow ? !front : front);
+    const Real t = triangle_depth(sheared, edges) * packet->shear.inverse_z;
+    if (ray->kind == RAY_CAMERA)
+        return closed && t > 0.0f ? t : INFINITY;
+    const Real error = triangle_depth_error(sheared) * fabs(packet->shear.inverse_z);
+    const Corners corners = {splat_corner(block, 0, place), splat_corner(block, 1, place),
+                             splat_corner(block, 2, place)};
+    const SurfaceRay surface = {ray->surface, front, is_shadow};
+    return closed ? surface_ray_distance(&corners, &surface, t, error) : INFINITY;
+}
+
+// Corners of a block's triangles relative to an origin that all rays share: [corner][axis].
+typedef struct {
+    float rows[3][3][WIDE];
+} RelativeBlock;
+
+static inline void relative_row(RelativeBlock *relative, global const TriangleBlock *block,
+                                uint corner, uint axis, const Packet *packet)
+{
+    const Real *origin = &packet->ordered_origin.x + axis;
+    vstore8(vload8(0, block->corners[corner][packet->axes[axis]]) - (*origin).s0, 0,
+            relative->rows[corner][axis]);
+}
+
+static inline Real3 relative_corner(const RelativeBlock *relative, uint corner, uint place)
+{
+    return real3_of(relative->rows[corner][0][place], relative->rows[corner][1][place],
+                    relative->rows[corner][2][place]);
+}
+
+static inline Real3 corner_from(global const TriangleBlock *block, uint corner, uint place,
+                                const Packet *packet)
+{
+    const Real3 o = packet->ordered_origin;
+    return real3_of((Real)(block->corners[corner][packet->axes[0]][place]) - o.x,
+                    (Real)(block->corners[corner][packet->axes[1]][place]) - o.y,
+                    (Real)(block->corners[corner][packet->axes[2]][place]) - o.z);
+}
+
+static inline bool test_triangle(global const TriangleBlock *blocks, uint number, uint place,
+                                 const Packet *packet, const Corners *relative, Truth lanes,
+                                 Hit *best)
+{
+    const Corners sheared = corners_sheared(relative, &packet->shear);
+    const Edges edges = edges_of(&sheared);
+    const Truth inside = lanes && edges_contain(&edges);
+    if (!any_lane(inside))
+        return false;
+    global const TriangleBlock *block = blocks + number;
+    const Real t = packet_distances(block, place, packet, &sheared, &edges);
+    const Count id = block->id[place] & ~TRIANGLE_TWO_SIDED;
+    const Truth precedes = inside && hit_precedes(t, id, best);
+    best->t = precedes ? t : best->t;
+    best->id = precedes ? id : best->id;
+    best->index = precedes ? (Count)(number * WIDE + place) : best->index;
+    return any_lane(precedes);
+}
+
+static inline bool test_packet_block(const SceneView *scene, uint number, const Packet *packet,
+                                     Truth lanes, Hit *best)
+{
+    global const TriangleBlock *block = &scene->triangles[number];
+    bool changed = false;
+    if (packet->common_origin) {
+        RelativeBlock relative;
+        for (uint corner = 0; corner < 3; corner++)
+            for (uint axis = 0; axis < 3; axis++)
+                relative_row(&relative, block, corner, axis, packet);
+        for (uint place = 0; place < WIDE && block->id[place] != NOTHING; place++) {
+            const Corners corners = {relative_corner(&relative, 0, place),
+                                     relative_corner(&relative, 1, place),
+                                     relative_corner(&relative, 2, place)};
+            changed |=
+                test_triangle(scene->triangles, number, place, packet, &corners, lanes, best);
+        }
+        return changed;
+    }
+    for (uint place = 0; place < WIDE && block->id[place] != NOTHING; place++) {
+        const Corners corners = {corner_from(block, 0, place, packet),
+                                 corner_from(block, 1, place, packet),
+                                 corner_from(block, 2, place, packet)};
+        changed |= test_triangle(scene->triangles, number, place, packet, &corners, lanes, best);
+    }
+    return changed;
+}
+
+static inline void traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
+                                   Tally *tally)
+{
+    const bool is_shadow = packet->ray.kind == RAY_SHADOW;
+    Truth searching = packet->ray.active;
+    float farthest = highest(best->t);
+    WideWaiting waiting;
+    waiting.count = 0;
+    uint parent = 0;
+    for (;;) {
+        global const BvhWide *node = &scene->nodes[parent];
+        float8 entry;
+        const int8 near = children_near(node, packet, farthest, &entry);
+        const uint8 numbers = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+        wait_for_children(&waiting, near, entry, parent * WIDE + numbers);
+        for (;;) {
+            if (waiting.count == 0)
+                return;
+            const ulong next = waiting.child[--waiting.count];
+            if (waiting_entry(next) > farthest)
+                continue;
+            global const BvhWide *from = &scene->nodes[(uint)next / WIDE];
+            const uint number = (uint)next % WIDE;
+            const Truth lanes = searching && lanes_in_child(from, number, packet, best->t);
+            if (CLRT_STATISTICS)
+                tally->box_tests += CLRT_LANES;
+            if (!any_lane(lanes))
+                continue;
+            const uint child = from->child[number];
+            if ((child & WIDE_LEAF) == 0) {
+                parent = child;
+                break;
+            }
+            if (CLRT_STATISTICS)
+                tally->triangle_tests += WIDE * lane_count(lanes);
+            if (!test_packet_block(scene, child & ~WIDE_LEAF, packet, lanes, best))
+                continue;
+            if (is_shadow) {
+                searching = searching && best->id == NOTHING;
+                if (!any_lane(searching))
+                    return;
+            }
+            farthest = highest(searching ? best->t : (Real)(0.0f));
+        }
+    }
+}
+
+// What a packet's rays must share: the signs of their directions and the longest axis.
+static inline Count ray_classes(Real3 direction)
+{
+    const ShearAxes axes = shear_axes(direction);
+    const Count x = as_count(direction.x) >> 31, y = as_count(direction.y) >> 31;
+    const Count z = as_count(direction.z) >> 31;
+    return axes.z * 8 + x * 4 + y * 2 + z;
+}
+
+static inline Real one_lane(Real v, uint lane)
+{
+    return (Real)(((const float *)&v)[lane]);
+}
+
+static inline Real3 filled(Real3 v, Truth lanes, uint lane)
+{
+    return real3_of(lanes ? v.x : one_lane(v.x, lane), lanes ? v.y : one_lane(v.y, lane),
+                    lanes ? v.z : one_lane(v.z, lane));
+}
+
+static __attribute__((noinline)) void search_part(const SceneView *scene, const FrameData *frame,
+                                                  const Ray *ray, uint bits, Hit *best,
+                                                  Tally *tally)
+{
+    const uint first = popcount((bits & -bits) - 1);
+    const Truth lanes = lanes_of(bits);
+    Packet packet;
+    packet.ray = *ray;
+    packet.ray.active = lanes;
+    packet.ray.origin = filled(ray->origin, lanes, first);
+    packet.ray.direction = filled(ray->direction, lanes, first);
+    packet.common_origin = ray->kind != RAY_REFLECTED;
+    packet_prepare(&packet);
+    Hit hit = *best;
+    if (CLRT_BVH && frame->uses_bvh) {
+        traverse_packet(scene, &packet, &hit, tally);
+    } else {
+        for (uint block = 0; block * WIDE < frame->triangle_count; block++)
+            test_packet_block(scene, block, &packet, lanes, &hit);
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += frame->triangle_count * lane_count(lanes);
+    }
+    best->t = lanes ? hit.t : best->t;
+    best->id = lanes ? hit.id : best->id;
+    best->index = lanes ? hit.index : best->index;
+}
+
+// Splits the rays into parts that share signs and longest axis.
+static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                           Hit *best, Tally *tally)
+{
+    const Count classes = ray_classes(ray->direction);
+    uint left = lane_bits(ray->active);
+    while (left != 0) {
+        const uint first = popcount((left & -left) - 1);
+        const Count wanted = ((const uint *)&classes)[first];
+        const uint part = left & lane_bits(classes == wanted);
+        search_part(scene, frame, ray, part, best, tally);
+        left &= ~part;
+    }
+}
+
+#endif
+#endif

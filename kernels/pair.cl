@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// One ray through the binary tree, the plain form of the search: for GPUs and for reading.
+// Boxes only cull, and never a triangle the exact test would accept: each is grown by BVH_SLACK
+// times its largest coordinate by the host, and the ray's origin is moved against each plane by
+// BVH_SLACK times its largest coordinate here, which covers the rounding of the triangle's
+// acceptance and of the slabs (shared.h).  So the answer is the same for every tree, for every
+// order of visits and for no tree at all.
+#ifndef CLRT_PAIR_CL
+#define CLRT_PAIR_CL
+#include "ray.cl"
+
+#if !CLRT_WIDE_NODES
+
+// A ray as the triangle test and the slab test want it.  The slabs are six planes' constants:
+// distance to a plane = fma(plane, inverse, offset).
+typedef struct {
+    ShearAxes axes;
+    Shear shear;
+    Real3 origin; // in the order of the axes
+    Real3 inverse, near_offset, far_offset;
+    uint negative_x, negative_y, negative_z; // which plane of each axis the ray meets first
+} Query;
+
+// A zero direction is replaced by 2^-30 of the largest, so that no infinity or NaN can arise from
+// rays whose largest component is above 2^-96; shorter ones have no length to speak of.
+static inline float slab_direction(float direction, float smallest)
+{
+    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
+}
+
+static inline Query query_of(const Ray *ray)
+{
+    Query query;
+    query.axes = shear_axes(ray->direction);
+    query.shear = shear_along(ray->direction, &query.axes);
+    query.origin = axes_ordered(ray->origin, &query.axes);
+    const float smallest = 0x1p-30f * largest_component(ray->direction);
+    const float slack = BVH_SLACK * largest_component(ray->origin);
+    const float x = slab_direction(ray->direction.x, smallest);
+    const float y = slab_direction(ray->direction.y, smallest);
+    const float z = slab_direction(ray->direction.z, smallest);
+    const Real3 o = ray->origin, i = {1.0f / x, 1.0f / y, 1.0f / z};
+    const Real3 widening = {copysign(slack, x), copysign(slack, y), copysign(slack, z)};
+    const Real3 near = sum3(o, widening), far = difference(o, widening);
+    query.inverse = i;
+    query.near_offset = real3_of(-near.x * i.x, -near.y * i.y, -near.z * i.z);
+    query.far_offset = real3_of(-far.x * i.x, -far.y * i.y, -far.z * i.z);
+    query.negative_x = x < 0.0f;
+    query.negative_y = y < 0.0f;
+    query.negative_z = z < 0.0f;
+    return query;
+}
+
+static inline float2 plane_distances(global const BvhPair *node, uint2 plane, float inverse,
+                                     float offset)
+{
+    global const float *planes = node->planes[plane.x][plane.y];
+    return fma((float2)(planes[0], planes[1]), (float2)(inverse), (float2)(offset));
+}
+
+// Where the ray is inside both children's boxes: [entry, leave], empty where it misses.
+static inline void slabs_meet(global const BvhPair *node, const Query *query, float reach,
+                              float2 *entry, float2 *leave)
+{
+    const uint x = query->negative_x, y = query->negative_y, z = query->negative_z;
+    const Real3 inverse = query->inverse, near = query->near_offset, far = query->far_offset;
+    const float2 near_x = plane_distances(node, (uint2)(0, x), inverse.x, near.x);
+    const float2 near_y = plane_distances(node, (uint2)(1, y), inverse.y, near.y);
+    const float2 near_z = plane_distances(node, (uint2)(2, z), inverse.z, near.z);
+    const float2 far_x = plane_distances(node, (uint2)(0, 1 - x), inverse.x, far.x);
+    const float2 far_y = plane_distances(node, (uint2)(1, 1 - y), inverse.y, far.y);
+    const float2 far_z = plane_distances(node, (uint2)(2, 1 - z), inverse.z, far.z);
+    *entry = max(max(near_x, near_y), max(near_z, (float2)(0.0f)));
+    *leave = min(min(far_x, far_y), min(far_z, (float2)(reach)));
+}
+
+// Reading components by axis makes the permutation free.
+static inline Real3 corner_relative(global const float *corner, const Query *query)
+{
+    return real3_of(corner[query->axes.x] - query->origin.x,
+                    corner[query->axes.y] - query->origin.y,
+                    corner[query->axes.z] - query->origin.z);
+}
+
+// One-sided triangles stop what comes from the front.  A shadow ray is traced from the light, so
+// for it the front is where the shaded point lies.
+static inline bool triangle_is_open(global const TriangleData *triangle, const Ray *ray, bool front)
+{
+    return !(triangle->material & TRIANGLE_TWO_SIDED) && front == (ray->kind == RAY_SHADOW);
+}
+
+// The distance t at which the ray meets the triangle, INFINITY where it does not.
+static inline float triangle_distance(global const TriangleData *triangle, const Ray *ray,
+                                      const Query *query)
+{
+    const Corners relative = {corner_relative(triangle->a, query),
+                              corner_relative(triangle->b, query),
+                              corner_relative(triangle->c, query)};
+    const Corners sheared = corners_sheared(&relative, &query->shear);
+    const Edges edges = edges_of(&sheared);
+    if (!edges_contain(&edges))
+        return INFINITY;
+    const bool front = edges_face(&edges, &query->shear);
+    if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
+        return INFINITY;
+    const float t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
+    if (ray->kind == RAY_CAMERA)
+        return t > 0.0f ? t : INFINITY;
+    const float error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
+    const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
+    const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW};
+    return surface_ray_distance(&corners, &surface, t, error);
+}
+
+// Tests triangles [first, first + count); a shadow ray is content with the first that blocks it.
+static inline void test_triangles(const SceneView *scene, const Ray *ray, const Query *query,
+                                  uint2 range, Hit *best)
+{
+    for (uint index = range.x; index < range.x + range.y; index++) {
+        global const TriangleData *triangle = &scene->triangles[index];
+        const float t = triangle_distance(triangle, ray, query);
+        if (hit_precedes(t, triangle->id, best)) {
+            *best = (Hit){t, triangle->id, index};
+            if (ray->kind == RAY_SHADOW)
+                return;
+        }
+    }
+}
+
+// Children wait on the stack as 2 * node + child, beside the distance at which they are entered.
+typedef struct {
+    uint child[BVH_STACK_SIZE];
+    float entry[BVH_STACK_SIZE];
+    uint count;
+} Waiting;
+
+static inline void wait_for_child(Waiting *waiting, uint child, float entry)
+{
+    waiting->child[waiting->count] = child;
+    waiting->entry[waiting->count] = entry;
+    waiting->count++;
+}
+
+// Puts the children that the ray meets before `reach` on the stack, the nearer one on top.
+static inline void wait_for_children(const SceneView *scene, uint node, const Query *query,
+                                     float reach, Waiting *waiting)
+{
+    float2 entry, leave;
+    slabs_meet(&scene->nodes[node], query, reach, &entry, &leave);
+    const bool meets_first = entry.x <= leave.x, meets_second = entry.y <= leave.y;
+    const bool second_nearer = entry.y < entry.x;
+    if (meets_second && !second_nearer)
+        wait_for_child(waiting, 2 * node + 1, entry.y);
+    if (meets_first)
+        wait_for_child(waiting, 2 * node, entry.x);
+    if (meets_second && second_nearer)
+        wait_for_child(waiting, 2 * node + 1, entry.y);
+}
+
+static inline void traverse_tree(const SceneView *scene, const Ray *ray, const Query *query,
+                                 Hit *best, Tally *tally)
+{
+    Waiting waiting;
+    waiting.count = 0;
+    wait_for_children(scene, 0, query, best->t, &waiting);
+    if (CLRT_STATISTICS)
+        tally->box_tests += 2;
+    while (waiting.count > 0) {
+        waiting.count--;
+        if (waiting.entry[waiting.count] > best->t)
+            continue;
+        const uint child = waiting.child[waiting.count];
+        const uint first = scene->nodes[child >> 1].first[child & 1];
+        const uint count = scene->nodes[child >> 1].count[child & 1];
+        if (count == 0) {
+            wait_for_children(scene, first, query, best->t, &waiting);
+            if (CLRT_STATISTICS)
+                tally->box_tests += 2;
+            continue;
+        }
+        test_triangles(scene, ray, query, (uint2)(first, count), best);
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += count;
+        if (ray->kind == RAY_SHADOW && best->id != NOTHING)
+            return;
+    }
+}
+
+static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                           Hit *best, Tally *tally)
+{
+    const Query query = query_of(ray);
+    if (CLRT_BVH && frame->uses_bvh) {
+        traverse_tree(scene, ray, &query, best, tally);
+        return;
+    }
+    test_triangles(scene, ray, &query, (uint2)(0, frame->triangle_count), best);
+    if (CLRT_STATISTICS)
+        tally->triangle_tests += frame->triangle_count;
+}
+
+#endif
+#endif

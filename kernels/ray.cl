@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What the tracer's steps hand each other: the scene, a ray, what it meets and what that costs.
+#ifndef CLRT_RAY_CL
+#define CLRT_RAY_CL
+#include "numeric.cl"
+
+typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
+
+// origin + t * direction.  A shadow ray runs from the light at t = 0 to the shaded point at t = 1.
+typedef struct {
+    Real3 origin, direction;
+    Count own; // id of the primitive it starts or ends on, which it cannot meet
+    RayKind kind;
+    Real3 surface; // the point of that primitive
+    Truth active;  // lanes that have a ray
+} Ray;
+
+// index counts in the array of the primitive's kind (triangles: places of blocks where nodes are
+// wide); spheres have the ids below sphere_count.
+typedef struct {
+    Real t; // along the ray; INFINITY while nothing is hit
+    Count id, index;
+} Hit;
+
+typedef struct {
+    uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
+    uint triangle_tests, box_tests, sphere_tests;
+} Tally;
+
+#if CLRT_WIDE_NODES
+typedef BvhWide Node;
+typedef TriangleBlock Triangles;
+#else
+typedef BvhPair Node;
+typedef TriangleData Triangles;
+#endif
+
+// The arrays of the flattened scene, gathered so that they travel as one parameter.
+typedef struct {
+    global const PointLight *lights;
+    global const Material *materials;
+    global const SphereData *spheres;
+    global const Node *nodes;
+    global const Triangles *triangles;
+    global const TriangleLook *looks;
+    global const CornerNormals *normals;
+} SceneView;
+
+static inline uint lane_count(Truth truth)
+{
+    return popcount(lane_bits(truth));
+}
+
+// Equal distances go to the lowest id, whatever the order of the tests.
+static inline Truth hit_precedes(Real t, Count id, const Hit *best)
+{
+    return t < best->t || (t == best->t && id < best->id && t < INFINITY);
+}
+
+// The longest axis of the ray, to which the shear turns it, and the two that follow.
+typedef struct {
+    Count x, y, z;
+} ShearAxes;
+
+static inline ShearAxes shear_axes(Real3 direction)
+{
+    const Real3 size = magnitudes(direction);
+    const Count second = size.y > size.x ? (Count)(1) : (Count)(0);
+    ShearAxes axes;
+    axes.z = size.z > max(size.x, size.y) ? (Count)(2) : second;
+    axes.x = axes.z == 2 ? (Count)(0) : axes.z + 1;
+    axes.y = axes.x == 2 ? (Count)(0) : axes.x + 1;
+    return axes;
+}
+
+static inline Shear shear_along(Real3 direction, const ShearAxes *axes)
+{
+    Shear shear;
+    shear.direction_z = component(direction, axes->z);
+    shear.inverse_z = 1.0f / shear.direction_z;
+    shear.shear_x = component(direction, axes->x) * shear.inverse_z;
+    shear.shear_y = component(direction, axes->y) * shear.inverse_z;
+    return shear;
+}
+
+static inline Real3 axes_ordered(Real3 v, const ShearAxes *axes)
+{
+    return real3_of(component(v, axes->x), component(v, axes->y), component(v, axes->z));
+}
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The exact arithmetic for the tracer's Real, and for eight triangles of a block against one ray.
+// The text of vector.cl and triangle.cl is the same for all types, and so are their results.
+#ifndef CLRT_TYPES_CL
+#define CLRT_TYPES_CL
+#include "lanes.cl"
+
+#include "triangle.cl"
+#include "vector.cl"
+
+// Wide: a Real for each of the WIDE triangles of a block, or for each child of a wide node.
+#if CLRT_WIDE_NODES && CLRT_LANES == WIDE
+typedef Real3 Wide3;
+typedef Shear WideShear;
+typedef Corners WideCorners;
+typedef Edges WideEdges;
+typedef SurfaceRay WideSurfaceRay;
+#elif CLRT_WIDE_NODES
+#define Real       float8
+#define Truth      int8
+#define Count      uint8
+#define Real3      Wide3
+#define Shear      WideShear
+#define Corners    WideCorners
+#define Edges      WideEdges
+#define SurfaceRay WideSurfaceRay
+#include "triangle.cl"
+#include "vector.cl"
+#undef Real
+#undef Truth
+#undef Count
+#undef Real3
+#undef Shear
+#undef Corners
+#undef Edges
+#undef SurfaceRay
+#endif
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Vectors of three Reals, and the arithmetic of signs.  No include guard: it is compiled for every
+// type that Real stands for where it is included (types.cl).
+
+typedef struct {
+    Real x, y, z;
+} Real3;
+
+// a * b - c * d within 1.5 ulp, hence with the exact sign (Kahan; Jeannerod, Louvet and Muller,
+// "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants", 2013).
+static inline Real OVERLOAD difference_of_products(Real a, Real b, Real c, Real d)
+{
+    const Real cd = c * d;
+    const Real error = fma(-c, d, cd);
+    return fma(a, b, -cd) + error;
+}
+
+static inline Real3 OVERLOAD difference(Real3 a, Real3 b)
+{
+    return (Real3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline Real3 OVERLOAD cross_product(Real3 a, Real3 b)
+{
+    return (Real3){difference_of_products(a.y, b.z, a.z, b.y),
+                   difference_of_products(a.z, b.x, a.x, b.z),
+                   difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+static inline Real OVERLOAD dot_product(Real3 a, Real3 b)
+{
+    return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+}
+
+static inline Real3 OVERLOAD magnitudes(Real3 v)
+{
+    return (Real3){fabs(v.x), fabs(v.y), fabs(v.z)};
+}
+
+static inline Real OVERLOAD largest_component(Real3 v)
+{
+    return max(max(fabs(v.x), fabs(v.y)), fabs(v.z));
+}
+
+// The component on an axis that can differ from lane to lane.
+static inline Real OVERLOAD component(Real3 v, Count axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
