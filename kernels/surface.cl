@@ -119,21 +119,22 @@ static inline Hit hit_everywhere(const Hit *hit, Truth met)
 static inline Surface surface_at(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                  const Hit *hit, Truth met)
 {
-    const Truth on_sphere = met && hit->id < frame->sphere_count;
-    const Truth on_triangle = met && hit->id >= frame->sphere_count;
-    const bool any_sphere = CLRT_SPHERES && (!CLRT_TRIANGLES || any_lane(on_sphere));
-    const bool any_triangle = CLRT_TRIANGLES && (!CLRT_SPHERES || any_lane(on_triangle));
-    if (!any_triangle) {
+    if (!CLRT_TRIANGLES) {
         const Hit hits = hit_everywhere(hit, met);
         return sphere_surface(scene, ray, &hits);
     }
-    const Hit triangle_hits = hit_everywhere(hit, on_triangle);
-    const Surface triangle = triangle_surface(scene, frame, ray, &triangle_hits);
-    if (!any_sphere)
+    const Truth on_sphere = met && hit->id < frame->sphere_count;
+    const Truth on_triangle = met && hit->id >= frame->sphere_count;
+    Surface triangle;
+    if (!CLRT_SPHERES || any_lane(on_triangle)) {
+        const Hit hits = hit_everywhere(hit, on_triangle);
+        triangle = triangle_surface(scene, frame, ray, &hits);
+    }
+    if (!CLRT_SPHERES || !any_lane(on_sphere))
         return triangle;
-    const Hit sphere_hits = hit_everywhere(hit, on_sphere);
-    const Surface sphere = sphere_surface(scene, ray, &sphere_hits);
-    return choose_surface(on_sphere, &sphere, &triangle);
+    const Hit hits = hit_everywhere(hit, on_sphere);
+    const Surface sphere = sphere_surface(scene, ray, &hits);
+    return any_lane(on_triangle) ? choose_surface(on_sphere, &sphere, &triangle) : sphere;
 }
 
 // An interpolated normal can send the reflected ray into the surface it leaves; such a ray is

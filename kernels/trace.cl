@@ -47,7 +47,9 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
         const Surface surface = surface_at(scene, frame, &ray, &hit, met);
         const MaterialLanes material = fetch_material(scene, surface.material);
         const Real3 shaded = shade(scene, frame, &surface, &material, met, tally);
-        const Truth ends = met && (!CLRT_MIRRORS || material.reflectivity == 0.0f);
+        Truth ends = met;
+        if (CLRT_MIRRORS)
+            ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
         color = choose3(met, sum3(color, scaled3(share, shaded)), color);
         weight = met && !ends ? weight * material.reflectivity : weight;

@@ -4,6 +4,7 @@
 // sheared vertices bit for bit, and Kahan's difference of products gives each shared edge the same
 // exact sign from both sides, so no ray passes between them.  No include guard: it is compiled for
 // one ray and one triangle, one ray and eight triangles, and a packet of rays and one triangle.
+#include "vector.cl"
 
 // The shear that turns the ray into the axis z: z is the axis the direction is longest along, x and
 // y the ones that follow in the cycle.

@@ -6,7 +6,6 @@
 #include "lanes.cl"
 
 #include "triangle.cl"
-#include "vector.cl"
 
 // Wide: a Real for each of the WIDE triangles of a block, or for each child of a wide node.
 #if CLRT_WIDE_NODES && CLRT_LANES == WIDE
@@ -25,7 +24,6 @@ typedef SurfaceRay WideSurfaceRay;
 #define Edges      WideEdges
 #define SurfaceRay WideSurfaceRay
 #include "triangle.cl"
-#include "vector.cl"
 #undef Real
 #undef Truth
 #undef Count
