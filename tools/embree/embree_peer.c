@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The same picture as clrt, drawn with Embree 3: how fast tools/bench measures clrt against.
+// Prints what it measured as JSON.
+#include "base/clock.h"
+#include "image/pfm.h"
+#include "peer_draw.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *scene, *modes, *picture;
+    uint32_t frames, width, height;
+    enum RTCIntersectContextFlags flags[RAY_KINDS];
+    PeerSettings settings;
+} Options;
+
+static const char *const quality_names[] = {"low", "medium", "high"};
+
+static void usage(void)
+{
+    fprintf(stderr, "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
+                    "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
+                    "MODE is single, packet8, packet16 or stream; -r is Embree's robust mode; "
+                    "KINDS of\nrays called coherent are letters of csr: camera, shadow, reflected "
+                    "(csr).  The picture is\nthe last mode's.\n");
+    exit(2);
+}
+
+static bool read_quality(const char *name, enum RTCBuildQuality *quality)
+{
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, quality_names[i]) == 0) {
+            *quality = (enum RTCBuildQuality)i;
+            return true;
+        }
+    return false;
+}
+
+static void set_coherent(Options *options, const char *kinds)
+{
+    for (int kind = 0; kind < RAY_KINDS; kind++)
+        options->flags[kind] = strchr(kinds, "csr"[kind]) != NULL
+                                   ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                   : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+}
+
+static Options read_options(int count, char **words)
+{
+    Options options = {.modes = "single,packet8,packet16,stream",
+                       .frames = 5,
+                       .settings = {.quality = RTC_BUILD_QUALITY_MEDIUM, .threads = 1}};
+    bool ok = true;
+    set_coherent(&options, "csr");
+    for (int option; (option = getopt(count, words, "m:f:j:s:q:rc:o:")) != -1;)
+        switch (option) {
+        case 'm':
+            options.modes = optarg;
+            break;
+        case 'f':
+            ok = ok && sscanf(optarg, "%u", &options.frames) == 1;
+            break;
+        case 'j':
+            ok = ok && sscanf(optarg, "%u", &options.settings.threads) == 1;
+            break;
+        case 's':
+            ok = ok && sscanf(optarg, "%ux%u", &options.width, &options.height) == 2;
+            break;
+        case 'q':
+            ok = ok && read_quality(optarg, &options.settings.quality);
+            break;
+        case 'r':
+            options.settings.robust = true;
+            break;
+        case 'c':
+            set_coherent(&options, optarg);
+            break;
+        case 'o':
+            options.picture = optarg;
+            break;
+        default:
+            ok = false;
+        }
+    if (!ok || optind + 1 != count)
+        usage();
+    options.scene = words[optind];
+    return options;
+}
+
+static bool is_asked(const char *modes, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = modes; (at = strstr(at, name)) != NULL; at += length)
+        if ((at == modes || at[-1] == ',') && (at[length] == ',' || at[length] == '\0'))
+            return true;
+    return false;
+}
+
+// One picture to warm up, then the measured ones.
+static void measure(const PeerPicture *picture, uint32_t frames, Framebuffer *framebuffer)
+{
+    const PeerCounts counts = peer_draw(picture, framebuffer);
+    printf("    \"%s\": {\"rays\": {\"camera\": %llu, \"shadow\": %llu, \"reflected\": %llu},\n"
+           "      \"frame_seconds\": [",
+           picture->mode->name, (unsigned long long)counts.rays[RAY_CAMERA],
+           (unsigned long long)counts.rays[RAY_SHADOW],
+           (unsigned long long)counts.rays[RAY_REFLECTED]);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        const double start = clock_seconds();
+        peer_draw(picture, framebuffer);
+        printf("%s%.6f", frame == 0 ? "" : ", ", clock_seconds() - start);
+    }
+    printf("]}");
+}
+
+static void measure_modes(const Options *options, const PeerScene *scene, Framebuffer *framebuffer)
+{
+    const char *separator = "";
+    printf("{\n  \"triangles\": %u, \"threads\": %u, \"quality\": \"%s\", \"robust\": %s,\n"
+           "  \"width\": %u, \"height\": %u, \"build_seconds\": %.6f,\n  \"modes\": {\n",
+           scene->triangle_count, options->settings.threads,
+           quality_names[options->settings.quality], options->settings.robust ? "true" : "false",
+           scene->width, scene->height, scene->build_seconds);
+    for (int i = 0; i < peer_mode_count; i++) {
+        PeerPicture picture = {
+            .scene = scene, .mode = &peer_modes[i], .threads = options->settings.threads};
+        if (!is_asked(options->modes, peer_modes[i].name))
+            continue;
+        memcpy(picture.flags, options->flags, sizeof picture.flags);
+        fputs(separator, stdout);
+        measure(&picture, options->frames, framebuffer);
+        separator = ",\n";
+    }
+    printf("\n  }\n}\n");
+}
+
+static bool write_picture(const Framebuffer *framebuffer, const char *path, Error *error)
+{
+    FILE *stream = fopen(path, "wb");
+    bool ok = stream != NULL && pfm_write(framebuffer, stream);
+    if (stream != NULL)
+        ok = fclose(stream) == 0 && ok;
+    return ok || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+}
+
+int main(int count, char **words)
+{
+    const Options options = read_options(count, words);
+    Error error = {0};
+    PeerScene scene;
+    Framebuffer framebuffer = {0};
+    bool ok = peer_scene_open(&scene, options.scene, &options.settings, options.width,
+                              options.height, &error) &&
+              framebuffer_make(&framebuffer, scene.width, scene.height, &error);
+    if (ok) {
+        measure_modes(&options, &scene, &framebuffer);
+        ok = options.picture == NULL || write_picture(&framebuffer, options.picture, &error);
+    }
+    framebuffer_free(&framebuffer);
+    peer_scene_close(&scene);
+    if (!ok)
+        fprintf(stderr, "embree_peer: %s\n", error.text);
+    return ok ? 0 : 1;
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Takes the arrays that clrt uploads to its device, so that both draw the same floats, and gives
+// Embree the corners as an indexed mesh in a buffer of its own.
+#include "peer_scene.h"
+
+#include "accel/flat.h"
+#include "base/clock.h"
+#include "scene/camera.h"
+#include "scene/scn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+// Embree reads vertices as 16 bytes at a time.
+static bool add_triangles(RTCGeometry geometry, const Scene *scene,
+                          const Normalization *normalization)
+{
+    size_t vertices = 0, triangles = 0;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        vertices += scene->objects.data[i].mesh.vertex_count;
+    float(*points)[3] = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                RTC_FORMAT_FLOAT3, sizeof *points, vertices);
+    uint32_t(*corners)[3] =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                sizeof *corners, scene_triangle_count(scene));
+    if (points == NULL || corners == NULL)
+        return false;
+    uint32_t first = 0;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        for (size_t v = 0; v < mesh->vertex_count; v++) {
+            const double *p = mesh->positions[v];
+            const Vec3 point = normalize_point(normalization, vec3(p[0], p[1], p[2]));
+            points[first + v][0] = (float)point.x;
+            points[first + v][1] = (float)point.y;
+            points[first + v][2] = (float)point.z;
+        }
+        for (size_t t = 0; t < mesh->triangle_count; t++, triangles++)
+            for (int corner = 0; corner < 3; corner++)
+                corners[triangles][corner] = first + mesh->triangles[t][corner];
+        first += (uint32_t)mesh->vertex_count;
+    }
+    return true;
+}
+
+static bool build(PeerScene *peer, const Scene *scene, const Normalization *normalization,
+                  const PeerSettings *settings, Error *error)
+{
+    char config[64];
+    snprintf(config, sizeof config, "threads=%u", settings->threads);
+    peer->device = rtcNewDevice(config);
+    peer->scene = rtcNewScene(peer->device);
+    rtcSetSceneBuildQuality(peer->scene, settings->quality);
+    rtcSetSceneFlags(peer->scene, settings->robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    RTCGeometry geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, settings->quality);
+    const bool filled = add_triangles(geometry, scene, normalization);
+    const double start = clock_seconds();
+    if (filled) {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(peer->scene, geometry);
+        rtcCommitScene(peer->scene);
+    }
+    peer->build_seconds = clock_seconds() - start;
+    rtcReleaseGeometry(geometry);
+    const enum RTCError fault = rtcGetDeviceError(peer->device);
+    return fault == RTC_ERROR_NONE || error_set(error, "Embree failed with error %d", fault);
+}
+
+static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
+{
+    peer->looks = memory_raw(flat->triangle_count, sizeof *peer->looks, error);
+    if (peer->looks == NULL)
+        return false;
+    for (uint32_t i = 0; i < flat->triangle_count; i++) {
+        const TriangleData *triangle = &flat->triangles[i];
+        peer->looks[triangle->id - flat->sphere_count] = (TriangleLook){
+            .material = triangle->material & ~TRIANGLE_TWO_SIDED, .normals = triangle->normals};
+    }
+    return true;
+}
+
+// Moves what shading reads out of flat.
+static bool take_flat(PeerScene *peer, FlatScene *flat, Error *error)
+{
+    peer->triangle_count = flat->triangle_count;
+    peer->light_count = flat->light_count;
+    peer->material_count = flat->material_count;
+    peer->ambient = flat->ambient;
+    for (int channel = 0; channel < 3; channel++)
+        peer->background[channel] = flat->background[channel];
+    if (!take_looks(peer, flat, error))
+        return false;
+    peer->normals = flat->normals;
+    peer->materials = flat->materials;
+    peer->lights = flat->lights;
+    flat->normals = NULL;
+    flat->materials = NULL;
+    flat->lights = NULL;
+    return true;
+}
+
+static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settings, Error *error)
+{
+    const Normalization normalization = normalization_of(scene);
+    const Bvh no_tree = {0};
+    Triangles triangles = {0};
+    FlatScene flat = {0};
+    peer->camera = camera_make(&scene->viewpoints.data[0], &normalization, peer->height, 1);
+    const bool ok = triangles_make(&triangles, scene, &normalization, error) &&
+                    flat_make(&flat, scene, &triangles, &no_tree, error) &&
+                    take_flat(peer, &flat, error) &&
+                    build(peer, scene, &normalization, settings, error);
+    flat_free(&flat);
+    triangles_free(&triangles);
+    return ok;
+}
+
+bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings,
+                     uint32_t width, uint32_t height, Error *error)
+{
+    Scene scene = {0};
+    *peer = (PeerScene){0};
+    bool ok = scn_load(&scene, path, error);
+    if (ok && (scene.spheres.count > 0 || scene_triangle_count(&scene) == 0))
+        ok = error_set(error, "%s: the peer draws scenes of triangles alone", path);
+    peer->width = width > 0 ? width : scene.width;
+    peer->height = height > 0 ? height : scene.height;
+    peer->max_level = scene.max_level;
+    ok = ok && fill(peer, &scene, settings, error);
+    scene_free(&scene);
+    return ok;
+}
+
+void peer_scene_close(PeerScene *peer)
+{
+    if (peer->scene != NULL)
+        rtcReleaseScene(peer->scene);
+    if (peer->device != NULL)
+        rtcReleaseDevice(peer->device);
+    free(peer->looks);
+    free(peer->normals);
+    free(peer->materials);
+    free(peer->lights);
+    *peer = (PeerScene){0};
+}

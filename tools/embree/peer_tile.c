@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Traces and shades a tile as kernels/trace.cl does, LANES rays at a time in SIMD, and hands them
+// to Embree PACKETS packets a call.  Compiled once for each mode (CMakeLists.txt).
+// Unlike clrt it lets every triangle be seen from both sides and keeps rays off the surface they
+// leave by a fixed distance: what Embree's users do, and cheaper for it than filters.
+#include "calls.h"
+#include "peer_draw.h"
+
+#include <string.h>
+
+#define BLOCK_WIDTH    (LANES < 4 ? 1 : 4)
+#define BLOCK_HEIGHT   (LANES / BLOCK_WIDTH)
+#define BLOCKS_ABREAST (PACKETS > 1 ? 2 : 1)
+#define BLOCKS_DEEP    (PACKETS / BLOCKS_ABREAST)
+
+// How far new rays start from a surface, and shadow rays end before it; the scene is 1 to 2 long.
+#define AWAY 1e-4f
+
+// What a packet's rays have become on their way.
+typedef struct {
+    Points origin, direction, color;
+    Floats weight;
+    Mask active;
+    float nearest; // where its rays start to count
+} Paths;
+
+typedef struct {
+    Points point, normal, face, toward_viewer;
+    Mask material; // index
+} Surfaces;
+
+// A material for each lane.
+typedef struct {
+    Points diffuse, specular;
+    Floats kd, ks, reflectivity;
+    Mask shader, exponent;
+} Looks;
+
+static void start_camera(const PeerTile *tile, uint32_t x, uint32_t y, Paths *paths)
+{
+    const CameraData *camera = &tile->scene->camera;
+    Floats across, downward;
+    for (int lane = 0; lane < LANES; lane++) {
+        const uint32_t column = x + (uint32_t)(lane % BLOCK_WIDTH);
+        const uint32_t row = y + (uint32_t)(lane / BLOCK_WIDTH);
+        across[lane] = (float)((int)(2 * column + 1) - (int)tile->scene->width);
+        downward[lane] = (float)((int)(2 * row + 1) - (int)tile->scene->height);
+        paths->active[lane] =
+            column < tile->x + tile->width && row < tile->y + tile->height ? -1 : 0;
+    }
+    paths->origin = points_all(camera->eye);
+    paths->direction = points_add(points_scale(points_all(camera->right_step), across),
+                                  points_add(points_scale(points_all(camera->down_step), downward),
+                                             points_all(camera->forward)));
+    paths->color = (Points){0};
+    paths->weight = all(1);
+    paths->nearest = 0;
+}
+
+static inline Rays rays_of(Points origin, Points direction, float near, Floats far)
+{
+    return (Rays){.origin = origin,
+                  .near = all(near),
+                  .direction = direction,
+                  .far = far,
+                  .mask = (Mask){0} - 1};
+}
+
+typedef float Quad __attribute__((vector_size(16)));
+
+// The interpolated normals, of any length.  A corner's normal is one load; what is left to do is
+// to turn three numbers of each lane into three vectors.
+static inline void look_up(const PeerScene *scene, const RayHits *hits, Mask hit,
+                           Surfaces *surfaces)
+{
+    surfaces->normal = hits->normal;
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!hit[lane])
+            continue;
+        const TriangleLook *look = &scene->looks[hits->triangle[lane]];
+        surfaces->material[lane] = (int32_t)look->material;
+        if (look->normals == NOTHING)
+            continue;
+        const CornerNormals *corners = &scene->normals[look->normals];
+        Quad normals[3];
+        memcpy(normals, corners->normals, sizeof normals);
+        const float u = hits->u[lane], v = hits->v[lane];
+        const Quad normal = (1 - u - v) * normals[0] + u * normals[1] + v * normals[2];
+        surfaces->normal.x[lane] = normal[0];
+        surfaces->normal.y[lane] = normal[1];
+        surfaces->normal.z[lane] = normal[2];
+    }
+}
+
+static inline Surfaces surfaces_at(const PeerScene *scene, const RayHits *hits, Mask hit)
+{
+    Surfaces surfaces;
+    const Points direction = hits->rays.direction;
+    look_up(scene, hits, hit, &surfaces);
+    surfaces.normal = points_unit(surfaces.normal);
+    surfaces.face = points_unit(hits->normal);
+    const Floats turn = choose(points_dot(hits->normal, direction) > all(0), all(-1), all(1));
+    surfaces.normal = points_scale(surfaces.normal, turn);
+    surfaces.face = points_scale(surfaces.face, turn);
+    surfaces.toward_viewer = points_scale(points_unit(direction), all(-1));
+    surfaces.point = points_add(hits->rays.origin, points_scale(direction, hits->rays.far));
+    return surfaces;
+}
+
+static inline void set_look(Looks *looks, const Material *material, int lane)
+{
+    looks->diffuse.x[lane] = material->diffuse[0];
+    looks->diffuse.y[lane] = material->diffuse[1];
+    looks->diffuse.z[lane] = material->diffuse[2];
+    looks->specular.x[lane] = material->specular[0];
+    looks->specular.y[lane] = material->specular[1];
+    looks->specular.z[lane] = material->specular[2];
+    looks->kd[lane] = material->kd;
+    looks->ks[lane] = material->ks;
+    looks->reflectivity[lane] = material->reflectivity;
+    looks->shader[lane] = (int32_t)material->shader;
+    looks->exponent[lane] = (int32_t)material->exponent;
+}
+
+static inline Looks looks_all(const Material *material)
+{
+    return (Looks){.diffuse = points_all(material->diffuse),
+                   .specular = points_all(material->specular),
+                   .kd = all(material->kd),
+                   .ks = all(material->ks),
+                   .reflectivity = all(material->reflectivity),
+                   .shader = (Mask){0} + (int32_t)material->shader,
+                   .exponent = (Mask){0} + (int32_t)material->exponent};
+}
+
+// Most packets see one material.
+static inline Looks looks_of(const PeerScene *scene, Mask hit, Mask material)
+{
+    int first = 0;
+    while (!hit[first])
+        first++;
+    Looks looks = looks_all(&scene->materials[material[first]]);
+    if (lanes_of(hit & (material != material[first])) == 0)
+        return looks;
+    for (int lane = 0; lane < LANES; lane++)
+        if (hit[lane])
+            set_look(&looks, &scene->materials[material[lane]], lane);
+    return looks;
+}
+
+static inline Floats power(Floats base, Mask exponent)
+{
+    Floats result = all(1);
+    while (lanes_of(exponent != 0) > 0) {
+        result = choose((exponent & 1) != 0, result * base, result);
+        base *= base;
+        exponent >>= 1;
+    }
+    return result;
+}
+
+static inline Floats highlight(const Looks *looks, const Surfaces *surfaces, Points toward_light)
+{
+    const Points half_vector = points_unit(points_add(toward_light, surfaces->toward_viewer));
+    const Floats cosine = points_dot(surfaces->normal, half_vector);
+    return power(at_least(at_most(cosine, all(1)), all(0)), looks->exponent);
+}
+
+typedef struct {
+    Floats diffuse, specular;
+} Received;
+
+// Adds what one light gives to each lit surface.
+static void add_light(PeerTile *tile, const PointLight *light, const Surfaces surfaces[PACKETS],
+                      const Mask hit[PACKETS], const Looks looks[PACKETS], Received sums[PACKETS])
+{
+    Rays rays[PACKETS];
+    Points toward_light[PACKETS];
+    Floats cosine[PACKETS];
+    Mask lit[PACKETS];
+    int count = 0;
+    for (int packet = 0; packet < PACKETS; packet++) {
+        const Points origin = points_all(light->position);
+        const Points direction = points_subtract(surfaces[packet].point, origin);
+        const Floats inverse = inverse_root(points_dot(direction, direction));
+        toward_light[packet] = points_scale(direction, -inverse);
+        cosine[packet] = points_dot(surfaces[packet].normal, toward_light[packet]);
+        lit[packet] = hit[packet] & (cosine[packet] > all(0));
+        rays[packet] = rays_of(origin, direction, 0, 1 - AWAY * inverse);
+        count += lanes_of(lit[packet]);
+    }
+    if (count == 0)
+        return;
+    tile->counts.rays[RAY_SHADOW] += (uint64_t)count;
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = tile->flags[RAY_SHADOW];
+    call_occluded(tile->scene->scene, &context, lit, rays);
+    for (int packet = 0; packet < PACKETS; packet++) {
+        const Mask open = lit[packet] & (rays[packet].far >= all(0));
+        const Mask shiny = open & (looks[packet].shader == SHADER_BLINN_PHONG);
+        sums[packet].diffuse += choose(open, light->intensity * cosine[packet], all(0));
+        if (lanes_of(shiny) > 0)
+            sums[packet].specular +=
+                choose(shiny,
+                       light->intensity *
+                           highlight(&looks[packet], &surfaces[packet], toward_light[packet]),
+                       all(0));
+    }
+}
+
+static inline Floats clamped(Floats value)
+{
+    return at_least(at_most(value, all(1)), all(0));
+}
+
+static inline Points shaded(const PeerScene *scene, const Looks *looks, const Received *light)
+{
+    const Points diffuse =
+        points_scale(looks->diffuse, scene->ambient + looks->kd * light->diffuse);
+    const Points sum =
+        points_add(diffuse, points_scale(looks->specular, looks->ks * light->specular));
+    const Points color = {clamped(sum.x), clamped(sum.y), clamped(sum.z)};
+    return points_choose(looks->shader == SHADER_SILHOUETTE, looks->diffuse, color);
+}
+
+static inline void reflect(const Surfaces *surfaces, Paths *paths)
+{
+    const Floats cosine = points_dot(surfaces->normal, surfaces->toward_viewer);
+    const Points direction =
+        points_subtract(points_scale(surfaces->normal, 2 * cosine), surfaces->toward_viewer);
+    const Floats height = at_most(points_dot(direction, surfaces->face), all(0));
+    paths->origin = surfaces->point;
+    paths->direction = points_subtract(direction, points_scale(surfaces->face, 2 * height));
+    paths->nearest = AWAY;
+}
+
+// One level of all paths; false where none goes on.
+static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
+{
+    const PeerScene *scene = tile->scene;
+    RayHits hits[PACKETS];
+    Mask active[PACKETS], hit[PACKETS];
+    int rays = 0, met = 0;
+    for (int packet = 0; packet < PACKETS; packet++) {
+        active[packet] = paths[packet].active;
+        hits[packet].rays = rays_of(paths[packet].origin, paths[packet].direction,
+                                    paths[packet].nearest, all(INFINITY));
+        hits[packet].triangle = hits[packet].geometry = (Mask){0} - 1;
+        rays += lanes_of(active[packet]);
+    }
+    if (rays == 0)
+        return false;
+    tile->counts.rays[kind] += (uint64_t)rays;
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = tile->flags[kind];
+    call_intersect(scene->scene, &context, active, hits);
+    const Points background = points_all(scene->background);
+    for (int packet = 0; packet < PACKETS; packet++) {
+        hit[packet] = active[packet] & (hits[packet].geometry != -1);
+        met += lanes_of(hit[packet]);
+        paths[packet].color = points_add(
+            paths[packet].color, points_scale(background, choose(active[packet] & ~hit[packet],
+                                                                 paths[packet].weight, all(0))));
+        paths[packet].active = hit[packet];
+    }
+    if (met == 0)
+        return false;
+    Surfaces surfaces[PACKETS];
+    Looks looks[PACKETS];
+    Received light[PACKETS];
+    for (int packet = 0; packet < PACKETS; packet++) {
+        light[packet] = (Received){0};
+        if (lanes_of(hit[packet]) == 0)
+            continue;
+        surfaces[packet] = surfaces_at(scene, &hits[packet], hit[packet]);
+        looks[packet] = looks_of(scene, hit[packet], surfaces[packet].material);
+    }
+    for (uint32_t index = 0; index < scene->light_count; index++)
+        add_light(tile, &scene->lights[index], surfaces, hit, looks, light);
+    for (int packet = 0; packet < PACKETS; packet++) {
+        if (lanes_of(hit[packet]) == 0)
+            continue;
+        const Points color = shaded(scene, &looks[packet], &light[packet]);
+        const Floats reflectivity = looks[packet].reflectivity;
+        const Floats weight = choose(hit[packet], paths[packet].weight, all(0));
+        paths[packet].color =
+            points_add(paths[packet].color, points_scale(color, weight * (1 - reflectivity)));
+        paths[packet].weight *= reflectivity;
+        paths[packet].active = hit[packet] & (reflectivity != all(0));
+        reflect(&surfaces[packet], &paths[packet]);
+    }
+    return true;
+}
+
+static void store(const PeerTile *tile, uint32_t x, uint32_t y, const Paths *paths)
+{
+    // Paths that are still going see the background.
+    const Points color =
+        points_add(paths->color, points_scale(points_all(tile->scene->background),
+                                              choose(paths->active, paths->weight, all(0))));
+    for (int lane = 0; lane < LANES; lane++) {
+        const uint32_t column = x + (uint32_t)(lane % BLOCK_WIDTH);
+        const uint32_t row = y + (uint32_t)(lane / BLOCK_WIDTH);
+        if (column >= tile->x + tile->width || row >= tile->y + tile->height)
+            continue;
+        float *pixel = tile->framebuffer->pixels[(size_t)row * tile->framebuffer->width + column];
+        pixel[0] = color.x[lane];
+        pixel[1] = color.y[lane];
+        pixel[2] = color.z[lane];
+    }
+}
+
+static void draw_blocks(PeerTile *tile, uint32_t x, uint32_t y)
+{
+    Paths paths[PACKETS];
+    for (uint32_t packet = 0; packet < PACKETS; packet++)
+        start_camera(tile, x + packet % BLOCKS_ABREAST * BLOCK_WIDTH,
+                     y + packet / BLOCKS_ABREAST * BLOCK_HEIGHT, &paths[packet]);
+    for (uint32_t level = 0; level < tile->scene->max_level; level++)
+        if (!trace_level(tile, level == 0 ? RAY_CAMERA : RAY_REFLECTED, paths))
+            break;
+    for (uint32_t packet = 0; packet < PACKETS; packet++)
+        store(tile, x + packet % BLOCKS_ABREAST * BLOCK_WIDTH,
+              y + packet / BLOCKS_ABREAST * BLOCK_HEIGHT, &paths[packet]);
+}
+
+void DRAW_TILE(PeerTile *tile)
+{
+    for (uint32_t y = 0; y < tile->height; y += BLOCKS_DEEP * BLOCK_HEIGHT)
+        for (uint32_t x = 0; x < tile->width; x += BLOCKS_ABREAST * BLOCK_WIDTH)
+            draw_blocks(tile, tile->x + x, tile->y + y);
+}
