@@ -106,9 +106,10 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     const Bvh no_tree = {0};
     Triangles triangles = {0};
     FlatScene flat = {0};
+    const FlatSource source = {scene, &triangles, &no_tree, NODES_PAIR};
     peer->camera = camera_make(&scene->viewpoints.data[0], &normalization, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, error) &&
-                    flat_make(&flat, scene, &triangles, &no_tree, error) &&
+                    flat_make(&flat, &source, error) &&
                     take_flat(peer, &flat, error) &&
                     build(peer, scene, &normalization, settings, error);
     flat_free(&flat);
