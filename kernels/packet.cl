@@ -253,8 +253,7 @@ static inline void traverse_packet(const SceneView *scene, const Packet *packet,
         global const BvhWide *node = &scene->nodes[parent];
         float8 entry;
         const int8 near = children_near(node, packet, farthest, &entry);
-        const uint8 numbers = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
-        wait_for_children(&waiting, near, entry, parent * WIDE + numbers);
+        wait_for_children(&waiting, lane_bits(near), &entry, parent * WIDE);
         for (;;) {
             if (waiting.count == 0)
                 return;

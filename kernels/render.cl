@@ -29,11 +29,10 @@
 #define LANE_Y        (uint16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
 #endif
 
-// Samples are summed as integers of 2^-32: exact in any order, so that a constant color stays
-// itself however many samples there are.  Rounding comes first, so that converting is exact.
-static inline LongCount fixed_point(Real color)
+// Colors are rounded to integers of 2^-32.
+static inline Real in_steps(Real color)
 {
-    return to_long(rint(clamp(color, 0.0f, 1.0f) * 0x1p32f));
+    return rint(clamp(color, 0.0f, 1.0f) * 0x1p32f);
 }
 
 static inline Real mean_of(LongCount sum, ulong count)
@@ -41,23 +40,42 @@ static inline Real mean_of(LongCount sum, ulong count)
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
-static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
-                                Truth active, Tally *tally)
+static inline Real3 sample_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
+                                 Truth active, Tally *tally)
+{
+    const Ray ray = camera_ray(frame, x, y, active);
+    const Real3 color = trace(scene, frame, ray, tally);
+    if (CLRT_STATISTICS)
+        tally->camera_rays += lane_count(active);
+    return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
+}
+
+// Samples are summed as integers: exact in any order, so that a constant color stays itself
+// however many samples there are.
+static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
+                               Truth active, Tally *tally)
 {
     LongCount red = 0, green = 0, blue = 0;
     const uint samples = frame->samples;
     for (uint row = 0; row < samples; row++)
         for (uint column = 0; column < samples; column++) {
-            const Ray ray = camera_ray(frame, x * samples + column, y * samples + row, active);
-            const Real3 color = trace(scene, frame, ray, tally);
-            red += fixed_point(color.x);
-            green += fixed_point(color.y);
-            blue += fixed_point(color.z);
+            const Real3 color =
+                sample_color(scene, frame, x * samples + column, y * samples + row, active, tally);
+            red += to_long(color.x);
+            green += to_long(color.y);
+            blue += to_long(color.z);
         }
     const ulong count = (ulong)samples * samples;
-    if (CLRT_STATISTICS)
-        tally->camera_rays += (uint)count * lane_count(active);
     return real3_of(mean_of(red, count), mean_of(green, count), mean_of(blue, count));
+}
+
+static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
+                                Truth active, Tally *tally)
+{
+    if (frame->samples > 1)
+        return mean_color(scene, frame, x, y, active, tally);
+    const Real3 color = sample_color(scene, frame, x, y, active, tally);
+    return scaled3(0x1p-32f, color);
 }
 
 static inline void store_tally(global uint *counts, const Tally *tally)

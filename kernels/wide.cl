@@ -41,33 +41,30 @@ static inline float waiting_entry(ulong child)
     return as_float((uint)(child >> 32));
 }
 
-// Puts the children that are met on the stack, the nearest on top.  Each one's place is how many
-// are farther, counted without a branch: a mispredicted one costs more than all of this.  Entries
-// lose three bits downward to the child's number, which makes them differ.
-static inline void wait_for_children(WideWaiting *waiting, int8 met, float8 entry, uint8 children)
+static inline uint lowest_bit(uint bits)
 {
-    const uint8 numbers = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
-    const int8 distinct = as_int8((as_uint8(entry) & ~7u) | numbers);
-    const int8 key = met ? distinct : (int8)(-1);
-    int8 place = (int8)(key.s0) > key;
-    place += (int8)(key.s1) > key;
-    place += (int8)(key.s2) > key;
-    place += (int8)(key.s3) > key;
-    place += (int8)(key.s4) > key;
-    place += (int8)(key.s5) > key;
-    place += (int8)(key.s6) > key;
-    place += (int8)(key.s7) > key;
-    const ulong8 waiters = convert_ulong8(as_uint8(key)) << 32 | convert_ulong8(children);
-    ulong *top = waiting->child + waiting->count;
-    top[-place.s0] = waiters.s0;
-    top[-place.s1] = waiters.s1;
-    top[-place.s2] = waiters.s2;
-    top[-place.s3] = waiters.s3;
-    top[-place.s4] = waiters.s4;
-    top[-place.s5] = waiters.s5;
-    top[-place.s6] = waiters.s6;
-    top[-place.s7] = waiters.s7;
-    waiting->count += popcount(lane_bits(met));
+    return popcount((bits & -bits) - 1);
+}
+
+// Puts a child on the stack below those of the same node, from `start` on, that are nearer.
+static inline void wait_in_order(WideWaiting *waiting, uint start, ulong child)
+{
+    uint place = waiting->count++;
+    for (; place > start && waiting->child[place - 1] < child; place--)
+        waiting->child[place] = waiting->child[place - 1];
+    waiting->child[place] = child;
+}
+
+// Puts the children whose bits are set on the stack, the nearest on top.
+static inline void wait_for_children(WideWaiting *waiting, uint bits, const float8 *entry,
+                                     uint first)
+{
+    const float *entries = (const float *)entry;
+    const uint start = waiting->count;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint number = lowest_bit(bits);
+        wait_in_order(waiting, start, (ulong)as_uint(entries[number]) << 32 | (first + number));
+    }
 }
 
 static inline float8 wide_planes(global const BvhWide *node, uint axis, uint side,
@@ -158,32 +155,65 @@ static inline void test_block(global const TriangleBlock *blocks, uint number, c
     }
 }
 
+// Enters the nearest of the children whose bits are set; the others wait.
+static inline uint enter_children(WideWaiting *waiting, const uint8 *children, uint bits,
+                                  const float8 *entry)
+{
+    const float *entries = (const float *)entry;
+    const uint *names = (const uint *)children;
+    uint number = lowest_bit(bits);
+    uint child = names[number];
+    bits &= bits - 1;
+    if (bits == 0)
+        return child;
+    ulong nearest = (ulong)as_uint(entries[number]) << 32 | child;
+    const uint start = waiting->count;
+    for (; bits != 0; bits &= bits - 1) {
+        number = lowest_bit(bits);
+        const ulong other = (ulong)as_uint(entries[number]) << 32 | names[number];
+        wait_in_order(waiting, start, max(nearest, other));
+        nearest = min(nearest, other);
+    }
+    return (uint)nearest;
+}
+
+static inline bool next_child(WideWaiting *waiting, float reach, uint *child)
+{
+    while (waiting->count > 0) {
+        const ulong next = waiting->child[--waiting->count];
+        *child = (uint)next;
+        if (!(waiting_entry(next) > reach))
+            return true;
+    }
+    return false;
+}
+
 static inline void traverse_wide(const SceneView *scene, const SingleRay *ray, SingleHit *best,
                                  Tally *tally)
 {
     WideWaiting waiting;
-    waiting.count = 1;
-    waiting.child[0] = 0;
-    while (waiting.count > 0) {
-        const ulong next = waiting.child[--waiting.count];
-        const uint child = (uint)next;
-        if (waiting_entry(next) > best->t)
-            continue;
-        if ((child & WIDE_LEAF) == 0) {
+    waiting.count = 0;
+    uint child = 0;
+    do {
+        while ((child & WIDE_LEAF) == 0) {
             global const BvhWide *node = &scene->nodes[child];
+            const uint8 children = vload8(0, node->child);
             float8 entry;
-            const int8 met = children_met(node, ray, best->t, &entry);
-            wait_for_children(&waiting, met, entry, vload8(0, node->child));
+            const uint met = lane_bits(children_met(node, ray, best->t, &entry));
             if (CLRT_STATISTICS)
                 tally->box_tests += node->child_count;
-            continue;
+            if (met == 0)
+                break;
+            child = enter_children(&waiting, &children, met, &entry);
         }
+        if ((child & WIDE_LEAF) == 0)
+            continue;
         test_block(scene->triangles, child & ~WIDE_LEAF, ray, best);
         if (CLRT_STATISTICS)
             tally->triangle_tests += WIDE;
         if (ray->kind == RAY_SHADOW && best->id != NOTHING)
             return;
-    }
+    } while (next_child(&waiting, best->t, &child));
 }
 
 static inline float slab_direction(float direction, float smallest)

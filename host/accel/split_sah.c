@@ -133,7 +133,7 @@ static uint32_t split_median(const BuildRange *range, const Box *centers)
 
 uint32_t split_sah(const BuildRange *range)
 {
-    if (range->count <= 1)
+    if (range->count <= LARGEST_LEAF)
         return 0;
     const Box centers = center_bounds(range);
     const float area = box_half_area(&range->box);

@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
 
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error)
 {
@@ -29,19 +31,39 @@ static size_t byte_count(size_t count, size_t size)
     return count == 0 ? size : count * size;
 }
 
-void *memory_zeroed(size_t count, size_t size, Error *error)
+// Arrays of many pages ask for huge ones: a tree's nodes are read in no order, and without them
+// every other read misses the processor's table of pages.  Measured on a million triangles: see
+// CHANGELOG.md.
+#define HUGE_PAGE ((size_t)1 << 21)
+
+static void *large_memory(size_t bytes)
 {
-    const size_t bytes = byte_count(count, size);
-    void *memory = bytes > PTRDIFF_MAX ? NULL : calloc(1, bytes);
-    if (memory == NULL)
-        error_out_of_memory(error, bytes);
+    void *memory = NULL;
+    if (posix_memalign(&memory, HUGE_PAGE, bytes) != 0)
+        return NULL;
+    madvise(memory, bytes, MADV_HUGEPAGE);
     return memory;
 }
 
 void *memory_raw(size_t count, size_t size, Error *error)
 {
     const size_t bytes = byte_count(count, size);
-    void *memory = bytes > PTRDIFF_MAX ? NULL : malloc(bytes);
+    void *memory = NULL;
+    if (bytes <= PTRDIFF_MAX)
+        memory = bytes >= 2 * HUGE_PAGE ? large_memory(bytes) : malloc(bytes);
+    if (memory == NULL)
+        error_out_of_memory(error, bytes);
+    return memory;
+}
+
+void *memory_zeroed(size_t count, size_t size, Error *error)
+{
+    const size_t bytes = byte_count(count, size);
+    if (bytes >= 2 * HUGE_PAGE) {
+        void *memory = memory_raw(count, size, error);
+        return memory != NULL ? memset(memory, 0, bytes) : NULL;
+    }
+    void *memory = calloc(1, bytes);
     if (memory == NULL)
         error_out_of_memory(error, bytes);
     return memory;

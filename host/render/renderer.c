@@ -26,7 +26,7 @@ static bool upload(Renderer *renderer, int place, const void *data, size_t size,
     cl_int status;
     void *source = (void *)(size > 0 ? data : nothing);
     renderer->arrays[place] =
-        clCreateBuffer(device->context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+        clCreateBuffer(device->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR,
                        size > 0 ? size : sizeof nothing, source, &status);
     return cl_succeeded(status, "upload the scene", error);
 }
