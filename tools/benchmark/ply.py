@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Meshes as the benchmark needs them: reads the PLY that clrt's own scenes and the course's use
-(float vertices with or without normals, triangles), and writes the same."""
+"""Reads the PLY that clrt's own scenes and the course's use: float vertices with or without
+normals, and triangles, little-endian or as text."""
 
 import array
 import struct
-import sys
 
 
 def read_header(file):
@@ -43,16 +42,3 @@ def read(path):
     positions = list(zip(columns["x"], columns["y"], columns["z"]))
     normals = list(zip(columns["nx"], columns["ny"], columns["nz"])) if "nx" in columns else []
     return positions, normals, corners
-
-
-def write(path, positions, corners):
-    """Writes flat arrays: three floats a vertex, three indices a triangle."""
-    assert sys.byteorder == "little"
-    with open(path, "wb") as file:
-        file.write(b"ply\nformat binary_little_endian 1.0\n"
-                   b"element vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
-                   b"element face %d\nproperty list uchar int vertex_indices\nend_header\n"
-                   % (len(positions) // 3, len(corners) // 3))
-        array.array("f", positions).tofile(file)
-        face = struct.Struct("<B3i")
-        file.write(b"".join(face.pack(3, *corners[i:i + 3]) for i in range(0, len(corners), 3)))

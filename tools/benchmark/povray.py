@@ -29,7 +29,7 @@ def statements(text):
 
 def finish_of(words, ambient):
     """The texture of a define statement, its color with and without the reflection weighed."""
-    figures = {"diffuse": ["1", "1", "1"], "kd": ["0.8"], "reflectivity": ["0"]}
+    figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"]}
     if words[0] != "matte":
         raise ValueError(f"POV-Ray has no {words[0]} as clrt's")
     name = None
