@@ -154,6 +154,21 @@ static bool open_renderer(Run *run, Error *error)
     return true;
 }
 
+// One picture of as many as were asked for; they are the same.
+static bool draw_frame(Run *run, const CameraData *camera, Error *error)
+{
+    double moment = clock_seconds();
+    Progress progress = progress_begin(run->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok = renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
+    run->stopped_by = progress_end(&progress);
+    const double seconds = lap(&moment);
+    if (run->options->verbose && ok)
+        fprintf(stderr, "traced in %.4f s\n", seconds);
+    run->report.frame_seconds[run->report.frame_count++] = seconds;
+    return ok;
+}
+
 static bool draw(Run *run, Error *error)
 {
     const RenderSettings *settings = &run->settings;
@@ -162,12 +177,10 @@ static bool draw(Run *run, Error *error)
         camera_make(viewpoint, &run->normalization, settings->height, settings->samples);
     if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
         return false;
-    double moment = clock_seconds();
-    Progress progress = progress_begin(run->options->quiet);
-    const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = renderer_draw(&run->renderer, &camera, &observer, &run->framebuffer, error);
-    run->stopped_by = progress_end(&progress);
-    run->report.trace = lap(&moment);
+    bool ok = true;
+    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
+        ok = draw_frame(run, &camera, error);
+    run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
     run->report.complete = ok && done->tiles_done == done->tiles;
     for (int kind = 0; kind < TALLY_KINDS; kind++)
@@ -241,8 +254,6 @@ static ExitCode render(Run *run, Error *error)
     image_prepare(run->options->format);
     if (!draw(run, error))
         return EXIT_DEVICE;
-    if (run->options->verbose)
-        fprintf(stderr, "traced in %.4f s\n", run->report.trace);
     if (!write_picture(run, error) || !write_statistics(run, start, error))
         return EXIT_OUTPUT;
     return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;

@@ -87,6 +87,11 @@ static bool read_size(Options *options, const char *value, Error *error)
     return ok;
 }
 
+static bool read_frames(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "frames", FRAMES_MAX, &options->frames, error);
+}
+
 static bool read_tile(Options *options, const char *value, Error *error)
 {
     uint32_t area[2] = {0};
@@ -262,6 +267,8 @@ static const struct {
     {"nodes", 0, "KIND", read_nodes,
      "nodes of two children or of eight: auto (default), pair or wide"},
     {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
+    {"frames", 0, "N", read_frames,
+     "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"stats", 0, "[=FILE]", read_stats,
      "count rays and tests; as JSON with a FILE (- is standard output)"},
     {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
@@ -376,6 +383,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     char shorts[2 * OPTION_COUNT + 2];
     *options = (Options){.samples = 1,
                          .view = 1,
+                         .frames = 1,
                          .max_level = -1,
                          .uses_bvh = true,
                          .tile_width = 128,

@@ -10,6 +10,8 @@
 
 typedef enum { ACTION_RENDER, ACTION_HELP, ACTION_VERSION, ACTION_LIST_DEVICES } Action;
 
+#define FRAMES_MAX 1000
+
 // Strings point into the command line.
 typedef struct {
     Action action;
@@ -24,6 +26,7 @@ typedef struct {
     BvhBuilder builder;
     const char *device; // NULL: the best
     uint32_t threads;   // 0: all that the process may use
+    uint32_t frames;    // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
     KernelWish kernel;

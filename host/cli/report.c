@@ -94,6 +94,14 @@ static json_t *seconds_json(const Report *report)
                      report->trace, "write", report->write, "total", report->total);
 }
 
+static json_t *frames_json(const Report *report)
+{
+    json_t *list = json_array();
+    for (uint32_t frame = 0; frame < report->frame_count; frame++)
+        json_array_append_new(list, json_real(report->frame_seconds[frame]));
+    return list;
+}
+
 // JSON is UTF-8 and a path need not be: bytes past ASCII in one that is not become '?'.
 static json_t *path_json(const char *path)
 {
@@ -146,13 +154,13 @@ static json_t *report_json(const Report *report)
     getrusage(RUSAGE_SELF, &usage);
     return json_pack(
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, "
-        "s:o}",
+        "s:o, s:o}",
         "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
         "pixel_hash", report->pixel_hash, "device", "name", report->device_name, "driver",
         report->device_version, "bytes", "uploaded", integer(report->upload_size), "peak_memory",
         integer((uint64_t)usage.ru_maxrss * 1024), "scene", scene_json(report, &texts), "bvh",
         tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "tests",
-        tests_json(report), "seconds", seconds_json(report));
+        tests_json(report), "seconds", seconds_json(report), "frame_seconds", frames_json(report));
 }
 
 bool report_write_json(const Report *report, const char *path, Error *error)

@@ -22,6 +22,8 @@ typedef struct {
     uint64_t tallies[TALLY_KINDS];
     // Seconds.
     double parse, load, build, device, upload, kernel_build, trace, write, total;
+    double frame_seconds[FRAMES_MAX]; // of every picture drawn; the first is trace
+    uint32_t frame_count;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 

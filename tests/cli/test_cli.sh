@@ -132,6 +132,11 @@ check "tiles have an effect" pixels a.pfm --tile 16x8 --work-group 4x2 --stats=d
 check "... says the JSON" json d.json "d['settings']['tile'] == [16, 8] and d['settings']['work_group'] == [4, 2]"
 check "--specialize always has an effect" pixels a.pfm --specialize always --stats=e.json
 check "... says the JSON" json e.json "d['settings']['specialized']"
+check "--frames draws the picture as often" pixels f.pfm --frames 3 --stats=f.json
+check "... and times each" json f.json "len(d['frame_seconds']) == 3 and min(d['frame_seconds']) > 0"
+check "... the first as the picture's own" json f.json "d['seconds']['trace'] == d['frame_seconds'][0]"
+check "... and writes the same picture" cmp a.pfm f.pfm
+check "... and counts one" json f.json "d['rays']['camera'] == 1536"
 check "JSON goes to standard output" pixels a.pfm --stats=-
 check "... as JSON" json out "d['complete']"
 

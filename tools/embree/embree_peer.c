@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,19 +15,22 @@
 typedef struct {
     const char *scene, *modes, *picture;
     uint32_t frames, width, height;
+    bool tunes;
     enum RTCIntersectContextFlags flags[RAY_KINDS];
     PeerSettings settings;
 } Options;
 
+static const char kind_letters[RAY_KINDS] = {'c', 's', 'r'};
 static const char *const quality_names[] = {"low", "medium", "high"};
 
 static void usage(void)
 {
-    fprintf(stderr, "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
-                    "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
-                    "MODE is single, packet8, packet16 or stream; -r is Embree's robust mode; "
-                    "KINDS of\nrays called coherent are letters of csr: camera, shadow, reflected "
-                    "(csr).  The picture is\nthe last mode's.\n");
+    fprintf(stderr,
+            "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
+            "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
+            "MODE is single, packet8, packet16 or stream (all); -r is Embree's robust mode; KINDS\n"
+            "of rays called coherent are letters of csr (camera, shadow, reflected) or best: what\n"
+            "is fastest.  The picture is the last mode's.\n");
     exit(2);
 }
 
@@ -42,8 +46,9 @@ static bool read_quality(const char *name, enum RTCBuildQuality *quality)
 
 static void set_coherent(Options *options, const char *kinds)
 {
+    options->tunes = strcmp(kinds, "best") == 0;
     for (int kind = 0; kind < RAY_KINDS; kind++)
-        options->flags[kind] = strchr(kinds, "csr"[kind]) != NULL
+        options->flags[kind] = strchr(kinds, kind_letters[kind]) != NULL
                                    ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                    : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
@@ -54,7 +59,7 @@ static Options read_options(int count, char **words)
                        .frames = 5,
                        .settings = {.quality = RTC_BUILD_QUALITY_MEDIUM, .threads = 1}};
     bool ok = true;
-    set_coherent(&options, "csr");
+    set_coherent(&options, "best");
     for (int option; (option = getopt(count, words, "m:f:j:s:q:rc:o:")) != -1;)
         switch (option) {
         case 'm':
@@ -99,20 +104,49 @@ static bool is_asked(const char *modes, const char *name)
     return false;
 }
 
+static double time_picture(const PeerPicture *picture, Framebuffer *framebuffer)
+{
+    const double start = clock_seconds();
+    peer_draw(picture, framebuffer);
+    return clock_seconds() - start;
+}
+
+// Calls each kind of ray coherent or not, as draws faster: the kinds do not meet, so one after the
+// other finds the best.  Returns the seconds with all of them coherent.
+static double tune(PeerPicture *picture, Framebuffer *framebuffer)
+{
+    for (int kind = 0; kind < RAY_KINDS; kind++)
+        picture->flags[kind] = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    const double coherent = time_picture(picture, framebuffer);
+    double best = coherent;
+    for (int kind = 0; kind < RAY_KINDS; kind++) {
+        picture->flags[kind] = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        const double seconds = time_picture(picture, framebuffer);
+        if (seconds > best)
+            picture->flags[kind] = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        best = fmin(best, seconds);
+    }
+    return coherent;
+}
+
 // One picture to warm up, then the measured ones.
-static void measure(const PeerPicture *picture, uint32_t frames, Framebuffer *framebuffer)
+static void measure(PeerPicture *picture, const Options *options, Framebuffer *framebuffer)
 {
     const PeerCounts counts = peer_draw(picture, framebuffer);
-    printf("    \"%s\": {\"rays\": {\"camera\": %llu, \"shadow\": %llu, \"reflected\": %llu},\n"
-           "      \"frame_seconds\": [",
+    printf("    \"%s\": {\n      \"rays\": {\"camera\": %llu, \"shadow\": %llu, "
+           "\"reflected\": %llu},\n",
            picture->mode->name, (unsigned long long)counts.rays[RAY_CAMERA],
            (unsigned long long)counts.rays[RAY_SHADOW],
            (unsigned long long)counts.rays[RAY_REFLECTED]);
-    for (uint32_t frame = 0; frame < frames; frame++) {
-        const double start = clock_seconds();
-        peer_draw(picture, framebuffer);
-        printf("%s%.6f", frame == 0 ? "" : ", ", clock_seconds() - start);
-    }
+    if (options->tunes)
+        printf("      \"all_coherent_seconds\": %.6f,\n", tune(picture, framebuffer));
+    printf("      \"coherent\": \"");
+    for (int kind = 0; kind < RAY_KINDS; kind++)
+        if (picture->flags[kind] == RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
+            putchar(kind_letters[kind]);
+    printf("\",\n      \"frame_seconds\": [");
+    for (uint32_t frame = 0; frame < options->frames; frame++)
+        printf("%s%.6f", frame == 0 ? "" : ", ", time_picture(picture, framebuffer));
     printf("]}");
 }
 
@@ -131,7 +165,7 @@ static void measure_modes(const Options *options, const PeerScene *scene, Frameb
             continue;
         memcpy(picture.flags, options->flags, sizeof picture.flags);
         fputs(separator, stdout);
-        measure(&picture, options->frames, framebuffer);
+        measure(&picture, options, framebuffer);
         separator = ",\n";
     }
     printf("\n  }\n}\n");

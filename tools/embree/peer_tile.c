@@ -14,7 +14,7 @@
 #define BLOCKS_DEEP    (PACKETS / BLOCKS_ABREAST)
 
 // How far new rays start from a surface, and shadow rays end before it; the scene is 1 to 2 long.
-#define AWAY 1e-4f
+#define AWAY 3e-5f
 
 // What a packet's rays have become on their way.
 typedef struct {
@@ -40,14 +40,15 @@ static void start_camera(const PeerTile *tile, uint32_t x, uint32_t y, Paths *pa
 {
     const CameraData *camera = &tile->scene->camera;
     Floats across, downward;
+    Mask active;
     for (int lane = 0; lane < LANES; lane++) {
         const uint32_t column = x + (uint32_t)(lane % BLOCK_WIDTH);
         const uint32_t row = y + (uint32_t)(lane / BLOCK_WIDTH);
         across[lane] = (float)((int)(2 * column + 1) - (int)tile->scene->width);
         downward[lane] = (float)((int)(2 * row + 1) - (int)tile->scene->height);
-        paths->active[lane] =
-            column < tile->x + tile->width && row < tile->y + tile->height ? -1 : 0;
+        active[lane] = column < tile->x + tile->width && row < tile->y + tile->height ? -1 : 0;
     }
+    paths->active = active;
     paths->origin = points_all(camera->eye);
     paths->direction = points_add(points_scale(points_all(camera->right_step), across),
                                   points_add(points_scale(points_all(camera->down_step), downward),
@@ -57,13 +58,15 @@ static void start_camera(const PeerTile *tile, uint32_t x, uint32_t y, Paths *pa
     paths->nearest = 0;
 }
 
-static inline Rays rays_of(Points origin, Points direction, float near, Floats far)
+static inline void set_rays(Rays *rays, Points origin, Points direction, float near, Floats far)
 {
-    return (Rays){.origin = origin,
-                  .near = all(near),
-                  .direction = direction,
-                  .far = far,
-                  .mask = (Mask){0} - 1};
+    rays->origin = origin;
+    rays->near = all(near);
+    rays->direction = direction;
+    rays->time = all(0);
+    rays->far = far;
+    rays->mask = (Mask){0} - 1;
+    rays->flags = (Mask){0};
 }
 
 typedef float Quad __attribute__((vector_size(16)));
@@ -186,7 +189,7 @@ static void add_light(PeerTile *tile, const PointLight *light, const Surfaces su
         toward_light[packet] = points_scale(direction, -inverse);
         cosine[packet] = points_dot(surfaces[packet].normal, toward_light[packet]);
         lit[packet] = hit[packet] & (cosine[packet] > all(0));
-        rays[packet] = rays_of(origin, direction, 0, 1 - AWAY * inverse);
+        set_rays(&rays[packet], origin, direction, 0, 1 - AWAY * inverse);
         count += lanes_of(lit[packet]);
     }
     if (count == 0)
@@ -244,8 +247,8 @@ static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
     int rays = 0, met = 0;
     for (int packet = 0; packet < PACKETS; packet++) {
         active[packet] = paths[packet].active;
-        hits[packet].rays = rays_of(paths[packet].origin, paths[packet].direction,
-                                    paths[packet].nearest, all(INFINITY));
+        set_rays(&hits[packet].rays, paths[packet].origin, paths[packet].direction,
+                 paths[packet].nearest, all(INFINITY));
         hits[packet].triangle = hits[packet].geometry = (Mask){0} - 1;
         rays += lanes_of(active[packet]);
     }

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: MIT
+"""clrt against POV-Ray 3.7 from file to PNG: whole processes, alternating.
+
+The scene is written as POV-Ray input.  Its meshes become text, since POV-Ray reads no PLY; it
+shades from the same formula, follows as many reflections and takes one sample a pixel.
+"""
+
+import math
+import pathlib
+import re
+import shutil
+import statistics
+import subprocess
+import time
+
+from benchmark import common, ply, scenes
+
+
+def vector(numbers):
+    return "<" + ",".join(f"{float(number):.7g}" for number in numbers) + ">"
+
+
+def statements(text):
+    for line in text.splitlines():
+        words = line.split("#")[0].split()
+        if words:
+            yield words[0], words[1:]
+
+
+def finish_of(words, ambient):
+    """The texture of a define statement, its color with and without the reflection weighed."""
+    figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"]}
+    if words[0] != "matte":
+        raise ValueError(f"POV-Ray has no {words[0]} as clrt's")
+    name = None
+    for word in words[1:]:
+        if word in figures:
+            name, figures[word] = word, []
+        else:
+            figures[name].append(word)
+    mirror, kd = float(figures["reflectivity"][0]), float(figures["kd"][0])
+    return (f"texture {{ pigment {{ rgb {vector(figures['diffuse'])} }} finish {{ "
+            f"ambient {ambient * (1 - mirror):.7g} diffuse {kd * (1 - mirror):.7g} "
+            f"reflection {mirror:.7g} }} }}")
+
+
+def mesh_of(path, texture):
+    positions, normals, corners = ply.read(path)
+    parts = [f"vertex_vectors {{ {len(positions)}, {','.join(map(vector, positions))} }}"]
+    if normals:
+        parts.append(f"normal_vectors {{ {len(normals)}, {','.join(map(vector, normals))} }}")
+    faces = ",".join("<%d,%d,%d>" % corner for corner in corners)
+    parts.append(f"face_indices {{ {len(corners)}, {faces} }}")
+    return "mesh2 {\n" + "\n".join(parts) + f"\n{texture} }}"
+
+
+def camera_of(words, width, height):
+    """clrt's angle is vertical and its picture not mirrored; POV-Ray's is horizontal, and its
+    space left-handed unless `right` points left."""
+    eye, target, angle = words[:3], words[3:6], float(words[6])
+    across = 2 * math.degrees(math.atan(math.tan(math.radians(angle) / 2) * width / height))
+    return (f"camera {{ perspective location {vector(eye)} sky <0,0,1> up y "
+            f"right -x*{width / height:.9g} angle {across:.9g} look_at {vector(target)} }}")
+
+
+def translate(text, width, height):
+    """The scene of the benchmark as POV-Ray input."""
+    known = {name: words for name, words in statements(text)}
+    ambient = float(known["ambient"][0])
+    textures, texture = {}, None
+    # Nothing is left out for being faint: clrt follows every ray as well.
+    out = ["#version 3.7;",
+           f"global_settings {{ assumed_gamma 1 adc_bailout 0 "
+           f"max_trace_level {known['max_level'][0]} }}",
+           f"background {{ rgb {vector(known['background'])} }}",
+           camera_of(known["camera"], width, height)]
+    for name, words in statements(text):
+        if name == "light":
+            out.append(f"light_source {{ {vector(words[:3])} rgb {words[3]} }}")
+        elif name == "define":
+            textures[words[0]] = finish_of(words[1:], ambient)
+        elif name == "material":
+            texture = textures[words[0]]
+        elif name == "ply_file":
+            out.append(mesh_of(words[0], texture))
+    return "\n".join(out) + "\n"
+
+
+class Contest:
+    """A scene from file to picture."""
+
+    def __init__(self, name, variant, scene, options, folder):
+        text = scene.read_text()
+        known = {word: words for word, words in statements(text)}
+        width, height = (options.size.split("x") if options.size else known["size"])
+        threads = options.threads or common.threads_of_machine()
+        self.name, self.variant = name, variant
+        self.folder = pathlib.Path(folder)
+        source = self.folder / f"{name}-{variant}.pov"
+        source.write_text(translate(text, int(width), int(height)))
+        self.picture_bytes = 3 * int(width) * int(height)
+        self.clrt = [common.CLRT, str(scene), "-q", *options.clrt_words]
+        # File_Gamma=1 writes the values as they are, as clrt does.
+        self.povray = ["povray", f"+I{source}", f"+W{width}", f"+H{height}", f"+WT{threads}", "-D",
+                       "-A", "-P", "-V", "File_Gamma=1"]
+        self.times = {"clrt": [], "povray": []}
+        self.trace_times = []
+        self.difference = None
+
+    def run(self, ending):
+        """Draws with both to files of that ending; returns the seconds of each, and what POV-Ray
+        said."""
+        kind = {"png": "N", "ppm": "P"}[ending]
+        start = time.monotonic()
+        subprocess.run([*self.clrt, "-o", self.path("clrt", ending)], check=True)
+        middle = time.monotonic()
+        # Its messages name the seconds of tracing alone.
+        done = subprocess.run([*self.povray, f"+F{kind}8", f"+O{self.path('povray', ending)}"],
+                              check=True, capture_output=True, text=True)
+        return middle - start, time.monotonic() - middle, done.stderr
+
+    def path(self, who, ending):
+        return str(self.folder / f"{self.name}-{self.variant}-{who}.{ending}")
+
+    def prepare(self):
+        """A run that is not timed, on which the pictures are compared."""
+        self.run("ppm")
+        first, second = (pathlib.Path(self.path(who, "ppm")).read_bytes()[-self.picture_bytes:]
+                         for who in ("clrt", "povray"))
+        self.difference = sum(abs(a - b) for a, b in zip(first, second)) / len(first) / 255
+
+    def round(self):
+        clrt, povray, messages = self.run("png")
+        self.times["clrt"].append(clrt)
+        self.times["povray"].append(povray)
+        traced = re.search(r"Trace Time:.*\(([0-9.]+) seconds\)", messages)
+        self.trace_times.append(float(traced.group(1)) if traced else 0)
+
+    def summary(self):
+        ratios = [theirs / ours for theirs, ours in zip(self.times["povray"], self.times["clrt"])]
+        return {"scene": self.name, "variant": self.variant, "process_seconds_rounds": self.times,
+                "process_seconds": {who: statistics.median(t) for who, t in self.times.items()},
+                "povray_trace_seconds": statistics.median(self.trace_times),
+                "ratio_povray_to_clrt": statistics.median(ratios),
+                "mean_difference": self.difference}
+
+
+def print_table(results):
+    print("From file to PNG, seconds of the whole process; apart: mean difference of the pictures"
+          "\n")
+    print(f"{'scene':<10}{'variant':<9}{'clrt':>8}{'povray':>9}{'(traces)':>10}{'povray/clrt':>13}"
+          f"{'apart':>9}")
+    for result in results:
+        times = result["process_seconds"]
+        print(f"{result['scene']:<10}{result['variant']:<9}{times['clrt']:>8.3f}"
+              f"{times['povray']:>9.3f}{result['povray_trace_seconds']:>10.3f}"
+              f"{result['ratio_povray_to_clrt']:>13.2f}{result['mean_difference']:>9.2%}")
+
+
+def run(options, folder):
+    if shutil.which("povray") is None:
+        print("povray is not installed, so the comparison with it is passed over.")
+        return None
+    contests = [Contest(name, variant, scenes.write(text, name, variant, folder), options, folder)
+                for name, text in scenes.texts(options.scenes).items()
+                for variant in options.variants]
+    for contest in contests:
+        contest.prepare()
+    for _ in range(options.runs):
+        for contest in contests:
+            contest.round()
+    results = [contest.summary() for contest in contests]
+    print_table(results)
+    return {"machine": common.machine(), "frames": results}

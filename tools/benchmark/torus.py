@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""Writes a mesh of any number of triangles: a bumpy torus, closed and without poles, so that every
+triangle is like its neighbors however many there are."""
+
+import array
+import math
+import struct
+
+RING, TUBE, HEIGHT = 0.45, 0.2, 0.35
+BUMPS = [(3, 0.10), (7, 0.05), (19, 0.015)]  # times around, and depth
+
+HEADER = b"""ply
+format binary_little_endian 1.0
+element vertex %d
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face %d
+property list uchar int vertex_indices
+end_header
+"""
+
+
+def waves(angle):
+    """Of each kind of bump its height at an angle, and its slope."""
+    return [(math.sin(n * angle + n), n * math.cos(n * angle + n)) for n, _ in BUMPS]
+
+
+def vertex(u, v, over, along):
+    """Position and normal at two angles, of which the waves are known."""
+    radius, by_u, by_v = TUBE, 0.0, 0.0
+    for (_, depth), (a, slope_a), (b, slope_b) in zip(BUMPS, over, along):
+        radius += TUBE * depth * a * b
+        by_u += TUBE * depth * slope_a * b
+        by_v += TUBE * depth * a * slope_b
+    cosine, sine = v
+    out = RING + radius * cosine
+    outward, upward = by_v * cosine - radius * sine, by_v * sine + radius * cosine
+    # Across the ring, along it, and up.
+    normal = (out * upward, by_u * (sine * outward - cosine * upward), -out * outward)
+    return (out * u[0], out * u[1], HEIGHT + radius * sine,
+            normal[0] * u[0] - normal[1] * u[1], normal[0] * u[1] + normal[1] * u[0], normal[2])
+
+
+def write(path, wanted):
+    """Writes about as many triangles as wanted and returns how many they are."""
+    across = max(3, round(math.sqrt(wanted / 4)))
+    around = 2 * across
+    angles = [math.tau * j / across for j in range(across)]
+    tube = [((math.cos(v), math.sin(v)), waves(v)) for v in angles]
+    with open(path, "wb") as file:
+        file.write(HEADER % (around * across, 2 * around * across))
+        for i in range(around):
+            angle = math.tau * i / around
+            u, over = (math.cos(angle), math.sin(angle)), waves(angle)
+            row = array.array("f")
+            for v, along in tube:
+                row.extend(vertex(u, v, over, along))
+            file.write(row.tobytes())
+        quads = struct.Struct("<" + "B3iB3i" * across)
+        for i in range(around):
+            here, there = i * across, (i + 1) % around * across
+            row = []
+            for j in range(across):
+                k = (j + 1) % across
+                row += (3, here + j, there + j, there + k, 3, here + j, there + k, here + k)
+            file.write(quads.pack(*row))
+    return 2 * around * across
