@@ -100,6 +100,16 @@ static bool take_flat(PeerScene *peer, FlatScene *flat, Error *error)
     return true;
 }
 
+static bool knows_materials(const Scene *scene)
+{
+    for (size_t i = 0; i < scene->materials.count; i++) {
+        const Material *material = &scene->materials.data[i];
+        if (material->shader == SHADER_BLINN_PHONG && material->exponent == UINT32_MAX)
+            return false;
+    }
+    return true;
+}
+
 static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settings, Error *error)
 {
     const Normalization normalization = normalization_of(scene);
@@ -109,8 +119,7 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     const FlatSource source = {scene, &triangles, &no_tree, NODES_PAIR};
     peer->camera = camera_make(&scene->viewpoints.data[0], &normalization, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, error) &&
-                    flat_make(&flat, &source, error) &&
-                    take_flat(peer, &flat, error) &&
+                    flat_make(&flat, &source, error) && take_flat(peer, &flat, error) &&
                     build(peer, scene, &normalization, settings, error);
     flat_free(&flat);
     triangles_free(&triangles);
@@ -125,6 +134,8 @@ bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *sett
     bool ok = scn_load(&scene, path, error);
     if (ok && (scene.spheres.count > 0 || scene_triangle_count(&scene) == 0))
         ok = error_set(error, "%s: the peer draws scenes of triangles alone", path);
+    if (ok && !knows_materials(&scene))
+        ok = error_set(error, "%s: the peer knows integers up to 1024 as shininess", path);
     peer->width = width > 0 ? width : scene.width;
     peer->height = height > 0 ? height : scene.height;
     peer->max_level = scene.max_level;

@@ -151,6 +151,7 @@ static inline Looks looks_of(const PeerScene *scene, Mask hit, Mask material)
     return looks;
 }
 
+// Exponents are 0 or more.
 static inline Floats power(Floats base, Mask exponent)
 {
     Floats result = all(1);
@@ -162,11 +163,11 @@ static inline Floats power(Floats base, Mask exponent)
     return result;
 }
 
-static inline Floats highlight(const Looks *looks, const Surfaces *surfaces, Points toward_light)
+static inline Floats highlight(Mask exponent, const Surfaces *surfaces, Points toward_light)
 {
     const Points half_vector = points_unit(points_add(toward_light, surfaces->toward_viewer));
     const Floats cosine = points_dot(surfaces->normal, half_vector);
-    return power(at_least(at_most(cosine, all(1)), all(0)), looks->exponent);
+    return power(at_least(at_most(cosine, all(1)), all(0)), exponent);
 }
 
 typedef struct {
@@ -188,7 +189,8 @@ static void add_light(PeerTile *tile, const PointLight *light, const Surfaces su
         const Floats inverse = inverse_root(points_dot(direction, direction));
         toward_light[packet] = points_scale(direction, -inverse);
         cosine[packet] = points_dot(surfaces[packet].normal, toward_light[packet]);
-        lit[packet] = hit[packet] & (cosine[packet] > all(0));
+        lit[packet] =
+            hit[packet] & (cosine[packet] > all(0)) & (looks[packet].shader != SHADER_SILHOUETTE);
         set_rays(&rays[packet], origin, direction, 0, 1 - AWAY * inverse);
         count += lanes_of(lit[packet]);
     }
@@ -206,8 +208,8 @@ static void add_light(PeerTile *tile, const PointLight *light, const Surfaces su
         if (lanes_of(shiny) > 0)
             sums[packet].specular +=
                 choose(shiny,
-                       light->intensity *
-                           highlight(&looks[packet], &surfaces[packet], toward_light[packet]),
+                       light->intensity * highlight(looks[packet].exponent & shiny,
+                                                    &surfaces[packet], toward_light[packet]),
                        all(0));
     }
 }
