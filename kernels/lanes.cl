@@ -11,7 +11,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // As many lanes as the target's registers hold; drivers report the same native width for all.
-#if !CLRT_PACKET
+#if !CLRT_WIDE_NODES
 #undef CLRT_LANES
 #define CLRT_LANES 1
 #elif !defined(CLRT_LANES)

@@ -6,18 +6,16 @@
 #define CLRT_PACKET_CL
 #include "wide.cl"
 
-#if CLRT_PACKET
+#if CLRT_WIDE_NODES
 
 // The rays of a packet that share their signs and their longest axis, with bounds over all of
 // them.
 typedef struct {
-    Ray ray;
-    Shear shear;
+    Search rays; // lanes that take no part copy one that does
     Real3 ordered_origin; // in the order of the axes
     uint axes[3];
     uint negative[3]; // which plane of an axis the rays meet first
-    Real3 inverse, near_offset, far_offset;
-    // Bounds over the active lanes, for a plane p: fma(p, inverse_low, ...).
+    // Bounds over all lanes: distance to a plane = fma(plane, inverse_low, near_low) ...
     float inverse_low[3], inverse_high[3];
     float near_low[3], near_high[3], far_low[3], far_high[3];
     bool common_origin;
@@ -42,24 +40,16 @@ static inline float highest(Real v)
     return -lowest(-v);
 }
 
-static inline Real slab_directions(Real direction, Real smallest)
+// near and far are where the slab's planes seem to lie for each ray's origin: -offset / inverse.
+static inline void packet_bounds(Packet *packet, uint axis, Real origin, Real slack, Real inverse)
 {
-    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
-}
-
-static inline void slab_bounds(Packet *packet, uint axis, Real direction, Real origin, Real slack,
-                               Real *inverse, Real *near_offset, Real *far_offset)
-{
-    const Real widening = copysign(slack, direction);
-    const Real near = origin + widening, far = origin - widening;
-    *inverse = 1.0f / direction;
-    *near_offset = -near * *inverse;
-    *far_offset = -far * *inverse;
-    const float low = lowest(*inverse), high = highest(*inverse);
+    const float low = lowest(inverse), high = highest(inverse);
     const bool negative = high < 0.0f;
-    // The bound that lies farther along makes entries early and leaves late.
-    const float near_bound = negative ? lowest(near) : highest(near);
-    const float far_bound = negative ? highest(far) : lowest(far);
+    const Real ahead = negative ? origin - slack : origin + slack;
+    const Real behind = negative ? origin + slack : origin - slack;
+    // The origin that lies farthest along makes entries early, the one farthest back leaves late.
+    const float near_bound = negative ? lowest(ahead) : highest(ahead);
+    const float far_bound = negative ? highest(behind) : lowest(behind);
     packet->negative[axis] = negative;
     packet->inverse_low[axis] = low;
     packet->inverse_high[axis] = high;
@@ -69,24 +59,18 @@ static inline void slab_bounds(Packet *packet, uint axis, Real direction, Real o
     packet->far_high[axis] = -far_bound * high;
 }
 
-// All lanes of ray are active or copies of an active one.
 static inline void packet_prepare(Packet *packet)
 {
-    const Real3 d = packet->ray.direction, o = packet->ray.origin;
-    const ShearAxes axes = shear_axes(d);
-    packet->shear = shear_along(d, &axes);
-    packet->ordered_origin = axes_ordered(o, &axes);
-    packet->axes[0] = axes.x.s0;
-    packet->axes[1] = axes.y.s0;
-    packet->axes[2] = axes.z.s0;
-    const Real smallest = 0x1p-30f * largest_component(d);
+    const Search *rays = &packet->rays;
+    const Real3 o = rays->ray.origin;
     const Real slack = BVH_SLACK * largest_component(o);
-    slab_bounds(packet, 0, slab_directions(d.x, smallest), o.x, slack, &packet->inverse.x,
-                &packet->near_offset.x, &packet->far_offset.x);
-    slab_bounds(packet, 1, slab_directions(d.y, smallest), o.y, slack, &packet->inverse.y,
-                &packet->near_offset.y, &packet->far_offset.y);
-    slab_bounds(packet, 2, slab_directions(d.z, smallest), o.z, slack, &packet->inverse.z,
-                &packet->near_offset.z, &packet->far_offset.z);
+    packet->ordered_origin = axes_ordered(o, &rays->axes);
+    packet->axes[0] = rays->axes.x.s0;
+    packet->axes[1] = rays->axes.y.s0;
+    packet->axes[2] = rays->axes.z.s0;
+    packet_bounds(packet, 0, o.x, slack, rays->inverse.x);
+    packet_bounds(packet, 1, o.y, slack, rays->inverse.y);
+    packet_bounds(packet, 2, o.z, slack, rays->inverse.z);
 }
 
 static inline float8 entry_bound(global const BvhWide *node, const Packet *packet, uint axis)
@@ -126,7 +110,8 @@ static inline Truth lanes_in_child(global const BvhWide *node, uint child, const
                                    Real reach)
 {
     const uint x = packet->negative[0], y = packet->negative[1], z = packet->negative[2];
-    const Real3 i = packet->inverse, near = packet->near_offset, far = packet->far_offset;
+    const Real3 i = packet->rays.inverse, near = packet->rays.near_offset,
+                far = packet->rays.far_offset;
     const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
     const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
     const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
@@ -148,17 +133,17 @@ static inline Real packet_distances(global const TriangleBlock *block, uint plac
                                     const Packet *packet, const Corners *sheared,
                                     const Edges *edges)
 {
-    const Ray *ray = &packet->ray;
+    const Ray *ray = &packet->rays.ray;
     const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint id = block->id[place];
-    const Truth front = edges_face(edges, &packet->shear);
+    const Truth front = edges_face(edges, &packet->rays.shear);
     Truth closed = ray->own != (Count)(id & ~TRIANGLE_TWO_SIDED);
     if ((id & TRIANGLE_TWO_SIDED) == 0)
         closed = closed && (is_shadow ? !front : front);
-    const Real t = triangle_depth(sheared, edges) * packet->shear.inverse_z;
+    const Real t = triangle_depth(sheared, edges) * packet->rays.shear.inverse_z;
     if (ray->kind == RAY_CAMERA)
         return closed && t > 0.0f ? t : INFINITY;
-    const Real error = triangle_depth_error(sheared) * fabs(packet->shear.inverse_z);
+    const Real error = triangle_depth_error(sheared) * fabs(packet->rays.shear.inverse_z);
     const Corners corners = {splat_corner(block, 0, place), splat_corner(block, 1, place),
                              splat_corner(block, 2, place)};
     const SurfaceRay surface = {ray->surface, front, is_shadow};
@@ -193,11 +178,16 @@ static inline Real3 corner_from(global const TriangleBlock *block, uint corner, 
                     (Real)(block->corners[corner][packet->axes[2]][place]) - o.z);
 }
 
-static inline bool test_triangle(global const TriangleBlock *blocks, uint number, uint place,
+// Smaller parts are faster one by one.
+#ifndef SMALLEST_PACKET
+#define SMALLEST_PACKET 4
+#endif
+
+static inline __attribute__((always_inline)) bool test_triangle(global const TriangleBlock *blocks, uint number, uint place,
                                  const Packet *packet, const Corners *relative, Truth lanes,
                                  Hit *best)
 {
-    const Corners sheared = corners_sheared(relative, &packet->shear);
+    const Corners sheared = corners_sheared(relative, &packet->rays.shear);
     const Edges edges = edges_of(&sheared);
     const Truth inside = lanes && edges_contain(&edges);
     if (!any_lane(inside))
@@ -212,7 +202,7 @@ static inline bool test_triangle(global const TriangleBlock *blocks, uint number
     return any_lane(precedes);
 }
 
-static inline bool test_packet_block(const SceneView *scene, uint number, const Packet *packet,
+static inline __attribute__((always_inline)) bool test_packet_block(const SceneView *scene, uint number, const Packet *packet,
                                      Truth lanes, Hit *best)
 {
     global const TriangleBlock *block = &scene->triangles[number];
@@ -243,8 +233,8 @@ static inline bool test_packet_block(const SceneView *scene, uint number, const 
 static inline void traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
                                    Tally *tally)
 {
-    const bool is_shadow = packet->ray.kind == RAY_SHADOW;
-    Truth searching = packet->ray.active;
+    const bool is_shadow = packet->rays.ray.kind == RAY_SHADOW;
+    Truth searching = packet->rays.ray.active;
     float farthest = highest(best->t);
     WideWaiting waiting;
     waiting.count = 0;
@@ -297,7 +287,7 @@ static inline Count ray_classes(Real3 direction)
 
 static inline Real one_lane(Real v, uint lane)
 {
-    return (Real)(((const float *)&v)[lane]);
+    return (Real)(real_of(&v, lane));
 }
 
 static inline Real3 filled(Real3 v, Truth lanes, uint lane)
@@ -310,14 +300,15 @@ static __attribute__((noinline)) void search_part(const SceneView *scene, const 
                                                   const Ray *ray, uint bits, Hit *best,
                                                   Tally *tally)
 {
-    const uint first = popcount((bits & -bits) - 1);
+    const uint first = lowest_bit(bits);
     const Truth lanes = lanes_of(bits);
     Packet packet;
-    packet.ray = *ray;
-    packet.ray.active = lanes;
-    packet.ray.origin = filled(ray->origin, lanes, first);
-    packet.ray.direction = filled(ray->direction, lanes, first);
+    Ray part = *ray;
+    part.active = lanes;
+    part.origin = filled(ray->origin, lanes, first);
+    part.direction = filled(ray->direction, lanes, first);
     packet.common_origin = ray->kind != RAY_REFLECTED;
+    search_prepare(&packet.rays, &part);
     packet_prepare(&packet);
     Hit hit = *best;
     if (CLRT_BVH && frame->uses_bvh) {
@@ -333,19 +324,26 @@ static __attribute__((noinline)) void search_part(const SceneView *scene, const 
     best->index = lanes ? hit.index : best->index;
 }
 
-// Splits the rays into parts that share signs and longest axis.
+// Rays that share signs and longest axis with enough others go as a packet, the rest alone.
 static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
                            Hit *best, Tally *tally)
 {
+    uint left = lane_bits(ray->active), alone = CLRT_PACKET ? 0 : left;
     const Count classes = ray_classes(ray->direction);
-    uint left = lane_bits(ray->active);
-    while (left != 0) {
-        const uint first = popcount((left & -left) - 1);
-        const Count wanted = ((const uint *)&classes)[first];
+    for (left &= ~alone; left != 0;) {
+        const uint wanted = count_of(&classes, lowest_bit(left));
         const uint part = left & lane_bits(classes == wanted);
-        search_part(scene, frame, ray, part, best, tally);
         left &= ~part;
+        if (popcount(part) < SMALLEST_PACKET)
+            alone |= part;
+        else
+            search_part(scene, frame, ray, part, best, tally);
     }
+    if (alone == 0)
+        return;
+    Search search;
+    search_prepare(&search, ray);
+    meet_alone(scene, frame, &search, alone, best, tally);
 }
 
 #endif

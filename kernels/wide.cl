@@ -12,7 +12,15 @@
 // up to WIDE entries past the last.
 #define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + 2 * WIDE)
 
-// A ray as scalars; arrays of three are by axis.
+// The rays of the lanes as the searches want them.
+typedef struct {
+    Ray ray;
+    ShearAxes axes;
+    Shear shear;
+    Real3 inverse, near_offset, far_offset; // of the slabs, as in pair.cl
+} Search;
+
+// One of them as scalars; arrays of three are by axis.
 typedef struct {
     uint axes[3]; // of the shear: its x, y and z
     float origin[3];
@@ -131,7 +139,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Si
 }
 
 // Tests the triangles of a block against the ray.
-static inline void test_block(global const TriangleBlock *blocks, uint number, const SingleRay *ray,
+static inline __attribute__((always_inline)) void test_block(global const TriangleBlock *blocks, uint number, const SingleRay *ray,
                               SingleHit *best)
 {
     global const TriangleBlock *block = blocks + number;
@@ -188,95 +196,183 @@ static inline bool next_child(WideWaiting *waiting, float reach, uint *child)
     return false;
 }
 
-static inline void traverse_wide(const SceneView *scene, const SingleRay *ray, SingleHit *best,
-                                 Tally *tally)
-{
-    WideWaiting waiting;
-    waiting.count = 0;
-    uint child = 0;
-    do {
-        while ((child & WIDE_LEAF) == 0) {
-            global const BvhWide *node = &scene->nodes[child];
-            const uint8 children = vload8(0, node->child);
-            float8 entry;
-            const uint met = lane_bits(children_met(node, ray, best->t, &entry));
-            if (CLRT_STATISTICS)
-                tally->box_tests += node->child_count;
-            if (met == 0)
-                break;
-            child = enter_children(&waiting, &children, met, &entry);
-        }
-        if ((child & WIDE_LEAF) == 0)
-            continue;
-        test_block(scene->triangles, child & ~WIDE_LEAF, ray, best);
-        if (CLRT_STATISTICS)
-            tally->triangle_tests += WIDE;
-        if (ray->kind == RAY_SHADOW && best->id != NOTHING)
-            return;
-    } while (next_child(&waiting, best->t, &child));
-}
-
-static inline float slab_direction(float direction, float smallest)
+static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
 }
 
-static void meet_blocks(const SceneView *scene, const FrameData *frame, const SingleRay *ray,
-                        SingleHit *best, Tally *tally)
+static inline void search_slab(Real direction, Real origin, Real slack, Real *inverse,
+                               Real *near_offset, Real *far_offset)
 {
-    if (CLRT_BVH && frame->uses_bvh) {
-        traverse_wide(scene, ray, best, tally);
-        return;
-    }
-    for (uint block = 0; block * WIDE < frame->triangle_count; block++) {
-        test_block(scene->triangles, block, ray, best);
-        if (ray->kind == RAY_SHADOW && best->id != NOTHING)
-            break;
-    }
-    if (CLRT_STATISTICS)
-        tally->triangle_tests += frame->triangle_count;
+    const Real widening = copysign(slack, direction);
+    *inverse = 1.0f / direction;
+    *near_offset = -(origin + widening) * *inverse;
+    *far_offset = -(origin - widening) * *inverse;
 }
 
-#if CLRT_LANES == 1
-static inline void slab_constants(SingleRay *ray, uint axis, float direction, float slack)
+static inline void search_prepare(Search *search, const Ray *ray)
 {
-    const float widening = copysign(slack, direction), inverse = 1.0f / direction;
-    ray->inverse[axis] = inverse;
-    ray->near_offset[axis] = -(ray->origin[axis] + widening) * inverse;
-    ray->far_offset[axis] = -(ray->origin[axis] - widening) * inverse;
-    ray->negative[axis] = direction < 0.0f;
+    const Real3 d = ray->direction, o = ray->origin;
+    const Real smallest = 0x1p-30f * largest_component(d);
+    const Real slack = BVH_SLACK * largest_component(o);
+    search->ray = *ray;
+    search->axes = shear_axes(d);
+    search->shear = shear_along(d, &search->axes);
+    search_slab(slab_direction(d.x, smallest), o.x, slack, &search->inverse.x,
+                &search->near_offset.x, &search->far_offset.x);
+    search_slab(slab_direction(d.y, smallest), o.y, slack, &search->inverse.y,
+                &search->near_offset.y, &search->far_offset.y);
+    search_slab(slab_direction(d.z, smallest), o.z, slack, &search->inverse.z,
+                &search->near_offset.z, &search->far_offset.z);
 }
 
-static inline SingleRay single_ray(const Ray *ray)
+static inline float real_of(const Real *lanes, uint lane)
 {
-    const ShearAxes axes = shear_axes(ray->direction);
-    const Shear shear = shear_along(ray->direction, &axes);
-    const float smallest = 0x1p-30f * largest_component(ray->direction);
-    const float slack = BVH_SLACK * largest_component(ray->origin);
-    SingleRay single = {.axes = {axes.x, axes.y, axes.z},
-                        .origin = {ray->origin.x, ray->origin.y, ray->origin.z},
-                        .shear_x = shear.shear_x,
-                        .shear_y = shear.shear_y,
-                        .inverse_z = shear.inverse_z,
-                        .direction_z = shear.direction_z,
-                        .surface = {ray->surface.x, ray->surface.y, ray->surface.z},
-                        .own = ray->own,
-                        .kind = ray->kind};
-    slab_constants(&single, 0, slab_direction(ray->direction.x, smallest), slack);
-    slab_constants(&single, 1, slab_direction(ray->direction.y, smallest), slack);
-    slab_constants(&single, 2, slab_direction(ray->direction.z, smallest), slack);
+    return ((const float *)lanes)[lane];
+}
+
+static inline uint count_of(const Count *lanes, uint lane)
+{
+    return ((const uint *)lanes)[lane];
+}
+
+static inline void copy3(float *to, const Real3 *from, uint lane)
+{
+    to[0] = real_of(&from->x, lane);
+    to[1] = real_of(&from->y, lane);
+    to[2] = real_of(&from->z, lane);
+}
+
+static inline SingleRay single_ray(const Search *search, uint lane)
+{
+    SingleRay single = {.axes = {count_of(&search->axes.x, lane), count_of(&search->axes.y, lane),
+                                 count_of(&search->axes.z, lane)},
+                        .shear_x = real_of(&search->shear.shear_x, lane),
+                        .shear_y = real_of(&search->shear.shear_y, lane),
+                        .inverse_z = real_of(&search->shear.inverse_z, lane),
+                        .direction_z = real_of(&search->shear.direction_z, lane),
+                        .own = count_of(&search->ray.own, lane),
+                        .kind = search->ray.kind};
+    copy3(single.origin, &search->ray.origin, lane);
+    copy3(single.inverse, &search->inverse, lane);
+    copy3(single.near_offset, &search->near_offset, lane);
+    copy3(single.far_offset, &search->far_offset, lane);
+    copy3(single.surface, &search->ray.surface, lane);
+    for (uint axis = 0; axis < 3; axis++)
+        single.negative[axis] = single.inverse[axis] < 0.0f;
     return single;
 }
 
-static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                           Hit *best, Tally *tally)
+// Asks for memory that is going to be read.
+static inline void fetch_ahead(global const void *start, uint bytes)
 {
-    const SingleRay single = single_ray(ray);
-    SingleHit hit = {best->t, best->id, best->index};
-    meet_blocks(scene, frame, &single, &hit, tally);
-    *best = (Hit){hit.t, hit.id, hit.index};
-}
+#if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
+    for (uint byte = 0; byte < bytes; byte += 64)
+        __builtin_prefetch((const void *)((ulong)start + byte));
+#else
+    (void)start, (void)bytes;
 #endif
+}
+
+static inline void fetch_child_ahead(const SceneView *scene, uint child)
+{
+    if ((child & WIDE_LEAF) == 0)
+        fetch_ahead(scene->nodes + child, sizeof(BvhWide));
+    else
+        fetch_ahead(scene->triangles + (child & ~WIDE_LEAF), sizeof(TriangleBlock));
+}
+
+// Rays that search side by side, a ray in each lane.
+typedef struct {
+    SingleRay rays[CLRT_LANES];
+    SingleHit hits[CLRT_LANES];
+    uint child[CLRT_LANES]; // where each goes next
+    uint inner, leaves;     // bits of the lanes that go to a node, and to a block
+    WideWaiting waiting[CLRT_LANES];
+} Walkers;
+
+static inline void walk_to(Walkers *walkers, const SceneView *scene, uint lane, uint child)
+{
+    fetch_child_ahead(scene, child);
+    walkers->child[lane] = child;
+    if (child & WIDE_LEAF)
+        walkers->leaves |= 1u << lane;
+    else
+        walkers->inner |= 1u << lane;
+}
+
+static inline void walk_on(Walkers *walkers, const SceneView *scene, uint lane)
+{
+    uint child;
+    if (next_child(&walkers->waiting[lane], walkers->hits[lane].t, &child))
+        walk_to(walkers, scene, lane, child);
+}
+
+static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *tally)
+{
+    uint bits = walkers->inner;
+    walkers->inner = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint lane = lowest_bit(bits);
+        global const BvhWide *node = &scene->nodes[walkers->child[lane]];
+        const uint8 children = vload8(0, node->child);
+        float8 entry;
+        const uint met =
+            lane_bits(children_met(node, &walkers->rays[lane], walkers->hits[lane].t, &entry));
+        if (CLRT_STATISTICS)
+            tally->box_tests += node->child_count;
+        if (met == 0)
+            walk_on(walkers, scene, lane);
+        else
+            walk_to(walkers, scene, lane,
+                    enter_children(&walkers->waiting[lane], &children, met, &entry));
+    }
+}
+
+static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *tally)
+{
+    uint bits = walkers->leaves;
+    walkers->leaves = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint lane = lowest_bit(bits);
+        SingleHit *hit = &walkers->hits[lane];
+        test_block(scene->triangles, walkers->child[lane] & ~WIDE_LEAF, &walkers->rays[lane], hit);
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += WIDE;
+        if (walkers->rays[lane].kind != RAY_SHADOW || hit->id == NOTHING)
+            walk_on(walkers, scene, lane);
+    }
+}
+
+// Searches for the rays of the lanes whose bits are set, side by side: while one waits for memory
+// or for the result of its last step, the others go on.
+static __attribute__((noinline)) void meet_alone(const SceneView *scene, const FrameData *frame, const Search *search,
+                              uint bits, Hit *best, Tally *tally)
+{
+    float *t = (float *)&best->t;
+    uint *id = (uint *)&best->id, *index = (uint *)&best->index;
+    Walkers walkers;
+    walkers.inner = bits;
+    walkers.leaves = 0;
+    for (uint left = bits; left != 0; left &= left - 1) {
+        const uint lane = lowest_bit(left);
+        walkers.rays[lane] = single_ray(search, lane);
+        walkers.hits[lane] = (SingleHit){t[lane], id[lane], index[lane]};
+        walkers.child[lane] = 0;
+        walkers.waiting[lane].count = 0;
+    }
+    while ((walkers.inner | walkers.leaves) != 0) {
+        while (walkers.inner != 0)
+            walk_nodes(&walkers, scene, tally);
+        walk_leaves(&walkers, scene, tally);
+    }
+    for (uint left = bits; left != 0; left &= left - 1) {
+        const uint lane = lowest_bit(left);
+        t[lane] = walkers.hits[lane].t;
+        id[lane] = walkers.hits[lane].id;
+        index[lane] = walkers.hits[lane].index;
+    }
+}
 
 #endif
 #endif

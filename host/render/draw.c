@@ -42,7 +42,7 @@ static uint32_t tile_height(const RenderSettings *settings)
 // Work-items along a side of a tile, padded to whole work-groups.
 static size_t grid_side(const Renderer *renderer, uint32_t tile_side, uint32_t group)
 {
-    const uint32_t pixels = renderer->family == FAMILY_PACKET ? PACKET_SIDE : 1;
+    const uint32_t pixels = renderer->nodes == NODES_WIDE ? PACKET_SIDE : 1;
     const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
     return (items + group - 1) / group * group;
 }

@@ -121,7 +121,7 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
     assert(flat->layout == setup->source.choice.nodes);
     *renderer = (Renderer){.device = setup->device,
                            .settings = *settings,
-                           .family = setup->source.choice.family,
+                           .nodes = setup->source.choice.nodes,
                            .frame = frame_of(flat, settings)};
     bool ok = upload_scene(renderer, flat, error);
     const double start = clock_seconds();

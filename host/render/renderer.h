@@ -50,7 +50,7 @@ typedef struct {
 typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;
-    KernelFamily family;
+    NodeLayout nodes;
     FrameData frame;
     Program program;
     cl_kernel kernel;
