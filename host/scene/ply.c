@@ -152,18 +152,18 @@ static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
     PlyReader *reader = &loader->reader;
     const PlyProperty *properties = &loader->header.properties.data[element->first_property];
     const size_t size = ply_bulk_triangle_size(reader, properties, element->property_count);
-    if (size == 0)
-        return true;
     const size_t held = loader->triangles.count;
-    const size_t room = smaller(smaller((size_t)(reader->end - reader->next) / size,
-                                        (size_t)(element->count - reader->index)),
+    const size_t fitting = size == 0 ? 0 : (size_t)(reader->end - reader->next) / size;
+    const size_t room = smaller(smaller(fitting, (size_t)(element->count - reader->index)),
                                 (size_t)PLY_COUNT_LIMIT - held);
+    if (room == 0)
+        return true;
     if (!array_reserve(&loader->triangles.memory, &loader->triangles.capacity, held + room,
                        sizeof(Triangle), reader->error))
         return false;
     loader->triangles.count +=
         ply_bulk_triangles(reader, properties, element->property_count, loader->header.vertex_count,
-                           room, loader->triangles.data + held);
+                           room, &loader->triangles.data[held]);
     return true;
 }
 
