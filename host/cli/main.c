@@ -247,6 +247,7 @@ static ExitCode render(Run *run, Error *error)
     const double start = clock_seconds();
     if (!image_check_path(run->options->output_path, error))
         return EXIT_OUTPUT;
+    image_prepare(run->options->format);
     begin_start(run);
     if (!load_scene(run, error)) {
         starter_skip_kernel(&run->starter);
@@ -261,7 +262,6 @@ static ExitCode render(Run *run, Error *error)
     if (!open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    image_prepare(run->options->format);
     if (!draw(run, error))
         return EXIT_DEVICE;
     if (!write_picture(run, error) || !write_statistics(run, start, error))

@@ -186,6 +186,12 @@ if [ "${FORMATS:-}" != pfm ]; then
     check "$format is written again" pixels "a.$format"
     check "two $format files are identical" cmp "a.$format" "b.$format"
   done
+  check "a picture too large for the process beside is written" \
+    run 0 "$source/scenes/simple.scn" -s 2400x2400 -o large.tif --format hdr
+  check "... whole" test "$(head -c 400 large.tif | grep -ac -- '-Y 2400 +X 2400')" = 1
+  check "a folder that vanishes is exit 5" bash -c "mkdir gone; '$CLRT' '$scene' -s 3000x3000 -o gone/a.png 2>err & \
+    sleep 0.3; rmdir gone; wait \$!; [ \$? = 5 ]"
+  check "... with the reason" says "clrt: gone/a.png: cannot be written"
   check "--encode srgb has an effect" pixels b.png --encode srgb
   check "... on 8-bit files" differ a.png b.png
   check "--encode srgb leaves floats alone" pixels b.exr --encode srgb
