@@ -269,14 +269,54 @@ static ExitCode render(Run *run, Error *error)
     return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
 }
 
-static ExitCode run_render(const Options *options, Error *error)
+// Makes the kernel once, which leaves it in the cache, and tells of it.
+static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
+{
+    ReadyKernel ready;
+    const Starter *starter = &run->starter;
+    const KernelChoice *choice = &starter->setup.source.choice;
+    if (!ready_kernel_make(&ready, &starter->setup, traits, starter->group, error))
+        return false;
+    if (!run->options->quiet)
+        printf("%s kernels, %s, %s nodes: %s %.2f s\n", name, kernel_family_name(choice->family),
+               kernel_nodes_name(choice->nodes),
+               ready.was_compiled ? "were compiled, ready in" : "compiled in", ready.seconds);
+    ready_kernel_free(&ready);
+    return true;
+}
+
+static ExitCode warm(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const bool has_scene = options->scene_path != NULL;
+    begin_start(run);
+    starter_skip_kernel(&run->starter);
+    if (has_scene && !load_scene(run, error))
+        return EXIT_SCENE;
+    if (!await_device(run, error))
+        return EXIT_DEVICE;
+    if (has_scene && !build_scene(run, error))
+        return EXIT_SCENE;
+    starter_wait_kernel(&run->starter);
+    const SceneTraits general = traits_general(options->statistics);
+    if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
+        !warm_kernel(run, &general, "general", error))
+        return EXIT_DEVICE;
+    if (!has_scene || options->specialization == SPECIALIZE_NEVER)
+        return EXIT_DONE;
+    const SceneTraits special = traits_of(&run->flat, options->statistics);
+    return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
+}
+
+static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
+                            Error *error)
 {
     Run run = {.options = options};
     run.report.options = options;
     run.report.settings = &run.settings;
     cache_open(&run.cache);
     threads_limit(options->threads);
-    const ExitCode code = render(&run, error);
+    const ExitCode code = perform_stages(&run, error);
     framebuffer_free(&run.framebuffer);
     starter_wait_kernel(&run.starter);
     if (CLRT_TIDY_EXIT) {
@@ -315,10 +355,12 @@ static ExitCode perform(int count, char **words, Error *error)
         return EXIT_DONE;
     case ACTION_LIST_DEVICES:
         return list_devices(error);
+    case ACTION_WARM:
+        return perform_run(&options, warm, error);
     case ACTION_RENDER:
         break;
     }
-    return run_render(&options, error);
+    return perform_run(&options, render, error);
 }
 
 int main(int count, char **words)

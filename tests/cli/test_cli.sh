@@ -167,6 +167,21 @@ check "Ctrl-C exits with 130" test $code = 130
 check "... and writes what is done" test -s stopped.pfm
 check "... marked as incomplete" json stopped.json "not d['complete']"
 
+# Compiled ahead: the first line is told in the past tense when it is asked for again.
+rm -rf warm-cache
+warm() { env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" --warm --kernel ray "$@" >out 2>err; }
+check "--warm compiles ahead" warm
+check "... and says so" grep -q "^general kernels, ray, .* nodes: compiled in" out
+check "... those for a scene too" warm "$scene" --stats
+check "... and says so" grep -q "^special kernels, ray, .* nodes: compiled in" out
+check "... but nothing twice" warm
+check "... and says so" grep -q "^general kernels, ray, .* nodes: were compiled, ready in" out
+check "a scene then finds its own compiled" env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" \
+  --kernel ray "$scene" -s 48x32 -o warm.pfm --stats=warm.json
+check "... and takes it" json warm.json "d['settings']['specialized']"
+check "--warm tells of a scene that is not there" run 3 --warm missing.scn
+check "--warm with a device that is not there" run 4 --warm --device 9:9
+
 # Twelve cold starts on one cache.
 rm -rf cold-cache
 for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
