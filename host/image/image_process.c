@@ -11,6 +11,7 @@
 #include <libgen.h>
 #include <limits.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,8 +23,8 @@
 
 // Strings follow it, each with its zero, and then the pixels.
 typedef struct {
-    ImageModulePicture picture; // whose pointers mean nothing over there
-    size_t string_size, pixel_size;
+    uint64_t width, height, is_float, text_count;
+    uint64_t string_size, pixel_size;
 } Request;
 
 typedef struct {
@@ -102,7 +103,11 @@ static const char *string_at(const ImageModulePicture *picture, size_t place)
 
 static bool send_request(const ImageModulePicture *picture)
 {
-    Request request = {.picture = *picture, .pixel_size = pixel_size(picture)};
+    Request request = {.width = (uint64_t)picture->width,
+                       .height = (uint64_t)picture->height,
+                       .is_float = picture->is_float != 0,
+                       .text_count = picture->text_count,
+                       .pixel_size = pixel_size(picture)};
     for (size_t i = 0; i < string_count(picture); i++)
         request.string_size += strlen(string_at(picture, i)) + 1;
     bool ok = send_bytes(channel, &request, sizeof request);
@@ -124,23 +129,26 @@ static void place_strings(ImageModulePicture *picture, const char *strings, cons
     picture->texts = texts;
 }
 
-static bool answer_request(int socket, Request *request, ImageModuleWrite *write,
+static bool answer_request(int socket, const Request *request, ImageModuleWrite *write,
                            const Error *failure)
 {
     Error error = {0};
     Answer answer = {0};
-    ImageModulePicture *picture = &request->picture;
+    ImageModulePicture picture = {.width = (int)request->width,
+                                  .height = (int)request->height,
+                                  .is_float = request->is_float != 0,
+                                  .text_count = request->text_count};
     char *strings = memory_raw(request->string_size, 1, &error);
     void *pixels = memory_raw(request->pixel_size, 1, &error);
-    const char **texts = memory_raw(2 * picture->text_count, sizeof *texts, &error);
+    const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
     const bool held = strings != NULL && pixels != NULL && texts != NULL;
     bool ok = held && receive_bytes(socket, strings, request->string_size) &&
               receive_bytes(socket, pixels, request->pixel_size);
     if (ok) {
-        place_strings(picture, strings, texts);
-        picture->pixels = pixels;
+        place_strings(&picture, strings, texts);
+        picture.pixels = pixels;
         snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
-        answer.ok = write != NULL && write(picture, answer.message, sizeof answer.message);
+        answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
         ok = send_bytes(socket, &answer, sizeof answer);
     }
     free(strings);
