@@ -192,7 +192,7 @@ static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **sta
                         "size");
 #define THREE_FACES                                                                                \
     THREE_VERTICES                                                                                 \
-        "element face 3\nproperty list uchar int vertex_indices\nend_header\n" POINT POINT POINT
+    "element face 3\nproperty list uchar int vertex_indices\nend_header\n" POINT POINT POINT
 #define FACE "\3\0\0\0\0\0\0\0\1\0\0\0\2"
     ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0\3",
                         "t.ply: byte 237: face 2: vertex index 3 is not below the vertex count 3");
