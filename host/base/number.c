@@ -2,12 +2,15 @@
 // Decimal text -> int64_t or correctly rounded double, whatever the locale.
 // Up to 19 digits are gathered in a 64-bit integer; where that integer and the power of ten are
 // both exact doubles, one multiplication or division rounds once and so rounds correctly
-// (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).  The rest is
-// spelled anew as DIGITSeEXPONENT for strtod: without a decimal point no locale can misread it.
+// (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).  The same holds
+// in integers of 128 bits, whose conversion is the one rounding, for all that 19 digits can say in
+// 10^-27 ... 10^27.  The rest is spelled anew as DIGITSeEXPONENT for strtod: without a decimal
+// point no locale can misread it.
 #include "base/number.h"
 
 #include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +27,9 @@ static const double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6, 
                                        1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 #define EXACT_POWER ((int64_t)(sizeof powers_of_ten / sizeof *powers_of_ten) - 1)
+#define WIDE_POWER  27 // 5^27 is the largest power of five in 64 bits
+
+__extension__ typedef unsigned __int128 Wide;
 
 static bool is_digit(char character)
 {
@@ -89,6 +95,26 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
     return strtod(spelled, NULL);
 }
 
+// mantissa times ten to the exponent, at most WIDE_POWER in size: a power of five as an integer,
+// then one of two, which rounds nothing.
+static double round_widely(uint64_t mantissa, int64_t exponent)
+{
+    uint64_t power = 1;
+    for (int64_t size = exponent < 0 ? -exponent : exponent; size > 0; size--)
+        power *= 5;
+    if (mantissa == 0)
+        return 0;
+    if (exponent >= 0)
+        return ldexp((double)((Wide)mantissa * power), (int)exponent);
+    // Moved to the top, so that the quotient has at least 63 bits; what is left over is told by
+    // the last of them, far below the place of rounding.
+    const int shift = 63 + __builtin_clzll(mantissa);
+    const Wide dividend = (Wide)mantissa << shift;
+    const Wide quotient = dividend / power;
+    const bool inexact = quotient * power != dividend;
+    return ldexp((double)(quotient | inexact), (int)exponent - shift);
+}
+
 const char *number_parse(const char *text, const char *end, double *value)
 {
     bool negative;
@@ -108,9 +134,10 @@ const char *number_parse(const char *text, const char *end, double *value)
     const char *after = scan_exponent(stop, end, &exponent);
 
     double magnitude;
-    if (digit_count > MANTISSA_DIGITS || mantissa > EXACT_MANTISSA || exponent > EXACT_POWER ||
-        exponent < -EXACT_POWER)
+    if (digit_count > MANTISSA_DIGITS || exponent > WIDE_POWER || exponent < -WIDE_POWER)
         magnitude = round_slowly(first, stop, exponent);
+    else if (mantissa > EXACT_MANTISSA || exponent > EXACT_POWER || exponent < -EXACT_POWER)
+        magnitude = round_widely(mantissa, exponent);
     else if (exponent < 0)
         magnitude = (double)mantissa / powers_of_ten[-exponent];
     else

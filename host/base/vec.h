@@ -38,6 +38,17 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// The smaller and the larger of each component, of vectors without NaN: fmin and fmax are calls.
+static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+
+static inline Vec3 vec3_upper(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
+
 // The largest absolute component.
 static inline double vec3_extent(Vec3 a)
 {

@@ -7,6 +7,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/starter.h"
 #include "cli/threads.h"
 #include "image/image_file.h"
 #include "render/renderer.h"
@@ -16,6 +17,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 typedef enum {
     EXIT_DONE = 0,
@@ -25,9 +27,8 @@ typedef enum {
     EXIT_OUTPUT = 5
 } ExitCode;
 
-// Work-items along the sides of a work-group.
-#define RAY_GROUP    8
-#define PACKET_GROUP 2
+// With so many, a tree takes longer to build than a compiled kernel to be loaded.
+#define MANY_TRIANGLES 20000
 
 typedef struct {
     const Options *options;
@@ -35,8 +36,7 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     FlatScene flat;
-    Device device;
-    KernelChoice choice;
+    Starter starter;
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
@@ -104,19 +104,19 @@ static bool load_scene(Run *run, Error *error)
 }
 
 // The device decides about the kernels, and they about the layout.
-static bool open_device(Run *run, Error *error)
+static bool await_device(Run *run, Error *error)
 {
-    double moment = clock_seconds();
-    if (!device_open(&run->device, run->options->device, error))
+    Starter *starter = &run->starter;
+    if (scene_triangle_count(&run->scene) < MANY_TRIANGLES)
+        starter_skip_kernel(starter);
+    if (!starter_wait_device(starter, error))
         return false;
-    run->report.device = lap(&moment);
-    run->report.device_name = run->device.name;
-    run->report.device_version = run->device.version;
-    run->choice = kernel_choose(&run->options->kernel);
-    if (run->settings.group_width == 0) {
-        const uint32_t side = run->choice.family == FAMILY_PACKET ? PACKET_GROUP : RAY_GROUP;
-        run->settings.group_width = run->settings.group_height = side;
-    }
+    run->report.device = starter->device_seconds;
+    run->report.device_name = starter->device.name;
+    run->report.device_version = starter->device.version;
+    run->report.choice = &starter->setup.source.choice;
+    run->settings.group_width = starter->group[0];
+    run->settings.group_height = starter->group[1];
     return true;
 }
 
@@ -127,7 +127,8 @@ static bool build_scene(Run *run, Error *error)
     Bvh bvh = {0};
     double moment = clock_seconds();
     const Options *options = run->options;
-    const FlatSource source = {&run->scene, &triangles, &bvh, run->choice.nodes};
+    const FlatSource source = {&run->scene, &triangles, &bvh,
+                               run->starter.setup.source.choice.nodes};
     const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, error) &&
                     (!options->uses_bvh || bvh_build(&bvh, &triangles, options->builder, error)) &&
                     flat_make(&run->flat, &source, error);
@@ -141,11 +142,9 @@ static bool build_scene(Run *run, Error *error)
 
 static bool open_renderer(Run *run, Error *error)
 {
-    const RendererSetup setup = {
-        &run->device,
-        &run->cache,
-        {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = run->choice}};
-    if (!renderer_open(&run->renderer, &setup, &run->flat, &run->settings, error))
+    Starter *starter = &run->starter;
+    starter_wait_kernel(starter);
+    if (!renderer_open(&run->renderer, &starter->setup, &run->flat, &run->settings, error))
         return false;
     run->report.upload = run->renderer.upload_seconds;
     run->report.upload_size = run->renderer.upload_size;
@@ -227,12 +226,20 @@ static void describe(const Run *run)
             (unsigned long long)report->dropped_triangles);
     fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
             report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
-    fprintf(stderr, "device: %s, driver %s, %u compute units\n", run->device.name,
-            run->device.version, run->device.compute_units);
+    const Device *device = &run->starter.device;
+    fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
+            device->compute_units);
     fprintf(stderr, "kernels: %s, %s nodes, %s, ready in %.3f s; uploaded %zu bytes\n",
-            kernel_family_name(run->choice.family), kernel_nodes_name(run->choice.nodes),
+            kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
             report->specialized ? "specialized" : "general", report->kernel_build,
             report->upload_size);
+}
+
+static void begin_start(Run *run)
+{
+    const RendererSetup setup = {.cache = &run->cache,
+                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR")}};
+    starter_begin(&run->starter, run->options, setup);
 }
 
 static ExitCode render(Run *run, Error *error)
@@ -240,18 +247,21 @@ static ExitCode render(Run *run, Error *error)
     const double start = clock_seconds();
     if (!image_check_path(run->options->output_path, error))
         return EXIT_OUTPUT;
-    if (!load_scene(run, error))
+    image_prepare(run->options->format);
+    begin_start(run);
+    if (!load_scene(run, error)) {
+        starter_skip_kernel(&run->starter);
         return EXIT_SCENE;
+    }
     if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
-    if (!open_device(run, error))
+    if (!await_device(run, error))
         return EXIT_DEVICE;
     if (!build_scene(run, error))
         return EXIT_SCENE;
     if (!open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    image_prepare(run->options->format);
     if (!draw(run, error))
         return EXIT_DEVICE;
     if (!write_picture(run, error) || !write_statistics(run, start, error))
@@ -259,18 +269,60 @@ static ExitCode render(Run *run, Error *error)
     return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
 }
 
-static ExitCode run_render(const Options *options, Error *error)
+// Makes the kernel once, which leaves it in the cache, and tells of it.
+static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
+{
+    ReadyKernel ready;
+    const Starter *starter = &run->starter;
+    const KernelChoice *choice = &starter->setup.source.choice;
+    if (!ready_kernel_make(&ready, &starter->setup, traits, starter->group, error))
+        return false;
+    if (!run->options->quiet)
+        printf("%s kernels, %s, %s nodes: %s %.2f s\n", name, kernel_family_name(choice->family),
+               kernel_nodes_name(choice->nodes),
+               ready.was_compiled ? "were compiled, ready in" : "compiled in", ready.seconds);
+    ready_kernel_free(&ready);
+    return true;
+}
+
+static ExitCode warm(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const bool has_scene = options->scene_path != NULL;
+    begin_start(run);
+    starter_skip_kernel(&run->starter);
+    if (has_scene && !load_scene(run, error))
+        return EXIT_SCENE;
+    if (!await_device(run, error))
+        return EXIT_DEVICE;
+    if (has_scene && !build_scene(run, error))
+        return EXIT_SCENE;
+    starter_wait_kernel(&run->starter);
+    const SceneTraits general = traits_general(options->statistics);
+    if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
+        !warm_kernel(run, &general, "general", error))
+        return EXIT_DEVICE;
+    if (!has_scene || options->specialization == SPECIALIZE_NEVER)
+        return EXIT_DONE;
+    const SceneTraits special = traits_of(&run->flat, options->statistics);
+    return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
+}
+
+static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
+                            Error *error)
 {
     Run run = {.options = options};
     run.report.options = options;
     run.report.settings = &run.settings;
-    run.report.choice = &run.choice;
     cache_open(&run.cache);
     threads_limit(options->threads);
-    const ExitCode code = render(&run, error);
+    const ExitCode code = perform_stages(&run, error);
     framebuffer_free(&run.framebuffer);
-    renderer_close(&run.renderer);
-    device_close(&run.device);
+    starter_wait_kernel(&run.starter);
+    if (CLRT_TIDY_EXIT) {
+        renderer_close(&run.renderer);
+        starter_free(&run.starter);
+    }
     flat_free(&run.flat);
     scene_free(&run.scene);
     cache_close(&run.cache);
@@ -303,10 +355,12 @@ static ExitCode perform(int count, char **words, Error *error)
         return EXIT_DONE;
     case ACTION_LIST_DEVICES:
         return list_devices(error);
+    case ACTION_WARM:
+        return perform_run(&options, warm, error);
     case ACTION_RENDER:
         break;
     }
-    return run_render(&options, error);
+    return perform_run(&options, render, error);
 }
 
 int main(int count, char **words)
@@ -321,5 +375,8 @@ int main(int count, char **words)
     }
     if (error.text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", error.text);
+    // The system takes down in no time what drivers and libraries take 0.1 s to.
+    if (!CLRT_TIDY_EXIT)
+        _exit((int)code);
     return (int)code;
 }

@@ -186,6 +186,13 @@ static bool read_list_devices(Options *options, const char *value, Error *error)
     return true;
 }
 
+static bool read_warm(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_WARM;
+    return true;
+}
+
 static bool read_threads(Options *options, const char *value, Error *error)
 {
     return read_count(value, "threads", 4096, &options->threads, error);
@@ -269,6 +276,8 @@ static const struct {
     {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
     {"frames", 0, "N", read_frames,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
+    {"warm", 0, NULL, read_warm,
+     "compile the kernels ahead, and those for SCENE where one is named; draw nothing"},
     {"stats", 0, "[=FILE]", read_stats,
      "count rays and tests; as JSON with a FILE (- is standard output)"},
     {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
@@ -289,6 +298,7 @@ void options_write_help(FILE *stream)
 {
     fprintf(stream,
             "Usage: clrt SCENE -o FILE [options]\n"
+            "       clrt --warm [SCENE] [options]\n"
             "Traces a scene (.scn, or a .ply mesh) with OpenCL and writes the picture.\n\n");
     for (size_t i = 0; i < OPTION_COUNT; i++) {
         char name[64], letter[8] = "    ";
@@ -366,6 +376,8 @@ static bool check_output(Options *options, Error *error)
 
 static bool read_scene(Options *options, int count, char **words, Error *error)
 {
+    if (optind >= count && options->action == ACTION_WARM)
+        return kernel_check_wish(&options->kernel, error);
     if (optind >= count)
         return error_set(error, "no scene is named; clrt --help shows the usage");
     if (optind + 1 < count)
@@ -374,7 +386,8 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
                          "need an equals sign)",
                          words[optind + 1], words[optind]);
     options->scene_path = words[optind];
-    return kernel_check_wish(&options->kernel, error) && check_output(options, error);
+    return kernel_check_wish(&options->kernel, error) &&
+           (options->action == ACTION_WARM || check_output(options, error));
 }
 
 bool options_parse(Options *options, int count, char **words, Error *error)
@@ -403,5 +416,6 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         if (!table[option_of(found)].read(options, optarg, error))
             return false;
     }
-    return options->action != ACTION_RENDER || read_scene(options, count, words, error);
+    const bool takes_scene = options->action == ACTION_RENDER || options->action == ACTION_WARM;
+    return !takes_scene || read_scene(options, count, words, error);
 }

@@ -8,14 +8,20 @@
 
 #include <stdio.h>
 
-typedef enum { ACTION_RENDER, ACTION_HELP, ACTION_VERSION, ACTION_LIST_DEVICES } Action;
+typedef enum {
+    ACTION_RENDER,
+    ACTION_HELP,
+    ACTION_VERSION,
+    ACTION_LIST_DEVICES,
+    ACTION_WARM
+} Action;
 
 #define FRAMES_MAX 1000
 
 // Strings point into the command line.
 typedef struct {
     Action action;
-    const char *scene_path;
+    const char *scene_path;  // NULL where ACTION_WARM was given none
     const char *output_path; // "-": standard output; NULL without -o
     const char *format;      // one of image_format_names; NULL without an output
     uint32_t samples;        // per pixel and axis

@@ -3,7 +3,7 @@
 #include "image/image_file.h"
 
 #include "image/encode.h"
-#include "image/image_loader.h"
+#include "image/image_process.h"
 #include "image/pfm.h"
 
 #include <errno.h>
@@ -64,7 +64,7 @@ const char *image_format_names(void)
 void image_prepare(const char *format)
 {
     if (find_format(format)->module != NULL)
-        image_loader_start();
+        image_process_start();
 }
 
 static bool is_replaceable(const char *path)
@@ -133,16 +133,12 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {
-    ImageModuleWrite *write = image_loader_finish(cause);
     unsigned char *bytes = NULL;
-    if (write == NULL)
-        return false;
     if (!format->is_float) {
         bytes = encode_bytes(framebuffer, settings->encoding, cause);
         if (bytes == NULL)
             return false;
     }
-    char message[512] = "";
     const ImageModulePicture picture = {
         .path = path,
         .format = format->module,
@@ -153,9 +149,9 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .texts = (const char *const *)settings->texts,
         .text_count = settings->text_count,
     };
-    const bool ok = write(&picture, message, sizeof message);
+    const bool ok = image_process_write(&picture, cause);
     free(bytes);
-    return ok || error_set(cause, "%s", message);
+    return ok;
 }
 _Static_assert(sizeof(ImageText) == 2 * sizeof(char *), "texts are read as pairs of strings");
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Framebuffer -> picture file, by OpenImageIO where clrt was built with it and as PFM everywhere.
-// OpenImageIO is a module beside the program, opened on a thread of its own while the picture is
-// traced: loading it takes 0.15 s and 132 MB that a run without a picture need not pay.
+// OpenImageIO is a module that a process of its own opens while the picture is traced: loading it
+// takes 0.17 s and 132 MB that a run without a picture need not pay.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -29,7 +29,8 @@ const char *image_format_named(const char *name);
 // All format names this build writes, for messages.
 const char *image_format_names(void);
 
-// Starts loading what writing the format needs; returns at once.
+// Starts loading what writing the format needs, in another process; returns at once.  For main
+// alone, while no other thread runs.
 void image_prepare(const char *format);
 
 // Whether a picture can be written to path, as far as that shows beforehand: asked before the

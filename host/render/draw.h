@@ -4,6 +4,6 @@
 
 #include "render/renderer.h"
 
-// Runs the kernel once over an empty tile of the usual grid, so that drivers which finish compiling
-// at the first run do it now.
+// Runs the kernel once over an empty tile, so that drivers which finish compiling at the first run
+// do it now.
 bool draw_warm_up(Renderer *renderer, Error *error);

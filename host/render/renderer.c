@@ -3,7 +3,6 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
-#include "render/draw.h"
 
 #include <assert.h>
 #include <string.h>
@@ -99,19 +98,23 @@ static bool specialization_pays(const RendererSetup *setup, const SceneTraits *s
            expected_saving(setup->device, settings) > COMPILE_SECONDS;
 }
 
-static bool build(Renderer *renderer, const RendererSetup *setup, const SceneTraits *traits,
-                  Error *error)
+// Takes the kernel that stands ready, or makes one.
+static bool take_kernel(Renderer *renderer, const RendererSetup *setup, const SceneTraits *traits,
+                        Error *error)
 {
-    char key[PROGRAM_KEY_SIZE];
-    cl_int status;
-    if (!program_build(&renderer->program, setup->device, &setup->source, traits, error))
-        return false;
-    renderer->kernel = clCreateKernel(renderer->program.handle, "render_tile", &status);
-    if (!cl_succeeded(status, "create the kernel render_tile", error) ||
-        !draw_warm_up(renderer, error))
-        return false;
-    program_key(setup->device, &setup->source, traits, key);
-    cache_set_mark(setup->cache, key);
+    const RenderSettings *settings = &renderer->settings;
+    const uint32_t group[2] = {settings->group_width, settings->group_height};
+    ReadyKernel made;
+    ReadyKernel *taken = setup->ready;
+    if (taken == NULL || !ready_kernel_is(taken, setup, traits, group)) {
+        if (!ready_kernel_make(&made, setup, traits, group, error))
+            return false;
+        taken = &made;
+    }
+    renderer->program = taken->program;
+    renderer->kernel = taken->handle;
+    renderer->build_seconds = taken->seconds;
+    *taken = (ReadyKernel){0};
     return true;
 }
 
@@ -123,16 +126,12 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
                            .settings = *settings,
                            .nodes = setup->source.choice.nodes,
                            .frame = frame_of(flat, settings)};
-    bool ok = upload_scene(renderer, flat, error);
-    const double start = clock_seconds();
     const SceneTraits special = traits_of(flat, settings->statistics);
     renderer->is_special = specialization_pays(setup, &special, settings);
     const SceneTraits traits =
         renderer->is_special ? special : traits_general(settings->statistics);
-    const int lock = cache_lock(setup->cache);
-    ok = ok && build(renderer, setup, &traits, error);
-    cache_unlock(lock);
-    renderer->build_seconds = clock_seconds() - start;
+    const bool ok =
+        upload_scene(renderer, flat, error) && take_kernel(renderer, setup, &traits, error);
     if (!ok)
         renderer_close(renderer);
     return ok;

@@ -2,9 +2,8 @@
 // FlatScene, Program and camera -> Framebuffer, tile by tile.
 #pragma once
 
-#include "device/cache.h"
-#include "device/program.h"
 #include "image/framebuffer.h"
+#include "render/ready_kernel.h"
 
 // Which program draws the scene; the picture is the same.
 typedef enum {
@@ -39,13 +38,6 @@ typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
 } RenderObserver;
-
-// What a renderer stands on; the device must outlive it.
-typedef struct {
-    const Device *device;
-    const Cache *cache;
-    ProgramSource source;
-} RendererSetup;
 
 typedef struct {
     const Device *device; // borrowed

@@ -2,6 +2,8 @@
 // A triangle mesh as a file gave it: indexed, in fp64, in the file's own coordinates.
 #pragma once
 
+#include "base/vec.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -14,6 +16,9 @@ typedef struct {
     size_t vertex_count, triangle_count;
     size_t dropped_count; // triangles with two equal corners, left out
 } Mesh;
+
+// Widens low and high to hold the vertices that triangles use: a stray one counts for nothing.
+void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 
 // Frees what the mesh owns and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);

@@ -18,11 +18,7 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
 static double radius_of(const Mesh *mesh, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
-        const double *p = mesh->positions[mesh->triangles[i / 3][i % 3]];
-        low = vec3(fmin(low.x, p[0]), fmin(low.y, p[1]), fmin(low.z, p[2]));
-        high = vec3(fmax(high.x, p[0]), fmax(high.y, p[1]), fmax(high.z, p[2]));
-    }
+    mesh_add_bounds(mesh, &low, &high);
     if (mesh->triangle_count == 0)
         low = high = vec3(0, 0, 0);
     *center = vec3_scale(vec3_add(low, high), 0.5);

@@ -10,29 +10,15 @@ typedef struct {
 
 static void bounds_add(Bounds *bounds, Vec3 point)
 {
-    bounds->low.x = fmin(bounds->low.x, point.x);
-    bounds->low.y = fmin(bounds->low.y, point.y);
-    bounds->low.z = fmin(bounds->low.z, point.z);
-    bounds->high.x = fmax(bounds->high.x, point.x);
-    bounds->high.y = fmax(bounds->high.y, point.y);
-    bounds->high.z = fmax(bounds->high.z, point.z);
-}
-
-// Only vertices that triangles use count: a stray one must not move the frame.
-static void bounds_add_mesh(Bounds *bounds, const Mesh *mesh)
-{
-    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
-        for (int corner = 0; corner < 3; corner++) {
-            const double *p = mesh->positions[mesh->triangles[triangle][corner]];
-            bounds_add(bounds, vec3(p[0], p[1], p[2]));
-        }
+    bounds->low = vec3_lower(bounds->low, point);
+    bounds->high = vec3_upper(bounds->high, point);
 }
 
 static Bounds bounds_of(const Scene *scene)
 {
     Bounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < scene->objects.count; i++)
-        bounds_add_mesh(&bounds, &scene->objects.data[i].mesh);
+        mesh_add_bounds(&scene->objects.data[i].mesh, &bounds.low, &bounds.high);
     if (scene_triangle_count(scene) > 0)
         return bounds;
     for (size_t i = 0; i < scene->spheres.count; i++) {

@@ -3,13 +3,11 @@
 // before the vertices, so triangles that turn out to have equal corners are dropped at the end.
 #include "scene/ply.h"
 
-#include "scene/ply_header.h"
+#include "scene/ply_bulk.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define COORDINATE_BOUND 1e30 // leaves room for the products of fp32 geometry
 
 typedef uint32_t Triangle[3];
 
@@ -29,7 +27,7 @@ static bool read_component(Loader *loader, const PlyProperty *property)
     if (!ply_reader_read_number(reader, property->type, &value))
         return false;
     if (property->role <= PLY_Z) {
-        if (!(fabs(value) < COORDINATE_BOUND))
+        if (!(fabs(value) < PLY_COORDINATE_BOUND))
             return ply_reader_fail(reader, "%s is %g, not a finite number below 1e30 in size", name,
                                    value);
         loader->mesh->positions[reader->index][property->role - PLY_X] = value;
@@ -121,6 +119,11 @@ static bool read_property(Loader *loader, const PlyProperty *property)
     return read_component(loader, property);
 }
 
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 static bool allocate_vertices(Loader *loader)
 {
     Mesh *mesh = loader->mesh;
@@ -144,6 +147,38 @@ static size_t smallest_size(const PlyReader *reader, const PlyProperty *properti
     return size;
 }
 
+static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
+{
+    PlyReader *reader = &loader->reader;
+    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
+    const size_t size = ply_bulk_triangle_size(reader, properties, element->property_count);
+    const size_t held = loader->triangles.count;
+    const size_t fitting = size == 0 ? 0 : (size_t)(reader->end - reader->next) / size;
+    const size_t room = smaller(smaller(fitting, (size_t)(element->count - reader->index)),
+                                (size_t)PLY_COUNT_LIMIT - held);
+    if (room == 0)
+        return true;
+    if (!array_reserve(&loader->triangles.memory, &loader->triangles.capacity, held + room,
+                       sizeof(Triangle), reader->error))
+        return false;
+    loader->triangles.count +=
+        ply_bulk_triangles(reader, properties, element->property_count, loader->header.vertex_count,
+                           room, &loader->triangles.data[held]);
+    return true;
+}
+
+// Reads what can be read without a look at every value; that may be nothing.
+static bool read_in_bulk(Loader *loader, const PlyElement *element)
+{
+    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
+    if (element->kind == PLY_FACE)
+        return read_triangles_in_bulk(loader, element);
+    if (element->kind == PLY_VERTEX)
+        ply_bulk_vertices(&loader->reader, properties, element->property_count, element->count,
+                          loader->mesh);
+    return true;
+}
+
 static bool read_element(Loader *loader, const PlyElement *element)
 {
     PlyReader *reader = &loader->reader;
@@ -158,6 +193,10 @@ static bool read_element(Loader *loader, const PlyElement *element)
     if (element->kind == PLY_VERTEX && element->count > 0 && !allocate_vertices(loader))
         return false;
     for (reader->index = 0; reader->index < element->count; reader->index++) {
+        if (!read_in_bulk(loader, element))
+            return false;
+        if (reader->index == element->count)
+            break;
         for (size_t index = 0; index < element->property_count; index++) {
             if (!read_property(loader, &properties[index]))
                 return false;
@@ -189,8 +228,11 @@ static void drop_slivers(Mesh *mesh)
         const double *a = mesh->positions[triangle[0]];
         const double *b = mesh->positions[triangle[1]];
         const double *c = mesh->positions[triangle[2]];
-        if (!is_same_point(a, b) && !is_same_point(b, c) && !is_same_point(c, a))
-            memmove(mesh->triangles[kept++], triangle, sizeof(Triangle));
+        if (is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a))
+            continue;
+        if (kept < index)
+            memcpy(mesh->triangles[kept], triangle, sizeof(Triangle));
+        kept++;
     }
     mesh->dropped_count = mesh->triangle_count - kept;
     mesh->triangle_count = kept;

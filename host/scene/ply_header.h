@@ -5,7 +5,8 @@
 #include "base/array.h"
 #include "scene/ply_reader.h"
 
-#define PLY_COUNT_LIMIT INT64_C(2147483647) // vertices or triangles in one mesh
+#define PLY_COUNT_LIMIT      INT64_C(2147483647) // vertices or triangles in one mesh
+#define PLY_COORDINATE_BOUND 1e30                // leaves room for the products of fp32 geometry
 
 // What a property is to the mesh: the component of that number, the corners of a face, or nothing.
 typedef enum {

@@ -167,6 +167,21 @@ check "Ctrl-C exits with 130" test $code = 130
 check "... and writes what is done" test -s stopped.pfm
 check "... marked as incomplete" json stopped.json "not d['complete']"
 
+# Compiled ahead: the first line is told in the past tense when it is asked for again.
+rm -rf warm-cache
+warm() { env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" --warm --kernel ray "$@" >out 2>err; }
+check "--warm compiles ahead" warm
+check "... and says so" grep -q "^general kernels, ray, .* nodes: compiled in" out
+check "... those for a scene too" warm "$scene" --stats
+check "... and says so" grep -q "^special kernels, ray, .* nodes: compiled in" out
+check "... but nothing twice" warm
+check "... and says so" grep -q "^general kernels, ray, .* nodes: were compiled, ready in" out
+check "a scene then finds its own compiled" env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" \
+  --kernel ray "$scene" -s 48x32 -o warm.pfm --stats=warm.json
+check "... and takes it" json warm.json "d['settings']['specialized']"
+check "--warm tells of a scene that is not there" run 3 --warm missing.scn
+check "--warm with a device that is not there" run 4 --warm --device 9:9
+
 # Twelve cold starts on one cache.
 rm -rf cold-cache
 for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
@@ -186,6 +201,12 @@ if [ "${FORMATS:-}" != pfm ]; then
     check "$format is written again" pixels "a.$format"
     check "two $format files are identical" cmp "a.$format" "b.$format"
   done
+  check "a picture too large for the process beside is written" \
+    run 0 "$source/scenes/simple.scn" -s 2400x2400 -o large.tif --format hdr
+  check "... whole" test "$(head -c 400 large.tif | grep -ac -- '-Y 2400 +X 2400')" = 1
+  check "a folder that vanishes is exit 5" bash -c "mkdir gone; '$CLRT' '$scene' -s 3000x3000 -o gone/a.png 2>err & \
+    sleep 0.3; rmdir gone; wait \$!; [ \$? = 5 ]"
+  check "... with the reason" says "clrt: gone/a.png: cannot be written"
   check "--encode srgb has an effect" pixels b.png --encode srgb
   check "... on 8-bit files" differ a.png b.png
   check "--encode srgb leaves floats alone" pixels b.exr --encode srgb

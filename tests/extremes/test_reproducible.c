@@ -128,11 +128,11 @@ static void draw_tile(const Renderer *renderer, cl_mem pixels, uint32_t tile, Fr
     frame.tile_y = tile / COLUMNS * TILE;
     frame.tile_width = frame.tile_height = TILE;
     cl_int status = clSetKernelArg(renderer->kernel, 0, sizeof frame, &frame);
-    for (cl_uint place = 0; place < 6; place++)
+    for (cl_uint place = 0; place < RENDERER_ARRAYS; place++)
         status |=
             clSetKernelArg(renderer->kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    status |= clSetKernelArg(renderer->kernel, 7, sizeof(cl_mem), &pixels);
-    status |= clSetKernelArg(renderer->kernel, 8, sizeof(cl_mem), &pixels);
+    status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &pixels);
+    status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &pixels);
     require_success(status, "set the kernel's arguments");
     const size_t grid[2] = {TILE, TILE}, group[2] = {8, 8};
     cl_command_queue queue = renderer->device->queue;

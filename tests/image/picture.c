@@ -79,9 +79,9 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
     const RendererSetup setup = {
-        &pipeline->device,
-        &pipeline->cache,
-        {.extra_options = request->extra_options, .choice = request->choice}};
+        .device = &pipeline->device,
+        .cache = &pipeline->cache,
+        .source = {.extra_options = request->extra_options, .choice = request->choice}};
     const CameraData camera =
         camera_make(&pipeline->scene.viewpoints.data[request->view - 1], &pipeline->normalization,
                     settings.height, settings.samples);

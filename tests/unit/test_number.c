@@ -159,6 +159,13 @@ static void hard_cases_round_to_the_nearest_double(void **state)
         {"9999999999999999999", 0x1.158e460913dp63},
         {"99999999999999999999", 0x1.5af1d78b58c4p66},
         {"0.000000000000000000000000000001", 1e-30},
+        {"9223372036854775807e27", 9223372036854775807e27},
+        {"9223372036854775807e28", 9223372036854775807e28},
+        {"9999999999999999999e-27", 9999999999999999999e-27},
+        {"1e-27", 1e-27},
+        // The quotient ends in a tie and only what is left of the division breaks it.
+        {"11692940222490064e-27", 0x1.9b68a4781c555p-37},
+        {"20828936362704393e-27", 0x1.6e6d30a690f5dp-36},
     };
     for (size_t index = 0; index < sizeof cases / sizeof *cases; index++)
         assert_same_double(value_of(cases[index].text), cases[index].value, cases[index].text);
@@ -277,7 +284,8 @@ static void a_locale_with_a_decimal_comma_changes_nothing(void **state)
     else
         assert_string_equal(localeconv()->decimal_point, ",");
     assert_same_double(value_of("1.5"), 1.5, "1.5");
-    assert_same_double(value_of("0.12345678901234567"), 0x1.f9add3746f65ep-4, "by the slow path");
+    assert_same_double(value_of("0.12345678901234567"), 0x1.f9add3746f65ep-4, "in integers");
+    assert_same_double(value_of("0.12345678901234567890"), 0x1.f9add3746f65fp-4, "by strtod");
     assert_int_equal(length_of("1,5"), 1);
     setlocale(LC_ALL, "C");
 }

@@ -258,6 +258,45 @@ static void triangles_with_equal_corner_positions_are_dropped(void **state)
     mesh_free(&mesh);
 }
 
+// Colors stand among what is used, and a quad among the triangles, which are read many at a time.
+static void unusual_elements_among_usual_ones_are_read_in_their_order(void **state)
+{
+    (void)state;
+    static const double faces[4][4] = {{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}, {1, 2, 3}};
+    for (int encoding = ASCII; encoding <= BIG; encoding++) {
+        Builder builder = builder_start(encoding);
+        put_text(&builder, "element vertex 4\nproperty float nx\nproperty float ny\n"
+                           "property float nz\nproperty uchar red\nproperty double x\n"
+                           "property float y\nproperty double z\nelement face 4\n"
+                           "property short group\nproperty list uchar uint vertex_indices\n"
+                           "property float area\nend_header\n");
+        for (int vertex = 0; vertex < 4; vertex++) {
+            put_values(&builder, "float", 3, (double[]){vertex, 2, -3});
+            put_values(&builder, "uchar", 1, (double[]){255});
+            put_values(&builder, "double", 1, (double[]){vertex + 1e-9});
+            put_values(&builder, "float", 1, (double[]){vertex * vertex});
+            put_values(&builder, "double", 1, (double[]){-vertex});
+        }
+        for (int face = 0; face < 4; face++) {
+            const size_t corners = face == 1 ? 4 : 3;
+            put_values(&builder, "short", 1, (double[]){-1});
+            put_values(&builder, "uchar", 1, (double[]){(double)corners});
+            put_values(&builder, "uint", corners, faces[face]);
+            put_values(&builder, "float", 1, (double[]){0.5});
+        }
+        Mesh mesh = parse_good(&builder);
+        assert_int_equal(mesh.triangle_count, 5);
+        assert_triangle(&mesh, 0, 0, 1, 2);
+        assert_triangle(&mesh, 2, 0, 2, 3);
+        assert_triangle(&mesh, 3, 3, 2, 1);
+        assert_triangle(&mesh, 4, 1, 2, 3);
+        assert_true(mesh.positions[3][0] == 3 + 1e-9 && mesh.positions[3][1] == 9);
+        assert_true(mesh.positions[2][2] == -2 && mesh.normals[2][0] == 2);
+        assert_true(mesh.normals[3][1] == 2 && mesh.normals[0][2] == -3);
+        mesh_free(&mesh);
+    }
+}
+
 static void normals_are_used_only_when_all_three_are_there(void **state)
 {
     (void)state;
@@ -378,6 +417,7 @@ int main(void)
         cmocka_unit_test(ascii_positions_keep_double_precision),
         cmocka_unit_test(a_polygon_becomes_a_fan_around_its_first_corner),
         cmocka_unit_test(triangles_with_equal_corner_positions_are_dropped),
+        cmocka_unit_test(unusual_elements_among_usual_ones_are_read_in_their_order),
         cmocka_unit_test(normals_are_used_only_when_all_three_are_there),
         cmocka_unit_test(any_line_ends_and_blanks_are_read),
         cmocka_unit_test(the_last_value_of_an_ascii_file_needs_no_blank_behind_it),

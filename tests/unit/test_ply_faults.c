@@ -181,6 +181,28 @@ static void each_fault_of_a_binary_body_has_its_sentence(void **state)
                         "t.ply: byte 101: a 0: the file ends too early");
 }
 
+// Sound elements are read many at a time; the first that is not must still be told by its place.
+static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **state)
+{
+    (void)state;
+#define THREE_VERTICES BINARY "element vertex 3\n" XYZ // 94 bytes
+#define POINT          "\0\0\0\0\0\0\0\0\0\0\0\0"
+    ASSERT_BINARY_FAILS(THREE_VERTICES "end_header\n" POINT POINT "\x7f\x80\0\0\0\0\0\0\0\0\0\0",
+                        "t.ply: byte 136: vertex 2: x is inf, not a finite number below 1e30 in "
+                        "size");
+#define THREE_FACES                                                                                \
+    THREE_VERTICES                                                                                 \
+    "element face 3\nproperty list uchar int vertex_indices\nend_header\n" POINT POINT POINT
+#define FACE "\3\0\0\0\0\0\0\0\1\0\0\0\2"
+    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0\3",
+                        "t.ply: byte 237: face 2: vertex index 3 is not below the vertex count 3");
+    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\2\0\0\0\0\0\0\0\1\0\0\0\3",
+                        "t.ply: byte 228: face 2: a face needs 3 or more corners, not 2");
+    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0",
+                        "t.ply: byte 229: face 2: a count of 3 does not fit in what is left of the "
+                        "file");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +210,7 @@ int main(void)
         cmocka_unit_test(each_fault_of_an_ascii_body_has_its_sentence),
         cmocka_unit_test(coordinates_and_normals_must_be_finite_numbers),
         cmocka_unit_test(each_fault_of_a_binary_body_has_its_sentence),
+        cmocka_unit_test(a_fault_behind_sound_binary_elements_is_told_by_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,11 +45,11 @@ void picture_open(Renderer *renderer, const Studio *studio, const Scene *scene,
 {
     Stage stage;
     Error error = {0};
-    const RendererSetup setup = {&studio->device,
-                                 &studio->cache,
-                                 {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                  .extra_options = settings->extra_options,
-                                  .choice = settings->choice}};
+    const RendererSetup setup = {.device = &studio->device,
+                                 .cache = &studio->cache,
+                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                                            .extra_options = settings->extra_options,
+                                            .choice = settings->choice}};
     stage_make_as(&stage, scene, settings->tree, settings->choice.nodes);
     const bool ok = renderer_open(renderer, &setup, &stage.flat, &settings->render, &error);
     stage_free(&stage);

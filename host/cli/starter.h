@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Opens the device and makes the kernel on a thread of its own, while the scene is read and its
+// tree is built.
+#pragma once
+
+#include "cli/options.h"
+
+#include <pthread.h>
+
+// Once the device is open, setup and what follows it belong to the caller, but for setup.ready.
+typedef struct {
+    RendererSetup setup;
+    Device device;
+    double device_seconds;
+    uint32_t group[2]; // size of work-groups
+    // The thread's own:
+    const Options *options;
+    ReadyKernel ready;
+    Error error;
+    pthread_t thread;
+    pthread_mutex_t mutex; // over the three below
+    pthread_cond_t changed;
+    bool is_done, is_open;   // with the device; and it went well
+    bool skips_kernel;       // it is not wanted
+    bool is_running, exists; // the caller's: the thread; the mutex and the condition
+} Starter;
+
+// Starts; setup holds the cache and where the kernels' source is.
+void starter_begin(Starter *starter, const Options *options, RendererSetup setup);
+
+// Asks for no kernel, if none has been begun: the scene is read already and tells better which.
+void starter_skip_kernel(Starter *starter);
+
+// Waits for the device; false with the reason where there is none.
+bool starter_wait_device(Starter *starter, Error *error);
+
+// Waits for the kernel, which stands in setup.ready then.  Where it could not be made it is empty,
+// and the renderer will find the reason.
+void starter_wait_kernel(Starter *starter);
+
+// Frees what is left.
+void starter_free(Starter *starter);

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// The two processes speak over a pair of sockets: a request, its strings and its pixels go over,
+// an answer comes back.  Very large pictures are not worth a second copy and are written here.
+#include "image/image_process.h"
+
+#include "base/array.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define LARGEST_SENT ((size_t)64 << 20)
+
+// Strings follow it, each with its zero, and then the pixels.
+typedef struct {
+    uint64_t width, height, is_float, text_count;
+    uint64_t string_size, pixel_size;
+} Request;
+
+typedef struct {
+    int ok;
+    char message[512];
+} Answer;
+
+static int channel = -1; // to the process, in the one that started it
+
+// The module lies beside the program in a build tree and under the library folder once installed.
+static ImageModuleWrite *open_module(Error *cause)
+{
+    char program[PATH_MAX], path[2 * PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    const char *folder = dirname(program);
+    snprintf(path, sizeof path, "%s/%s", folder, CLRT_IMAGE_MODULE);
+    if (access(path, R_OK) != 0)
+        snprintf(path, sizeof path, "%s/%s/%s", folder, CLRT_IMAGE_MODULE_FOLDER,
+                 CLRT_IMAGE_MODULE);
+    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    ImageModuleWrite *write = NULL;
+    if (module != NULL)
+        *(void **)&write = dlsym(module, IMAGE_MODULE_WRITE);
+    if (write == NULL)
+        error_set(cause, "the picture module cannot be opened: %s", dlerror());
+    return write;
+}
+
+static bool send_bytes(int socket, const void *bytes, size_t size)
+{
+    const char *next = bytes;
+    while (size > 0) {
+        const ssize_t sent = send(socket, next, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            return false;
+        next += sent;
+        size -= (size_t)sent;
+    }
+    return true;
+}
+
+static bool receive_bytes(int socket, void *bytes, size_t size)
+{
+    char *next = bytes;
+    while (size > 0) {
+        const ssize_t received = recv(socket, next, size, 0);
+        if (received < 0 && errno == EINTR)
+            continue;
+        if (received <= 0)
+            return false;
+        next += received;
+        size -= (size_t)received;
+    }
+    return true;
+}
+
+static size_t pixel_size(const ImageModulePicture *picture)
+{
+    const size_t channel_size = picture->is_float ? sizeof(float) : 1;
+    return (size_t)picture->width * (size_t)picture->height * 3 * channel_size;
+}
+
+// The path, the format and the texts, in this order.
+static size_t string_count(const ImageModulePicture *picture)
+{
+    return 2 + 2 * picture->text_count;
+}
+
+static const char *string_at(const ImageModulePicture *picture, size_t place)
+{
+    return place == 0 ? picture->path : place == 1 ? picture->format : picture->texts[place - 2];
+}
+
+static bool send_request(const ImageModulePicture *picture)
+{
+    Request request = {.width = (uint64_t)picture->width,
+                       .height = (uint64_t)picture->height,
+                       .is_float = picture->is_float != 0,
+                       .text_count = picture->text_count,
+                       .pixel_size = pixel_size(picture)};
+    for (size_t i = 0; i < string_count(picture); i++)
+        request.string_size += strlen(string_at(picture, i)) + 1;
+    bool ok = send_bytes(channel, &request, sizeof request);
+    for (size_t i = 0; ok && i < string_count(picture); i++)
+        ok = send_bytes(channel, string_at(picture, i), strlen(string_at(picture, i)) + 1);
+    return ok && send_bytes(channel, picture->pixels, request.pixel_size);
+}
+
+// Gives the picture its pointers into the strings; texts has room for all of them.
+static void place_strings(ImageModulePicture *picture, const char *strings, const char **texts)
+{
+    picture->path = strings;
+    picture->format = picture->path + strlen(picture->path) + 1;
+    const char *next = picture->format + strlen(picture->format) + 1;
+    for (size_t i = 0; i < 2 * picture->text_count; i++) {
+        texts[i] = next;
+        next += strlen(next) + 1;
+    }
+    picture->texts = texts;
+}
+
+static bool answer_request(int socket, const Request *request, ImageModuleWrite *write,
+                           const Error *failure)
+{
+    Error error = {0};
+    Answer answer = {0};
+    ImageModulePicture picture = {.width = (int)request->width,
+                                  .height = (int)request->height,
+                                  .is_float = request->is_float != 0,
+                                  .text_count = request->text_count};
+    char *strings = memory_raw(request->string_size, 1, &error);
+    void *pixels = memory_raw(request->pixel_size, 1, &error);
+    const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
+    const bool held = strings != NULL && pixels != NULL && texts != NULL;
+    bool ok = held && receive_bytes(socket, strings, request->string_size) &&
+              receive_bytes(socket, pixels, request->pixel_size);
+    if (ok) {
+        place_strings(&picture, strings, texts);
+        picture.pixels = pixels;
+        snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
+        answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
+        ok = send_bytes(socket, &answer, sizeof answer);
+    }
+    free(strings);
+    free(pixels);
+    free(texts);
+    return ok;
+}
+
+// Ends when the other process does, of which it keeps nothing open.
+static _Noreturn void serve(int socket, pid_t parent)
+{
+    Error failure = {0};
+    Request request;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(0);
+    // Stopping is for the other process, which has its picture written then.
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
+    const int nothing = open("/dev/null", O_RDWR);
+    dup2(nothing, STDIN_FILENO);
+    dup2(nothing, STDOUT_FILENO);
+    ImageModuleWrite *write = open_module(&failure);
+    while (receive_bytes(socket, &request, sizeof request) &&
+           answer_request(socket, &request, write, &failure))
+        continue;
+    _exit(0);
+}
+
+void image_process_start(void)
+{
+    int sockets[2];
+    if (channel >= 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0)
+        return;
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child == 0) {
+        close(sockets[0]);
+        serve(sockets[1], parent);
+    }
+    close(sockets[1]);
+    if (child > 0)
+        channel = sockets[0];
+    else
+        close(sockets[0]);
+}
+
+static bool write_here(const ImageModulePicture *picture, Error *cause)
+{
+    char message[512] = "";
+    ImageModuleWrite *write = open_module(cause);
+    return write != NULL &&
+           (write(picture, message, sizeof message) || error_set(cause, "%s", message));
+}
+
+bool image_process_write(const ImageModulePicture *picture, Error *cause)
+{
+    Answer answer;
+    if (channel < 0 || pixel_size(picture) > LARGEST_SENT)
+        return write_here(picture, cause);
+    if (!send_request(picture) || !receive_bytes(channel, &answer, sizeof answer))
+        return error_set(cause, "the process that writes pictures has ended");
+    return answer.ok || error_set(cause, "%s", answer.message);
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The lock on the cache is held over the build and the first run alike: PoCL 3.1 loses builds when
+// cold processes share one.
+#include "render/ready_kernel.h"
+
+#include "base/clock.h"
+#include "render/draw.h"
+
+#include <string.h>
+
+// Runs the kernel over a tile of no pixels: one work-group of a stand-in for a renderer whose
+// buffers hold nothing.
+static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error *error)
+{
+    cl_int status;
+    cl_mem nothing = clCreateBuffer(setup->device->context, CL_MEM_READ_ONLY, 64, NULL, &status);
+    if (!cl_succeeded(status, "allocate a buffer for the first run", error))
+        return false;
+    Renderer renderer = {.device = setup->device,
+                         .settings = {.width = 1,
+                                      .height = 1,
+                                      .samples = 1,
+                                      .tile_width = 1,
+                                      .tile_height = 1,
+                                      .group_width = ready->group_width,
+                                      .group_height = ready->group_height},
+                         .family = setup->source.choice.family,
+                         .kernel = ready->handle};
+    for (int place = 0; place < RENDERER_ARRAYS; place++)
+        renderer.arrays[place] = nothing;
+    const bool ok = draw_warm_up(&renderer, error);
+    clReleaseMemObject(nothing);
+    return ok;
+}
+
+static bool make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
+                 Error *error)
+{
+    cl_int status;
+    if (!program_build(&ready->program, setup->device, &setup->source, traits, error))
+        return false;
+    ready->handle = clCreateKernel(ready->program.handle, "render_tile", &status);
+    return cl_succeeded(status, "create the kernel render_tile", error) &&
+           run_once(ready, setup, error);
+}
+
+bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
+                       const uint32_t group[2], Error *error)
+{
+    const double start = clock_seconds();
+    *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
+    program_key(setup->device, &setup->source, traits, ready->key);
+    // Kernels under development change too often for marks to mean anything.
+    ready->was_compiled =
+        setup->source.kernel_folder == NULL && cache_has_mark(setup->cache, ready->key);
+    const int lock = cache_lock(setup->cache);
+    const bool ok = make(ready, setup, traits, error);
+    if (ok)
+        cache_set_mark(setup->cache, ready->key);
+    cache_unlock(lock);
+    ready->seconds = clock_seconds() - start;
+    if (!ok)
+        ready_kernel_free(ready);
+    return ok;
+}
+
+void ready_kernel_free(ReadyKernel *ready)
+{
+    if (ready->handle != NULL)
+        clReleaseKernel(ready->handle);
+    program_free(&ready->program);
+    *ready = (ReadyKernel){0};
+}
+
+bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
+                     const SceneTraits *traits, const uint32_t group[2])
+{
+    char key[PROGRAM_KEY_SIZE];
+    program_key(setup->device, &setup->source, traits, key);
+    return ready->handle != NULL && strcmp(ready->key, key) == 0 &&
+           ready->group_width == group[0] && ready->group_height == group[1];
+}
