@@ -20,7 +20,7 @@ static bool open_device(Starter *starter)
     starter->device_seconds = clock_seconds() - start;
     KernelChoice *choice = &starter->setup.source.choice;
     *choice = kernel_choose(&options->kernel);
-    const uint32_t side = choice->family == FAMILY_PACKET ? PACKET_GROUP : RAY_GROUP;
+    const uint32_t side = choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
     starter->group[0] = options->group_width > 0 ? options->group_width : side;
     starter->group[1] = options->group_height > 0 ? options->group_height : side;
     return ok;

@@ -24,7 +24,7 @@ static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error
                                       .tile_height = 1,
                                       .group_width = ready->group_width,
                                       .group_height = ready->group_height},
-                         .family = setup->source.choice.family,
+                         .nodes = setup->source.choice.nodes,
                          .kernel = ready->handle};
     for (int place = 0; place < RENDERER_ARRAYS; place++)
         renderer.arrays[place] = nothing;
