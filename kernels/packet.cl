@@ -8,10 +8,19 @@
 
 #if CLRT_WIDE_NODES
 
+// Smaller parts are faster one by one.
+#define SMALLEST_PACKET 4
+
+// A packet whose tests of a box against all lanes find fewer lanes inside than this on average has
+// fallen apart, and its rays start again alone.  The credit bridges bad luck at the start.
+#define LANES_PER_TEST 2
+#define PACKET_CREDIT  64
+
 // The rays of a packet that share their signs and their longest axis, with bounds over all of
 // them.
 typedef struct {
     Search rays; // lanes that take no part copy one that does
+    Truth active;
     Real3 ordered_origin; // in the order of the axes
     uint axes[3];
     uint negative[3]; // which plane of an axis the rays meet first
@@ -59,10 +68,9 @@ static inline void packet_bounds(Packet *packet, uint axis, Real origin, Real sl
     packet->far_high[axis] = -far_bound * high;
 }
 
-static inline void packet_prepare(Packet *packet)
+static inline void packet_prepare(Packet *packet, Real3 o)
 {
     const Search *rays = &packet->rays;
-    const Real3 o = rays->ray.origin;
     const Real slack = BVH_SLACK * largest_component(o);
     packet->ordered_origin = axes_ordered(o, &rays->axes);
     packet->axes[0] = rays->axes.x.s0;
@@ -131,9 +139,9 @@ static inline Real3 splat_corner(global const TriangleBlock *block, uint corner,
 // The distances at which rays whose lanes are inside the triangle's edges stop on it.
 static inline Real packet_distances(global const TriangleBlock *block, uint place,
                                     const Packet *packet, const Corners *sheared,
-                                    const Edges *edges)
+                                    const Edges *edges, Truth inside, Real reach)
 {
-    const Ray *ray = &packet->rays.ray;
+    const Ray *ray = packet->rays.ray;
     const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint id = block->id[place];
     const Truth front = edges_face(edges, &packet->rays.shear);
@@ -143,6 +151,8 @@ static inline Real packet_distances(global const TriangleBlock *block, uint plac
     const Real t = triangle_depth(sheared, edges) * packet->rays.shear.inverse_z;
     if (ray->kind == RAY_CAMERA)
         return closed && t > 0.0f ? t : INFINITY;
+    if (!any_lane(inside && closed && t <= reach))
+        return INFINITY;
     const Real error = triangle_depth_error(sheared) * fabs(packet->rays.shear.inverse_z);
     const Corners corners = {splat_corner(block, 0, place), splat_corner(block, 1, place),
                              splat_corner(block, 2, place)};
@@ -178,14 +188,11 @@ static inline Real3 corner_from(global const TriangleBlock *block, uint corner, 
                     (Real)(block->corners[corner][packet->axes[2]][place]) - o.z);
 }
 
-// Smaller parts are faster one by one.
-#ifndef SMALLEST_PACKET
-#define SMALLEST_PACKET 4
-#endif
-
-static inline __attribute__((always_inline)) bool test_triangle(global const TriangleBlock *blocks, uint number, uint place,
-                                 const Packet *packet, const Corners *relative, Truth lanes,
-                                 Hit *best)
+static inline __attribute__((always_inline)) bool test_triangle(global const TriangleBlock *blocks,
+                                                                uint number, uint place,
+                                                                const Packet *packet,
+                                                                const Corners *relative,
+                                                                Truth lanes, Hit *best)
 {
     const Corners sheared = corners_sheared(relative, &packet->rays.shear);
     const Edges edges = edges_of(&sheared);
@@ -193,7 +200,7 @@ static inline __attribute__((always_inline)) bool test_triangle(global const Tri
     if (!any_lane(inside))
         return false;
     global const TriangleBlock *block = blocks + number;
-    const Real t = packet_distances(block, place, packet, &sheared, &edges);
+    const Real t = packet_distances(block, place, packet, &sheared, &edges, inside, best->t);
     const Count id = block->id[place] & ~TRIANGLE_TWO_SIDED;
     const Truth precedes = inside && hit_precedes(t, id, best);
     best->t = precedes ? t : best->t;
@@ -202,8 +209,10 @@ static inline __attribute__((always_inline)) bool test_triangle(global const Tri
     return any_lane(precedes);
 }
 
-static inline __attribute__((always_inline)) bool test_packet_block(const SceneView *scene, uint number, const Packet *packet,
-                                     Truth lanes, Hit *best)
+static inline __attribute__((always_inline)) bool test_packet_block(const SceneView *scene,
+                                                                    uint number,
+                                                                    const Packet *packet,
+                                                                    Truth lanes, Hit *best)
 {
     global const TriangleBlock *block = &scene->triangles[number];
     bool changed = false;
@@ -230,11 +239,13 @@ static inline __attribute__((always_inline)) bool test_packet_block(const SceneV
     return changed;
 }
 
-static inline void traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
+// Returns the lanes left over when the packet is given up.
+static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
                                    Tally *tally)
 {
-    const bool is_shadow = packet->rays.ray.kind == RAY_SHADOW;
-    Truth searching = packet->rays.ray.active;
+    int credit = PACKET_CREDIT;
+    const bool is_shadow = packet->rays.ray->kind == RAY_SHADOW;
+    Truth searching = packet->active;
     float farthest = highest(best->t);
     WideWaiting waiting;
     waiting.count = 0;
@@ -246,7 +257,7 @@ static inline void traverse_packet(const SceneView *scene, const Packet *packet,
         wait_for_children(&waiting, lane_bits(near), &entry, parent * WIDE);
         for (;;) {
             if (waiting.count == 0)
-                return;
+                return 0;
             const ulong next = waiting.child[--waiting.count];
             if (waiting_entry(next) > farthest)
                 continue;
@@ -255,7 +266,11 @@ static inline void traverse_packet(const SceneView *scene, const Packet *packet,
             const Truth lanes = searching && lanes_in_child(from, number, packet, best->t);
             if (CLRT_STATISTICS)
                 tally->box_tests += CLRT_LANES;
-            if (!any_lane(lanes))
+            const uint bits = lane_bits(lanes);
+            credit += (int)popcount(bits) - LANES_PER_TEST;
+            if (credit < 0)
+                return lane_bits(searching);
+            if (bits == 0)
                 continue;
             const uint child = from->child[number];
             if ((child & WIDE_LEAF) == 0) {
@@ -269,7 +284,7 @@ static inline void traverse_packet(const SceneView *scene, const Packet *packet,
             if (is_shadow) {
                 searching = searching && best->id == NOTHING;
                 if (!any_lane(searching))
-                    return;
+                    return 0;
             }
             farthest = highest(searching ? best->t : (Real)(0.0f));
         }
@@ -296,23 +311,22 @@ static inline Real3 filled(Real3 v, Truth lanes, uint lane)
                     lanes ? v.z : one_lane(v.z, lane));
 }
 
-static __attribute__((noinline)) void search_part(const SceneView *scene, const FrameData *frame,
+static __attribute__((noinline)) uint search_part(const SceneView *scene, const FrameData *frame,
                                                   const Ray *ray, uint bits, Hit *best,
                                                   Tally *tally)
 {
     const uint first = lowest_bit(bits);
     const Truth lanes = lanes_of(bits);
     Packet packet;
-    Ray part = *ray;
-    part.active = lanes;
-    part.origin = filled(ray->origin, lanes, first);
-    part.direction = filled(ray->direction, lanes, first);
+    packet.active = lanes;
     packet.common_origin = ray->kind != RAY_REFLECTED;
-    search_prepare(&packet.rays, &part);
-    packet_prepare(&packet);
+    const Real3 origin = packet.common_origin ? ray->origin : filled(ray->origin, lanes, first);
+    search_prepare(&packet.rays, ray, origin, filled(ray->direction, lanes, first));
+    packet_prepare(&packet, origin);
     Hit hit = *best;
+    uint undone = 0;
     if (CLRT_BVH && frame->uses_bvh) {
-        traverse_packet(scene, &packet, &hit, tally);
+        undone = traverse_packet(scene, &packet, &hit, tally);
     } else {
         for (uint block = 0; block * WIDE < frame->triangle_count; block++)
             test_packet_block(scene, block, &packet, lanes, &hit);
@@ -322,28 +336,34 @@ static __attribute__((noinline)) void search_part(const SceneView *scene, const 
     best->t = lanes ? hit.t : best->t;
     best->id = lanes ? hit.id : best->id;
     best->index = lanes ? hit.index : best->index;
+    return undone;
 }
 
 // Rays that share signs and longest axis with enough others go as a packet, the rest alone.
+// Without a tree there is nothing to walk, and all go as packets.
 static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
                            Hit *best, Tally *tally)
 {
-    uint left = lane_bits(ray->active), alone = CLRT_PACKET ? 0 : left;
+    const uint all = lane_bits(ray->active);
+    const bool has_tree = CLRT_BVH && frame->uses_bvh;
+    const uint smallest = has_tree ? SMALLEST_PACKET : 1;
+    uint alone = has_tree && !CLRT_PACKET ? all : 0;
+    uint left = all & ~alone;
     const Count classes = ray_classes(ray->direction);
-    for (left &= ~alone; left != 0;) {
+    while (left != 0) {
         const uint wanted = count_of(&classes, lowest_bit(left));
         const uint part = left & lane_bits(classes == wanted);
         left &= ~part;
-        if (popcount(part) < SMALLEST_PACKET)
+        if (popcount(part) < smallest)
             alone |= part;
         else
-            search_part(scene, frame, ray, part, best, tally);
+            alone |= search_part(scene, frame, ray, part, best, tally);
     }
     if (alone == 0)
         return;
     Search search;
-    search_prepare(&search, ray);
-    meet_alone(scene, frame, &search, alone, best, tally);
+    search_prepare(&search, ray, ray->origin, ray->direction);
+    meet_alone(scene, &search, alone, best, tally);
 }
 
 #endif

@@ -14,7 +14,7 @@
 
 // The rays of the lanes as the searches want them.
 typedef struct {
-    Ray ray;
+    const Ray *ray;
     ShearAxes axes;
     Shear shear;
     Real3 inverse, near_offset, far_offset; // of the slabs, as in pair.cl
@@ -119,7 +119,7 @@ static inline Wide3 block_corner(global const TriangleBlock *block, uint corner)
 // The distances of the triangles whose edges contain the ray, INFINITY where they do not stop it.
 static inline float8 block_distances(global const TriangleBlock *block, const SingleRay *ray,
                                      const WideShear *shear, const WideCorners *sheared,
-                                     const WideEdges *edges)
+                                     const WideEdges *edges, int8 inside, float reach)
 {
     const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint8 id = vload8(0, block->id);
@@ -130,6 +130,8 @@ static inline float8 block_distances(global const TriangleBlock *block, const Si
     const float8 t = triangle_depth(sheared, edges) * shear->inverse_z;
     if (ray->kind == RAY_CAMERA)
         return closed && t > 0.0f ? t : INFINITY;
+    if (lane_bits(inside && closed && t <= reach) == 0)
+        return INFINITY;
     const float8 error = triangle_depth_error(sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
@@ -139,8 +141,9 @@ static inline float8 block_distances(global const TriangleBlock *block, const Si
 }
 
 // Tests the triangles of a block against the ray.
-static inline __attribute__((always_inline)) void test_block(global const TriangleBlock *blocks, uint number, const SingleRay *ray,
-                              SingleHit *best)
+static inline __attribute__((always_inline)) void test_block(global const TriangleBlock *blocks,
+                                                             uint number, const SingleRay *ray,
+                                                             SingleHit *best)
 {
     global const TriangleBlock *block = blocks + number;
     const WideShear shear = {ray->shear_x, ray->shear_y, ray->inverse_z, ray->direction_z};
@@ -152,7 +155,7 @@ static inline __attribute__((always_inline)) void test_block(global const Triang
     const int8 inside = edges_contain(&edges);
     if (lane_bits(inside) == 0)
         return;
-    const float8 t = block_distances(block, ray, &shear, &sheared, &edges);
+    const float8 t = block_distances(block, ray, &shear, &sheared, &edges, inside, best->t);
     uint candidates = lane_bits(inside && t <= best->t && t < INFINITY);
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = popcount((candidates & -candidates) - 1);
@@ -210,12 +213,12 @@ static inline void search_slab(Real direction, Real origin, Real slack, Real *in
     *far_offset = -(origin - widening) * *inverse;
 }
 
-static inline void search_prepare(Search *search, const Ray *ray)
+// Prepares the rays for directions d and origins o, which are the ray's own in its active lanes.
+static inline void search_prepare(Search *search, const Ray *ray, Real3 o, Real3 d)
 {
-    const Real3 d = ray->direction, o = ray->origin;
     const Real smallest = 0x1p-30f * largest_component(d);
     const Real slack = BVH_SLACK * largest_component(o);
-    search->ray = *ray;
+    search->ray = ray;
     search->axes = shear_axes(d);
     search->shear = shear_along(d, &search->axes);
     search_slab(slab_direction(d.x, smallest), o.x, slack, &search->inverse.x,
@@ -251,13 +254,13 @@ static inline SingleRay single_ray(const Search *search, uint lane)
                         .shear_y = real_of(&search->shear.shear_y, lane),
                         .inverse_z = real_of(&search->shear.inverse_z, lane),
                         .direction_z = real_of(&search->shear.direction_z, lane),
-                        .own = count_of(&search->ray.own, lane),
-                        .kind = search->ray.kind};
-    copy3(single.origin, &search->ray.origin, lane);
+                        .own = count_of(&search->ray->own, lane),
+                        .kind = search->ray->kind};
+    copy3(single.origin, &search->ray->origin, lane);
     copy3(single.inverse, &search->inverse, lane);
     copy3(single.near_offset, &search->near_offset, lane);
     copy3(single.far_offset, &search->far_offset, lane);
-    copy3(single.surface, &search->ray.surface, lane);
+    copy3(single.surface, &search->ray->surface, lane);
     for (uint axis = 0; axis < 3; axis++)
         single.negative[axis] = single.inverse[axis] < 0.0f;
     return single;
@@ -346,8 +349,8 @@ static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *
 
 // Searches for the rays of the lanes whose bits are set, side by side: while one waits for memory
 // or for the result of its last step, the others go on.
-static __attribute__((noinline)) void meet_alone(const SceneView *scene, const FrameData *frame, const Search *search,
-                              uint bits, Hit *best, Tally *tally)
+static __attribute__((noinline)) void meet_alone(const SceneView *scene, const Search *search,
+                                                 uint bits, Hit *best, Tally *tally)
 {
     float *t = (float *)&best->t;
     uint *id = (uint *)&best->id, *index = (uint *)&best->index;
