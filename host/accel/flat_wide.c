@@ -143,12 +143,12 @@ static uint32_t blocks_for(uint32_t triangle_count)
     return (triangle_count + WIDE - 1) / WIDE;
 }
 
-static uint32_t count_blocks(const Bvh *bvh)
+static uint32_t count_blocks(const Bvh *bvh, uint32_t number)
 {
-    uint32_t blocks = 0;
-    for (uint32_t i = 0; i < bvh->node_count; i++)
-        blocks += blocks_for(bvh->nodes[i].count);
-    return blocks;
+    const BvhNode *node = &bvh->nodes[number];
+    if (node->count > 0)
+        return blocks_for(node->count);
+    return count_blocks(bvh, node->first) + count_blocks(bvh, node->first + 1);
 }
 
 // Gives back what a generous estimate took too much; failing to is no harm.
@@ -163,7 +163,7 @@ bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
     const Collapse collapse = {flat, source};
     const Bvh *bvh = source->bvh;
     const bool has_tree = bvh->node_count > 0;
-    const uint32_t blocks = has_tree ? count_blocks(bvh) : blocks_for(flat->triangle_count);
+    const uint32_t blocks = has_tree ? count_blocks(bvh, 0) : blocks_for(flat->triangle_count);
     // Each wide node but a lone one stands for at least one binary node between blocks.
     flat->wides = memory_raw(has_tree ? blocks : 0, sizeof *flat->wides, error);
     flat->blocks = memory_raw(blocks, sizeof *flat->blocks, error);
