@@ -9,6 +9,7 @@
 #include "accel/upper.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
     Build build;
@@ -64,17 +65,18 @@ static bool build_subtrees(Whole *whole, Error *error)
     return true;
 }
 
-static bool finish(Whole *whole, Error *error)
+static bool finish(const Whole *whole, Error *error)
 {
     Bvh *bvh = whole->build.bvh;
-    bvh->subtree_count = (uint32_t)whole->upper.subtrees.count;
-    bvh->subtrees = memory_raw(bvh->subtree_count, sizeof *bvh->subtrees, error);
-    if (bvh->subtrees == NULL)
+    bvh->upper_count = (uint32_t)whole->upper.nodes.count;
+    bvh->upper = memory_raw(bvh->upper_count, sizeof *bvh->upper, error);
+    if (bvh->upper == NULL)
         return false;
-    bvh->node_count = 1 + 2 * whole->upper.inner_count;
-    for (uint32_t i = 0; i < bvh->subtree_count; i++) {
+    if (bvh->upper_count > 0)
+        memcpy(bvh->upper, whole->upper.nodes.data, bvh->upper_count * sizeof *bvh->upper);
+    bvh->node_count = 1 + 2 * bvh->upper_count;
+    for (uint32_t i = 0; i < whole->upper.subtrees.count; i++) {
         const BuildCounts *counts = &whole->counts[i];
-        bvh->subtrees[i] = whole->upper.subtrees.data[i].node;
         bvh->node_count += counts->node_count;
         bvh->leaf_count += counts->leaf_count;
         bvh->largest_leaf =
@@ -89,7 +91,7 @@ static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
     Bvh *bvh = whole->build.bvh;
     const uint32_t total = (uint32_t)whole->build.triangles->count;
     const BuildTask root = {.count = total, .depth = 1};
-    bvh->nodes = memory_raw(2 * (size_t)total - 1, sizeof *bvh->nodes, error);
+    bvh->nodes = memory_sparse(2 * (size_t)total - 1, sizeof *bvh->nodes, error);
     bvh->order = memory_raw(total, sizeof *bvh->order, error);
     if (bvh->nodes == NULL || bvh->order == NULL)
         return false;
@@ -126,6 +128,6 @@ void bvh_free(Bvh *bvh)
 {
     free(bvh->nodes);
     free(bvh->order);
-    free(bvh->subtrees);
+    free(bvh->upper);
     *bvh = (Bvh){0};
 }

@@ -33,9 +33,9 @@ typedef struct {
 typedef struct {
     BvhNode *nodes;                  // the root first; not all of their places are in use
     uint32_t *order;                 // the triangles' numbers, leaf after leaf
-    uint32_t *subtrees;              // nodes below which work can be shared out
+    uint32_t *upper;                 // the inner nodes above the subtrees, ascending
     uint32_t node_count, leaf_count; // in use
-    uint32_t subtree_count;
+    uint32_t upper_count;
     uint32_t largest_leaf, depth; // levels; at most BVH_MAX_DEPTH
 } Bvh;
 

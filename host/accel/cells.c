@@ -5,9 +5,7 @@
 
 #include <stdlib.h>
 
-#ifndef SIDE_CELLS
-#define SIDE_CELLS 64
-#endif
+#define SIDE_CELLS 64 // along the longest side of the grid
 #define DIGIT_BITS 9
 #define DIGITS     (1 << DIGIT_BITS)
 

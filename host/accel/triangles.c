@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normalizes every vertex in fp64, rounds it once, and copies it to the triangles it is a corner of.
+// Normalizes every vertex in fp64, rounds it once, and copies it to the triangles it is a corner
+// of.
 #include "accel/triangles.h"
 
 #include <stdlib.h>

@@ -9,9 +9,7 @@
 #include <string.h>
 
 // Planes between fewer cells would be too far from the best.
-#ifndef FEWEST_CELLS
 #define FEWEST_CELLS 32
-#endif
 
 // Deeper, the triangles lie so unevenly that grids hardly divide them.
 #define DEEPEST_GRID 24
@@ -93,11 +91,11 @@ static bool divide(const Division *division, const CellTask *node, Error *error)
     BuildTask children[2];
     build_inner(division->build, &node->task, split.left, 2 * (node->task.first + split.left) - 1,
                 children);
-    division->upper->inner_count++;
     const CellTask left = {children[0], node->first_item, left_items, !node->array};
     const CellTask right = {children[1], node->first_item + left_items,
                             node->item_count - left_items, !node->array};
-    return divide(division, &left, error) && divide(division, &right, error);
+    return array_push(&division->upper->nodes, node->task.node, error) &&
+           divide(division, &left, error) && divide(division, &right, error);
 }
 
 static bool divide_node(Upper *upper, const Build *build, const BuildTask *task, Crew *crew,
@@ -117,6 +115,12 @@ static bool divide_node(Upper *upper, const Build *build, const BuildTask *task,
     return ok;
 }
 
+static int compare_numbers(const void *first, const void *second)
+{
+    const uint32_t *a = first, *b = second;
+    return *a < *b ? -1 : 1;
+}
+
 static int compare_places(const void *first, const void *second)
 {
     const BuildTask *a = first, *b = second;
@@ -133,6 +137,8 @@ bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error)
         const BuildTask task = upper->tasks.data[--upper->tasks.count];
         ok = divide_node(upper, build, &task, crew, error);
     }
+    if (ok && upper->nodes.count > 0)
+        qsort(upper->nodes.data, upper->nodes.count, sizeof(uint32_t), compare_numbers);
     if (ok)
         qsort(upper->subtrees.data, upper->subtrees.count, sizeof(BuildTask), compare_places);
     return ok;
@@ -140,6 +146,7 @@ bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error)
 
 void upper_free(Upper *upper)
 {
+    free(upper->nodes.memory);
     free(upper->subtrees.memory);
     free(upper->tasks.memory);
     *upper = (Upper){0};

@@ -7,14 +7,13 @@
 #include "base/parallel.h"
 
 // Subtrees have no more triangles, but for those that nothing divides well.
-#ifndef SUBTREE_TRIANGLES
+
 #define SUBTREE_TRIANGLES 8192
-#endif
 
 typedef struct {
-    ARRAY(BuildTask) subtrees; // in the order of their triangles
+    ARRAY(uint32_t) nodes;     // that were divided, ascending
+    ARRAY(BuildTask) subtrees; // what is left below them, in the order of their triangles
     ARRAY(BuildTask) tasks;    // nodes that are still to be divided
-    uint32_t inner_count;      // nodes above the subtrees
 } Upper;
 
 // Sorts the numbers in the tree's order so that each subtree's are together.

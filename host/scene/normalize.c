@@ -10,12 +10,12 @@ typedef struct {
 
 static void bounds_add(Bounds *bounds, Vec3 point)
 {
-    bounds->low.x = fmin(bounds->low.x, point.x);
-    bounds->low.y = fmin(bounds->low.y, point.y);
-    bounds->low.z = fmin(bounds->low.z, point.z);
-    bounds->high.x = fmax(bounds->high.x, point.x);
-    bounds->high.y = fmax(bounds->high.y, point.y);
-    bounds->high.z = fmax(bounds->high.z, point.z);
+    bounds->low.x = point.x < bounds->low.x ? point.x : bounds->low.x;
+    bounds->low.y = point.y < bounds->low.y ? point.y : bounds->low.y;
+    bounds->low.z = point.z < bounds->low.z ? point.z : bounds->low.z;
+    bounds->high.x = point.x > bounds->high.x ? point.x : bounds->high.x;
+    bounds->high.y = point.y > bounds->high.y ? point.y : bounds->high.y;
+    bounds->high.z = point.z > bounds->high.z ? point.z : bounds->high.z;
 }
 
 // Only vertices that triangles use count: a stray one must not move the frame.
