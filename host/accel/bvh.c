@@ -1,112 +1,124 @@
 // SPDX-License-Identifier: MIT
-// Divides the triangles top down.  Both children of a node are made at once and stand side by
-// side; the nodes still to divide wait on a list, so that no recursion can run out of stack.
+// Divides the triangles top down.  A node of very many triangles is sorted into cells, which are
+// divided instead of them, by all threads together; what is left below are subtrees that threads
+// build alone.  A subtree's nodes have places of their own, so that nothing depends on who builds
+// it, or when.
 #include "accel/bvh.h"
 
-#include "accel/split.h"
+#include "accel/build.h"
+#include "accel/upper.h"
 
-#include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
-    uint32_t node, first, count, depth;
-} Task;
+    Build build;
+    Crew *crew;
+    Upper upper;
+    BuildItem *items;    // for subtrees, of each worker
+    BuildCounts *counts; // of each subtree
+} Whole;
 
-typedef struct {
-    Bvh *bvh;
-    BuildItem *items;
-    uint32_t total, inner_count;
-    uint32_t (*split)(const BuildRange *);
-    ARRAY(Task) tasks;
-} Build;
-
-static BuildItem *items_of(const Triangles *triangles, Error *error)
+static void number_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
-    BuildItem *items = memory_raw(triangles->count, sizeof *items, error);
-    if (items == NULL)
-        return NULL;
-    for (size_t i = 0; i < triangles->count; i++) {
-        Box box = box_empty();
-        for (int corner = 0; corner < 3; corner++)
-            box_include_point(&box, triangles->corners[i][corner]);
-        items[i] = (BuildItem){.low = {box.low[0], box.low[1], box.low[2]},
-                               .triangle = (uint32_t)i,
-                               .high = {box.high[0], box.high[1], box.high[2]}};
-    }
-    return items;
+    const Whole *whole = context;
+    const uint32_t end = chunk_end(chunk, (uint32_t)whole->build.triangles->count);
+    (void)worker;
+    for (uint32_t place = chunk * CHUNK_ELEMENTS; place < end; place++)
+        whole->build.bvh->order[place] = place;
 }
 
-static Box box_of_items(const BuildItem *items, uint32_t count)
+static void build_small(void *context, uint32_t number, uint32_t worker)
 {
-    Box box = box_empty();
-    for (uint32_t i = 0; i < count; i++) {
-        box_include_point(&box, items[i].low);
-        box_include_point(&box, items[i].high);
-    }
-    return box;
+    const Whole *whole = context;
+    const BuildTask *root = &whole->upper.subtrees.data[number];
+    if (root->count <= SUBTREE_TRIANGLES)
+        build_subtree(&whole->build, root, whole->items + 2 * SUBTREE_TRIANGLES * (size_t)worker,
+                      &whole->counts[number]);
 }
 
-static void make_leaf(Build *build, Task task)
+// Subtrees that cells do not divide can have any size.
+static bool build_large(Whole *whole, Error *error)
 {
-    Bvh *bvh = build->bvh;
-    bvh->nodes[task.node].first = task.first;
-    bvh->nodes[task.node].count = task.count;
-    bvh->leaf_count++;
-    bvh->largest_leaf = task.count > bvh->largest_leaf ? task.count : bvh->largest_leaf;
-}
-
-static bool divide(Build *build, Task task, Error *error)
-{
-    Bvh *bvh = build->bvh;
-    BvhNode *node = &bvh->nodes[task.node];
-    bvh->depth = task.depth > bvh->depth ? task.depth : bvh->depth;
-    assert(task.depth <= BVH_MAX_DEPTH);
-    node->box = box_of_items(build->items + task.first, task.count);
-    const BuildRange range = {build->items + task.first, task.count, node->box, task.depth,
-                              build->total};
-    const uint32_t left = build->split(&range);
-    if (left == 0) {
-        make_leaf(build, task);
-        return true;
-    }
-    const uint32_t child = bvh->node_count;
-    node->first = child;
-    node->inner = build->inner_count++;
-    bvh->node_count += 2;
-    const Task tasks[2] = {{child, task.first, left, task.depth + 1},
-                           {child + 1, task.first + left, task.count - left, task.depth + 1}};
-    return array_push(&build->tasks, tasks[1], error) && array_push(&build->tasks, tasks[0], error);
-}
-
-static bool divide_all(Build *build, Error *error)
-{
-    const Task root = {0, 0, build->total, 1};
-    build->bvh->node_count = 1;
-    if (!array_push(&build->tasks, root, error))
-        return false;
-    while (build->tasks.count > 0)
-        if (!divide(build, build->tasks.data[--build->tasks.count], error))
+    for (uint32_t i = 0; i < whole->upper.subtrees.count; i++) {
+        const BuildTask *root = &whole->upper.subtrees.data[i];
+        if (root->count <= SUBTREE_TRIANGLES)
+            continue;
+        BuildItem *items = memory_raw(2 * (size_t)root->count, sizeof *items, error);
+        if (items == NULL)
             return false;
-    for (uint32_t place = 0; place < build->total; place++)
-        build->bvh->order[place] = build->items[place].triangle;
+        build_subtree(&whole->build, root, items, &whole->counts[i]);
+        free(items);
+    }
     return true;
 }
 
-bool bvh_build(Bvh *bvh, const Triangles *triangles, BvhBuilder builder, Error *error)
+static bool build_subtrees(Whole *whole, Error *error)
+{
+    const uint32_t count = (uint32_t)whole->upper.subtrees.count;
+    whole->counts = memory_zeroed(count, sizeof *whole->counts, error);
+    whole->items = memory_raw(2 * SUBTREE_TRIANGLES * (size_t)crew_size(whole->crew),
+                              sizeof *whole->items, error);
+    if (whole->counts == NULL || whole->items == NULL || !build_large(whole, error))
+        return false;
+    crew_run(whole->crew, count, build_small, whole);
+    return true;
+}
+
+static bool finish(const Whole *whole, Error *error)
+{
+    Bvh *bvh = whole->build.bvh;
+    bvh->upper_count = (uint32_t)whole->upper.nodes.count;
+    bvh->upper = memory_raw(bvh->upper_count, sizeof *bvh->upper, error);
+    if (bvh->upper == NULL)
+        return false;
+    if (bvh->upper_count > 0)
+        memcpy(bvh->upper, whole->upper.nodes.data, bvh->upper_count * sizeof *bvh->upper);
+    bvh->node_count = 1 + 2 * bvh->upper_count;
+    for (uint32_t i = 0; i < whole->upper.subtrees.count; i++) {
+        const BuildCounts *counts = &whole->counts[i];
+        bvh->node_count += counts->node_count;
+        bvh->leaf_count += counts->leaf_count;
+        bvh->largest_leaf =
+            counts->largest_leaf > bvh->largest_leaf ? counts->largest_leaf : bvh->largest_leaf;
+        bvh->depth = counts->depth > bvh->depth ? counts->depth : bvh->depth;
+    }
+    return true;
+}
+
+static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
+{
+    Bvh *bvh = whole->build.bvh;
+    const uint32_t total = (uint32_t)whole->build.triangles->count;
+    const BuildTask root = {.count = total, .depth = 1};
+    bvh->nodes = memory_sparse(2 * (size_t)total - 1, sizeof *bvh->nodes, error);
+    bvh->order = memory_raw(total, sizeof *bvh->order, error);
+    if (bvh->nodes == NULL || bvh->order == NULL)
+        return false;
+    crew_run(whole->crew, chunk_count(total), number_chunk, whole);
+    // The midpoint split is kept as it is known, by triangles alone.
+    const bool ok = builder == BVH_MIDPOINT
+                        ? array_push(&whole->upper.subtrees, root, error)
+                        : upper_divide(&whole->upper, &whole->build, whole->crew, error);
+    return ok && build_subtrees(whole, error) && finish(whole, error);
+}
+
+bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
+               Error *error)
 {
     *bvh = (Bvh){0};
     if (triangles->count == 0)
         return true;
-    Build build = {.bvh = bvh,
-                   .total = (uint32_t)triangles->count,
-                   .split = builder == BVH_MIDPOINT ? split_midpoint : split_sah};
-    bvh->nodes = memory_zeroed(2 * triangles->count, sizeof *bvh->nodes, error);
-    bvh->order = memory_raw(triangles->count, sizeof *bvh->order, error);
-    build.items = items_of(triangles, error);
-    const bool ok = bvh->nodes != NULL && bvh->order != NULL && build.items != NULL &&
-                    divide_all(&build, error);
-    free(build.items);
-    free(build.tasks.memory);
+    Whole whole = {
+        .build = {.bvh = bvh,
+                  .triangles = triangles,
+                  .split = settings->builder == BVH_MIDPOINT ? split_midpoint : split_sah,
+                  .leaves = settings->leaves},
+        .crew = crew};
+    const bool ok = build_all(&whole, settings->builder, error);
+    upper_free(&whole.upper);
+    free(whole.items);
+    free(whole.counts);
     if (!ok)
         bvh_free(bvh);
     return ok;
@@ -116,5 +128,6 @@ void bvh_free(Bvh *bvh)
 {
     free(bvh->nodes);
     free(bvh->order);
+    free(bvh->upper);
     *bvh = (Bvh){0};
 }

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Triangles -> Bvh: a binary tree of boxes with triangles in its leaves (Rubin and Whitted,
 // "A 3-dimensional representation for fast rendering of complex scenes", 1980).
-// The same triangles give the same tree, always.
+// The same triangles give the same tree, always, whatever the number of threads.
 #pragma once
 
 #include "accel/triangles.h"
 
 typedef enum { BVH_SAH, BVH_MIDPOINT } BvhBuilder;
+
+// What a leaf costs to test, which decides how large the surface area heuristic makes it.
+typedef enum {
+    LEAVES_SINGLE, // its triangles one by one
+    LEAVES_BLOCKS  // blocks of WIDE triangles, a block at once
+} BvhLeaves;
+
+typedef struct {
+    BvhBuilder builder;
+    BvhLeaves leaves;
+} BvhSettings;
 
 typedef struct {
     float low[3], high[3];
@@ -17,16 +28,18 @@ typedef struct {
 typedef struct {
     Box box; // exactly around the triangles below
     uint32_t first, count;
-    uint32_t inner; // number among the inner nodes, in the order they were divided; the root's is 0
 } BvhNode;
 
 typedef struct {
-    BvhNode *nodes;  // node_count of them, the root first, children behind their parents
-    uint32_t *order; // the triangles' numbers, leaf after leaf
-    uint32_t node_count, leaf_count;
+    BvhNode *nodes;                  // the root first; not all of their places are in use
+    uint32_t *order;                 // the triangles' numbers, leaf after leaf
+    uint32_t *upper;                 // the inner nodes above the subtrees, ascending
+    uint32_t node_count, leaf_count; // in use
+    uint32_t upper_count;
     uint32_t largest_leaf, depth; // levels; at most BVH_MAX_DEPTH
 } Bvh;
 
 // Builds the tree; without triangles it has no nodes.
-bool bvh_build(Bvh *bvh, const Triangles *triangles, BvhBuilder builder, Error *error);
+bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
+               Error *error);
 void bvh_free(Bvh *bvh);

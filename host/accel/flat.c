@@ -3,10 +3,16 @@
 // lay out.
 #include "accel/flat.h"
 
+#include "accel/flat_looks.h"
 #include "accel/flat_pair.h"
 #include "accel/flat_wide.h"
 
 #include <stdlib.h>
+
+BvhLeaves flat_leaves(NodeLayout layout)
+{
+    return layout == NODES_WIDE ? LEAVES_BLOCKS : LEAVES_SINGLE;
+}
 
 static void split_float(double value, float *high, float *low)
 {
@@ -34,72 +40,6 @@ static void flatten_light(PointLight *data, const Light *light, const Normalizat
     data->intensity = (float)light->intensity;
 }
 
-static Vec3 mesh_corner(const Mesh *mesh, const uint32_t *triangle, int corner)
-{
-    const double *p = mesh->positions[triangle[corner]];
-    return vec3(p[0], p[1], p[2]);
-}
-
-static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
-{
-    const Vec3 a = mesh_corner(mesh, triangle, 0);
-    const Vec3 first = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 1), a));
-    const Vec3 second = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 2), a));
-    return vec3_normalize(vec3_cross(first, second));
-}
-
-static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
-{
-    const float *n = mesh->normals[triangle[corner]];
-    const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
-    return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
-}
-
-// The lengths of a triangle's normals weigh them against each other, so they are kept; a power of
-// two common to the three keeps their squares in range.
-static void flatten_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle)
-{
-    Vec3 normals[3];
-    double extent = 0;
-    for (int corner = 0; corner < 3; corner++) {
-        normals[corner] = corner_normal(mesh, triangle, corner);
-        extent = fmax(extent, vec3_extent(normals[corner]));
-    }
-    const double scale = extent > 0 ? scalbn(1, -ilogb(extent)) : 1;
-    for (int corner = 0; corner < 3; corner++) {
-        data->normals[corner][0] = (float)(normals[corner].x * scale);
-        data->normals[corner][1] = (float)(normals[corner].y * scale);
-        data->normals[corner][2] = (float)(normals[corner].z * scale);
-    }
-}
-
-static bool object_is_smooth(const MeshObject *object)
-{
-    return object->smooth && object->mesh.normals != NULL;
-}
-
-// A look carries the mark of two-sided triangles until the layout moves it to its place.
-static void flatten_object(FlatScene *flat, const MeshObject *object, TriangleLook *looks)
-{
-    for (size_t i = 0; i < object->mesh.triangle_count; i++) {
-        looks[i].material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
-        looks[i].normals = NOTHING;
-        if (!object_is_smooth(object))
-            continue;
-        looks[i].normals = flat->normals_count++;
-        flatten_normals(&flat->normals[looks[i].normals], &object->mesh, object->mesh.triangles[i]);
-    }
-}
-
-static size_t smooth_triangle_count(const Scene *scene)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < scene->objects.count; i++)
-        if (object_is_smooth(&scene->objects.data[i]))
-            count += scene->objects.data[i].mesh.triangle_count;
-    return count;
-}
-
 static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
 {
     flat->light_count = (uint32_t)scene->lights.count;
@@ -109,10 +49,7 @@ static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
     flat->lights = memory_zeroed(flat->light_count, sizeof *flat->lights, error);
     flat->materials = memory_zeroed(flat->material_count, sizeof *flat->materials, error);
     flat->spheres = memory_zeroed(flat->sphere_count, sizeof *flat->spheres, error);
-    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
-    flat->normals = memory_zeroed(smooth_triangle_count(scene), sizeof *flat->normals, error);
-    return flat->lights != NULL && flat->materials != NULL && flat->spheres != NULL &&
-           flat->looks != NULL && flat->normals != NULL;
+    return flat->lights != NULL && flat->materials != NULL && flat->spheres != NULL;
 }
 
 static void flatten_constants(FlatScene *flat, const Scene *scene)
@@ -125,32 +62,26 @@ static void flatten_constants(FlatScene *flat, const Scene *scene)
         flat->materials[i] = scene->materials.data[i];
 }
 
-static void flatten_objects(FlatScene *flat, const Scene *scene)
+static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
 {
-    TriangleLook *next = flat->looks;
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        flatten_object(flat, &scene->objects.data[i], next);
-        next += scene->objects.data[i].mesh.triangle_count;
-    }
+    const Scene *scene = source->scene;
+    const Normalization *normalization = source->normalization;
+    if (!allocate(flat, scene, error))
+        return false;
+    flatten_constants(flat, scene);
+    for (uint32_t i = 0; i < flat->light_count; i++)
+        flatten_light(&flat->lights[i], &scene->lights.data[i], normalization);
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], normalization);
+    return flat_looks_make(flat, source, error) &&
+           (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
+                                         : flat_pair_make(flat, source, error));
 }
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
-    const Scene *scene = source->scene;
-    const Normalization normalization = normalization_of(scene);
     *flat = (FlatScene){.layout = source->layout};
-    if (!allocate(flat, scene, error)) {
-        flat_free(flat);
-        return false;
-    }
-    flatten_constants(flat, scene);
-    for (uint32_t i = 0; i < flat->light_count; i++)
-        flatten_light(&flat->lights[i], &scene->lights.data[i], &normalization);
-    for (uint32_t i = 0; i < flat->sphere_count; i++)
-        flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], &normalization);
-    flatten_objects(flat, scene);
-    if (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
-                                     : flat_pair_make(flat, source, error))
+    if (make_all(flat, source, error))
         return true;
     flat_free(flat);
     return false;

@@ -34,8 +34,13 @@ typedef struct {
     const Scene *scene;
     const Triangles *triangles;
     const Bvh *bvh;
+    const Normalization *normalization; // of the scene
     NodeLayout layout;
+    Crew *crew; // to share the work, NULL for none
 } FlatSource;
+
+// The leaves that suit a layout.
+BvhLeaves flat_leaves(NodeLayout layout);
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inner nodes keep the order in which the builder divided them.
+// Inner nodes are numbered depth first.  Recursion is bounded by the levels of the tree.
 #include "accel/flat_pair.h"
 
 #include "accel/slack.h"
@@ -33,35 +33,34 @@ static void write_missing(BvhPair *pair, int child)
     pair->count[child] = 1;
 }
 
-static void write_child(BvhPair *pair, int child, const BvhNode *node)
+// Writes the pair of an inner node and those below it, depth first, and returns how many there are
+// then.
+static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, const BvhNode *node)
 {
-    write_planes(pair, child, &node->box);
-    pair->count[child] = node->count;
-    pair->first[child] = node->count > 0 ? node->first : node->inner;
-}
-
-static void write_inner(BvhPair *pairs, const Bvh *bvh)
-{
-    for (uint32_t i = 0; i < bvh->node_count; i++) {
-        const BvhNode *node = &bvh->nodes[i];
-        if (node->count > 0)
-            continue;
-        for (uint32_t side = 0; side < 2; side++)
-            write_child(&pairs[node->inner], (int)side, &bvh->nodes[node->first + side]);
+    uint32_t count = number + 1;
+    for (int side = 0; side < 2; side++) {
+        const BvhNode *child = &bvh->nodes[node->first + (uint32_t)side];
+        write_planes(&pairs[number], side, &child->box);
+        pairs[number].count[side] = child->count;
+        pairs[number].first[side] = child->count > 0 ? child->first : count;
+        if (child->count == 0)
+            count = write_inner(pairs, count, bvh, child);
     }
+    return count;
 }
 
 void flat_pair_write(BvhPair *pairs, const Bvh *bvh)
 {
     if (bvh->node_count == 0)
         return;
-    if (bvh->nodes[0].count > 0) {
-        pairs[0] = (BvhPair){0};
-        write_child(&pairs[0], 0, &bvh->nodes[0]);
-        write_missing(&pairs[0], 1);
+    if (bvh->nodes[0].count == 0) {
+        write_inner(pairs, 0, bvh, &bvh->nodes[0]);
         return;
     }
-    write_inner(pairs, bvh);
+    write_planes(&pairs[0], 0, &bvh->nodes[0].box);
+    pairs[0].first[0] = pairs[0].first[1] = 0;
+    pairs[0].count[0] = bvh->nodes[0].count;
+    write_missing(&pairs[0], 1);
 }
 
 static void place_triangles(FlatScene *flat, const FlatSource *source)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Collapses the binary tree: a wide node starts with a binary node's two children and opens the one
-// with the largest surface, the likeliest to be met, until it has eight.  Nodes are written depth
-// first, and so are the blocks.
+// with the largest surface, the likeliest to be met, until it has eight.  One walk through the
+// upper levels finds the wide nodes below them; threads count what each of these will take with all
+// that is below, and then write it to its place.  Nodes are written depth first, and so are the
+// blocks.
 #include "accel/flat_wide.h"
 
 #include "accel/box.h"
@@ -10,37 +12,61 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A part of the tree that is to become a child: a node, or some of the triangles of a leaf that is
-// too large for one block.
+// A part of the tree that is to become a child: a node, or triangles of a leaf, which may be too
+// many for one block.
 typedef struct {
     Box box;
-    uint32_t node;         // NOTHING for triangles
-    uint32_t first, count; // places of the order
+    float area;
+    uint32_t node;
+    uint32_t first, count; // places of the triangles, for a leaf
 } Part;
+
+// How much of the arrays something takes, or where it begins.
+typedef struct {
+    uint32_t nodes, blocks;
+} Extent;
+
+// A wide node, not of the upper levels, below one that is.
+typedef struct {
+    Part part;
+    Extent extent; // of it and all below; then where they begin
+} Branch;
 
 typedef struct {
     FlatScene *flat;
     const FlatSource *source;
+    ARRAY(Branch) branches;
 } Collapse;
+
+// A walk through the upper levels ends at the branches, one through a branch at the blocks.
+typedef struct {
+    Collapse *collapse;
+    bool is_upper;
+    Extent next;
+    uint32_t next_branch;
+} Walk;
+
+static bool is_block(const Part *part)
+{
+    return part->count > 0 && part->count <= WIDE;
+}
 
 static Part part_of(const Bvh *bvh, uint32_t number)
 {
     const BvhNode *node = &bvh->nodes[number];
-    if (node->count > 0)
-        return (Part){node->box, NOTHING, node->first, node->count};
-    return (Part){.box = node->box, .node = number};
-}
-
-static bool is_block(const Part *part)
-{
-    return part->node == NOTHING && part->count <= WIDE;
+    Part part = {.box = node->box, .area = box_half_area(&node->box), .node = number};
+    if (node->count > 0) {
+        part.first = node->first;
+        part.count = node->count;
+    }
+    return part;
 }
 
 // Replaces a part by its halves.
 static void open_part(const Bvh *bvh, Part *part, Part *second)
 {
     const Part whole = *part;
-    if (whole.node != NOTHING) {
+    if (whole.count == 0) {
         const uint32_t child = bvh->nodes[whole.node].first;
         *part = part_of(bvh, child);
         *second = part_of(bvh, child + 1);
@@ -57,8 +83,7 @@ static int largest_part(const Part *parts, uint32_t count)
 {
     int largest = -1;
     for (uint32_t i = 0; i < count; i++)
-        if (!is_block(&parts[i]) &&
-            (largest < 0 || box_half_area(&parts[i].box) > box_half_area(&parts[largest].box)))
+        if (!is_block(&parts[i]) && (largest < 0 || parts[i].area > parts[largest].area))
             largest = (int)i;
     return largest;
 }
@@ -67,13 +92,46 @@ static int largest_part(const Part *parts, uint32_t count)
 static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
 {
     uint32_t count = 1;
-    for (int largest = 0; count < WIDE; count++) {
-        largest = largest_part(parts, count);
+    while (count < WIDE) {
+        const int largest = largest_part(parts, count);
         if (largest < 0)
             break;
         open_part(bvh, &parts[largest], &parts[count]);
+        count++;
     }
     return count;
+}
+
+static int compare_numbers(const void *first, const void *second)
+{
+    const uint32_t *a = first, *b = second;
+    return (*a > *b) - (*a < *b);
+}
+
+// Whether an upper walk leaves the part to another one.
+static bool is_branch(const Walk *walk, const Part *part)
+{
+    const Bvh *bvh = walk->collapse->source->bvh;
+    return walk->is_upper && bsearch(&part->node, bvh->upper, bvh->upper_count, sizeof part->node,
+                                     compare_numbers) == NULL;
+}
+
+// Recursion is bounded by the levels of the binary tree.
+static bool count_node(Walk *walk, const Part *part, Error *error)
+{
+    Collapse *collapse = walk->collapse;
+    Part parts[WIDE] = {*part};
+    if (is_branch(walk, part))
+        return array_push(&collapse->branches, (Branch){.part = *part}, error);
+    const uint32_t count = gather_children(collapse->source->bvh, parts);
+    bool ok = true;
+    walk->next.nodes++;
+    for (uint32_t child = 0; ok && child < count; child++)
+        if (is_block(&parts[child]))
+            walk->next.blocks++;
+        else
+            ok = count_node(walk, &parts[child], error);
+    return ok;
 }
 
 static void write_planes(BvhWide *wide, uint32_t child, const Box *box)
@@ -92,92 +150,156 @@ static void write_missing(BvhWide *wide, uint32_t child)
         wide->planes[axis][0][child] = 0x1p100f;
         wide->planes[axis][1][child] = -0x1p100f;
     }
+    wide->child[child] = 0;
 }
 
-// Appends a block of the triangles at places [first, first + count) of the order.
-static uint32_t write_block(const Collapse *collapse, uint32_t first, uint32_t count)
+// Fills a block from the triangles at places [first, first + count) of the order.
+static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
 {
-    FlatScene *flat = collapse->flat;
+    const FlatScene *flat = collapse->flat;
     const uint32_t *order = collapse->source->bvh->order;
-    TriangleBlock *block = &flat->blocks[flat->block_count];
-    memset(block, 0, sizeof *block);
-    for (uint32_t i = 0; i < WIDE; i++)
-        block->id[i] = NOTHING;
+    TriangleBlock *block = &flat->blocks[number];
+    if (count < WIDE)
+        memset(block, 0, sizeof *block);
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t number = order == NULL ? first + i : order[first + i];
+        const uint32_t triangle = order == NULL ? first + i : order[first + i];
+        const float(*corners)[3] =
+            (const float(*)[3])collapse->source->triangles->corners[triangle];
         for (int corner = 0; corner < 3; corner++)
             for (int axis = 0; axis < 3; axis++)
-                block->corners[corner][axis][i] =
-                    collapse->source->triangles->corners[number][corner][axis];
+                block->corners[corner][axis][i] = corners[corner][axis];
         block->id[i] =
-            (flat->sphere_count + number) | (flat->looks[number].material & TRIANGLE_TWO_SIDED);
+            (flat->sphere_count + triangle) | (flat->looks[triangle].material & TRIANGLE_TWO_SIDED);
     }
-    return flat->block_count++;
+    for (uint32_t i = count; i < WIDE; i++)
+        block->id[i] = NOTHING;
 }
 
-// Recursion is bounded by the levels of the binary tree.
-static uint32_t write_node(const Collapse *collapse, const Part *part)
+// Returns the child's word.
+static uint32_t write_block(Walk *walk, uint32_t first, uint32_t count)
 {
+    fill_block(walk->collapse, walk->next.blocks, first, count);
+    return WIDE_LEAF | walk->next.blocks++;
+}
+
+// Returns the node's number.
+static uint32_t write_node(Walk *walk, const Part *part)
+{
+    const Collapse *collapse = walk->collapse;
     Part parts[WIDE] = {*part};
-    FlatScene *flat = collapse->flat;
-    const uint32_t number = flat->node_count++;
-    BvhWide *wide = &flat->wides[number];
-    memset(wide, 0, sizeof *wide);
+    if (is_branch(walk, part))
+        return collapse->branches.data[walk->next_branch++].extent.nodes;
+    const uint32_t number = walk->next.nodes++;
+    BvhWide *wide = &collapse->flat->wides[number];
+    memset(wide->padding, 0, sizeof wide->padding);
     wide->child_count = gather_children(collapse->source->bvh, parts);
     for (uint32_t child = 0; child < wide->child_count; child++) {
         write_planes(wide, child, &parts[child].box);
         if (is_block(&parts[child]))
-            wide->child[child] =
-                WIDE_LEAF | write_block(collapse, parts[child].first, parts[child].count);
+            wide->child[child] = write_block(walk, parts[child].first, parts[child].count);
+        else
+            wide->child[child] = write_node(walk, &parts[child]);
     }
     for (uint32_t child = wide->child_count; child < WIDE; child++)
         write_missing(wide, child);
-    for (uint32_t child = 0; child < wide->child_count; child++)
-        if (!is_block(&parts[child]))
-            wide->child[child] = write_node(collapse, &parts[child]);
     return number;
 }
 
-static uint32_t blocks_for(uint32_t triangle_count)
+static void count_branch(void *context, uint32_t number, uint32_t worker)
 {
-    return (triangle_count + WIDE - 1) / WIDE;
+    Collapse *collapse = context;
+    Branch *branch = &collapse->branches.data[number];
+    Walk walk = {.collapse = collapse};
+    Error none = {0}; // only upper walks can fail
+    (void)worker;
+    count_node(&walk, &branch->part, &none);
+    branch->extent = walk.next;
 }
 
-static uint32_t count_blocks(const Bvh *bvh)
+static void write_branch(void *context, uint32_t number, uint32_t worker)
 {
-    uint32_t blocks = 0;
-    for (uint32_t i = 0; i < bvh->node_count; i++)
-        blocks += blocks_for(bvh->nodes[i].count);
-    return blocks;
+    Collapse *collapse = context;
+    const Branch *branch = &collapse->branches.data[number];
+    Walk walk = {.collapse = collapse, .next = branch->extent};
+    (void)worker;
+    write_node(&walk, &branch->part);
 }
 
-// Gives back what a generous estimate took too much; failing to is no harm.
-static void *trimmed(void *memory, size_t size)
+// Turns what the branches take into where they begin, behind the upper nodes and their blocks.
+static void place_branches(Collapse *collapse, Extent next)
 {
-    void *smaller = realloc(memory, size > 0 ? size : 1);
-    return smaller != NULL ? smaller : memory;
+    for (size_t i = 0; i < collapse->branches.count; i++) {
+        Branch *branch = &collapse->branches.data[i];
+        const Extent extent = branch->extent;
+        branch->extent = next;
+        next.nodes += extent.nodes;
+        next.blocks += extent.blocks;
+    }
+    collapse->flat->node_count = next.nodes;
+    collapse->flat->block_count = next.blocks;
+}
+
+static bool allocate(FlatScene *flat, Error *error)
+{
+    flat->wides = memory_raw(flat->node_count, sizeof *flat->wides, error);
+    flat->blocks = memory_raw(flat->block_count, sizeof *flat->blocks, error);
+    return flat->wides != NULL && flat->blocks != NULL;
+}
+
+static bool collapse_tree(Collapse *collapse, Error *error)
+{
+    Crew *crew = collapse->source->crew;
+    // Without upper levels the root is a branch, and a lone block needs a node all the same.
+    const Part root = part_of(collapse->source->bvh, 0);
+    Walk upper = {.collapse = collapse, .is_upper = true};
+    if (!count_node(&upper, &root, error))
+        return false;
+    const uint32_t branches = (uint32_t)collapse->branches.count;
+    crew_run(crew, branches, count_branch, collapse);
+    place_branches(collapse, upper.next);
+    if (!allocate(collapse->flat, error))
+        return false;
+    upper.next = (Extent){0};
+    write_node(&upper, &root);
+    crew_run(crew, branches, write_branch, collapse);
+    return true;
+}
+
+static void write_list_chunk(void *context, uint32_t chunk, uint32_t worker)
+{
+    const Collapse *collapse = context;
+    const uint32_t end = chunk_end(chunk, collapse->flat->triangle_count);
+    (void)worker;
+    for (uint32_t first = chunk * CHUNK_ELEMENTS; first < end; first += WIDE)
+        fill_block(collapse, first / WIDE, first, end - first < WIDE ? end - first : WIDE);
+}
+
+static bool write_list(Collapse *collapse, Error *error)
+{
+    FlatScene *flat = collapse->flat;
+    flat->block_count = (flat->triangle_count + WIDE - 1) / WIDE;
+    if (!allocate(flat, error))
+        return false;
+    crew_run(collapse->source->crew, chunk_count(flat->triangle_count), write_list_chunk, collapse);
+    return true;
+}
+
+static void unmark_chunk(void *context, uint32_t chunk, uint32_t worker)
+{
+    const FlatScene *flat = context;
+    const uint32_t end = chunk_end(chunk, flat->triangle_count);
+    (void)worker;
+    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
+        flat->looks[i].material &= ~TRIANGLE_TWO_SIDED;
 }
 
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
-    const Collapse collapse = {flat, source};
-    const Bvh *bvh = source->bvh;
-    const bool has_tree = bvh->node_count > 0;
-    const uint32_t blocks = has_tree ? count_blocks(bvh) : blocks_for(flat->triangle_count);
-    // Each wide node but a lone one stands for at least one binary node between blocks.
-    flat->wides = memory_raw(has_tree ? blocks : 0, sizeof *flat->wides, error);
-    flat->blocks = memory_raw(blocks, sizeof *flat->blocks, error);
-    if (flat->wides == NULL || flat->blocks == NULL)
-        return false;
-    if (has_tree) {
-        const Part root = part_of(bvh, 0);
-        write_node(&collapse, &root);
-    }
-    for (uint32_t first = 0; !has_tree && first < flat->triangle_count; first += WIDE)
-        write_block(&collapse, first,
-                    flat->triangle_count - first < WIDE ? flat->triangle_count - first : WIDE);
-    for (uint32_t i = 0; i < flat->triangle_count; i++)
-        flat->looks[i].material &= ~TRIANGLE_TWO_SIDED;
-    flat->wides = trimmed(flat->wides, flat->node_count * sizeof *flat->wides);
-    return true;
+    Collapse collapse = {.flat = flat, .source = source};
+    const bool ok = source->bvh->node_count > 0 ? collapse_tree(&collapse, error)
+                                                : write_list(&collapse, error);
+    free(collapse.branches.memory);
+    if (ok)
+        crew_run(source->crew, chunk_count(flat->triangle_count), unmark_chunk, flat);
+    return ok;
 }

@@ -2,31 +2,38 @@
 // How a builder divides the triangles of a node: one function for each builder.
 #pragma once
 
-#include "accel/box.h"
-
-// A triangle as builders move it about: its box and number, 32 bytes.
-typedef struct {
-    float low[3];
-    uint32_t triangle;
-    float high[3];
-    uint32_t padding; // keeps two of them in a cache line
-} BuildItem;
+#include "accel/bounds.h"
 
 typedef struct {
-    BuildItem *items; // the node's own; reordered by a split
-    uint32_t count;
-    Box box;        // around the items
-    uint32_t depth; // of the node; the root's is 1
-    uint32_t total; // items in the whole tree
+    const BuildItem *items; // of the node
+    uint32_t count;         // of items
+    uint32_t weight;        // of all items: triangles
+    Bounds box;             // around the items
+    Bounds centers;         // around their doubled centers
+    uint32_t depth;         // of the node; the root's is 1
+    uint32_t total;         // triangles in the whole tree
+    BvhLeaves leaves;
 } BuildRange;
 
-// Each reorders range->items and returns how many of them go to the left child, or 0 where the
-// node had better stay a leaf.  Both are deterministic and keep no state.
-uint32_t split_midpoint(const BuildRange *range);
-uint32_t split_sah(const BuildRange *range);
+typedef enum {
+    SPLIT_NONE,  // the node is a leaf
+    SPLIT_PLANE, // items left of a plane and right of it
+    SPLIT_HALVES // as many items on one side as on the other
+} SplitKind;
 
-// The center of an item on an axis, doubled.
-static inline float item_center(const BuildItem *item, int axis)
+// An item is left of the plane if (its doubled center - origin) * scale < limit.
+typedef struct {
+    SplitKind kind;
+    int axis;
+    float origin, scale, limit;
+    uint32_t left; // weight of the items that are: some, and not all
+} Split;
+
+// Both are deterministic and keep no state.
+Split split_midpoint(const BuildRange *range);
+Split split_sah(const BuildRange *range);
+
+static inline bool split_is_left(const Split *split, const BuildItem *item)
 {
-    return item->low[axis] + item->high[axis];
+    return (item_center(item, split->axis) - split->origin) * split->scale < split->limit;
 }

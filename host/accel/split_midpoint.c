@@ -16,62 +16,46 @@ static uint32_t deepest_level(uint32_t triangle_count)
     return 10 + 1 + levels;
 }
 
-static void axes_by_extent(const Box *box, int axes[3])
+static void axes_by_extent(const Bounds *box, int axes[3])
 {
-    float extent[3];
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 3; axis++)
         axes[axis] = axis;
-        extent[axis] = box->high[axis] - box->low[axis];
-    }
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < 2; i++)
-            if (extent[axes[i]] < extent[axes[i + 1]]) {
+            if (bounds_extent(box, axes[i]) < bounds_extent(box, axes[i + 1])) {
                 const int longer = axes[i + 1];
                 axes[i + 1] = axes[i];
                 axes[i] = longer;
             }
 }
 
-static uint32_t partition(BuildItem *items, uint32_t count, int axis, float doubled_plane)
+// Whether both sides get items and become smaller than the whole.
+static bool makes_progress(const BuildRange *range, Split *split)
 {
-    uint32_t left = 0, right = count;
-    while (left < right) {
-        if (item_center(&items[left], axis) <= doubled_plane) {
-            left++;
-        } else {
-            right--;
-            const BuildItem swapped = items[left];
-            items[left] = items[right];
-            items[right] = swapped;
-        }
+    const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);
+    Bounds sides[2] = {bounds_empty(), bounds_empty()};
+    uint32_t weights[2] = {0};
+    for (uint32_t i = 0; i < range->count; i++) {
+        const bool left = split_is_left(split, &range->items[i]);
+        bounds_unite(&sides[left], &range->items[i].bounds);
+        weights[left] += range->items[i].weight;
     }
-    return left;
+    split->left = weights[1];
+    return weights[0] > 0 && weights[1] > 0 && bounds_extent(&sides[0], split->axis) <= largest &&
+           bounds_extent(&sides[1], split->axis) <= largest;
 }
 
-static float extent_of(const BuildItem *items, uint32_t count, int axis)
+Split split_midpoint(const BuildRange *range)
 {
-    float low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-        low = items[i].low[axis] < low ? items[i].low[axis] : low;
-        high = items[i].high[axis] > high ? items[i].high[axis] : high;
-    }
-    return high - low;
-}
-
-uint32_t split_midpoint(const BuildRange *range)
-{
-    if (range->count <= LEAF_TRIANGLES || range->depth >= deepest_level(range->total))
-        return 0;
+    if (range->weight <= LEAF_TRIANGLES || range->depth >= deepest_level(range->total))
+        return (Split){.kind = SPLIT_NONE};
     int axes[3];
     axes_by_extent(&range->box, axes);
     for (int i = 0; i < 3; i++) {
-        const int axis = axes[i];
-        const float largest = SMALLEST_PROGRESS * (range->box.high[axis] - range->box.low[axis]);
-        const uint32_t left = partition(range->items, range->count, axis,
-                                        range->box.low[axis] + range->box.high[axis]);
-        if (left > 0 && left < range->count && extent_of(range->items, left, axis) <= largest &&
-            extent_of(range->items + left, range->count - left, axis) <= largest)
-            return left;
+        const float doubled_middle = range->box.low[axes[i]] - range->box.negated_high[axes[i]];
+        Split split = {SPLIT_PLANE, axes[i], 0, 1, nextafterf(doubled_middle, INFINITY), 0};
+        if (makes_progress(range, &split))
+            return split;
     }
-    return 0;
+    return (Split){.kind = SPLIT_NONE};
 }

@@ -8,148 +8,126 @@
 
 #define BINS 16
 
-// In triangle tests.  Reading a node and testing both its boxes costs about what one triangle
-// does; leaves past the limit are divided whatever the estimate says.
-#define NODE_COST          1.0f
-#define LARGEST_LEAF       8
-#define MEDIAN_SPLIT_DEPTH 32 // deeper, halving bounds what an unlucky distribution can cost
+// What a leaf of single triangles may hold.
+#define LARGEST_LEAF 8
+
+// Deeper, halving bounds what an unlucky distribution can cost.
+#define MEDIAN_SPLIT_DEPTH 32
+
+// Prices are in tests of a leaf's unit, which is one triangle or a block of them.
+typedef struct {
+    uint32_t unit; // triangles
+    float node;    // reading a node and testing both its boxes
+} Costs;
+
+static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 1.0f}, [LEAVES_BLOCKS] = {WIDE, 0.3f}};
 
 typedef struct {
-    Box box;
-    uint32_t count;
-} Bin;
+    Bounds bounds[3][BINS];
+    uint32_t weights[3][BINS];
+} Bins;
+
+// Bin = (doubled center - origin) * scale; the scale is zero on an axis without extent.
+typedef struct {
+    Float4 origin, scale;
+} Binning;
 
 typedef struct {
     int axis; // -1 while none was found
     int bin;  // the first bin of the right side
+    uint32_t left;
     float cost;
 } Plane;
 
-typedef struct {
-    float origin, scale; // bin = (doubled center - origin) * scale
-} Binning;
-
-static Binning binning_of(const Box *centers, int axis)
+static float price(const Costs *costs, const Bounds *bounds, uint32_t weight)
 {
-    const float extent = centers->high[axis] - centers->low[axis];
-    const float scale = (float)BINS * 0.999999f / extent;
-    return (Binning){centers->low[axis], extent > 0 && scale < INFINITY ? scale : 0};
+    return bounds_half_area(bounds) * (float)((weight + costs->unit - 1) / costs->unit);
 }
 
-static int bin_of(const BuildItem *item, int axis, Binning binning)
+static Binning binning_of(const Bounds *centers)
 {
-    return (int)((item_center(item, axis) - binning.origin) * binning.scale);
-}
-
-static Box center_bounds(const BuildRange *range)
-{
-    Box centers = box_empty();
-    for (uint32_t i = 0; i < range->count; i++) {
-        const BuildItem *item = &range->items[i];
-        const float center[3] = {item_center(item, 0), item_center(item, 1), item_center(item, 2)};
-        box_include_point(&centers, center);
+    Binning binning = {centers->low, {0}};
+    for (int axis = 0; axis < 3; axis++) {
+        const float extent = bounds_extent(centers, axis);
+        const float scale = (float)BINS * 0.999999f / extent;
+        binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
-    return centers;
+    binning.origin[3] = 1; // far from the item numbers there, which are denormal numbers
+    return binning;
 }
 
-static void fill_bins(Bin bins[BINS], const BuildRange *range, int axis, Binning binning)
+static void clear_bins(Bins *bins)
 {
-    for (int i = 0; i < BINS; i++)
-        bins[i] = (Bin){box_empty(), 0};
+    for (int axis = 0; axis < 3; axis++)
+        for (int bin = 0; bin < BINS; bin++) {
+            bins->bounds[axis][bin] = bounds_empty();
+            bins->weights[axis][bin] = 0;
+        }
+}
+
+static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binning)
+{
     for (uint32_t i = 0; i < range->count; i++) {
-        const BuildItem *item = &range->items[i];
-        Bin *bin = &bins[bin_of(item, axis, binning)];
-        box_include_point(&bin->box, item->low);
-        box_include_point(&bin->box, item->high);
-        bin->count++;
+        const Bounds bounds = range->items[i].bounds;
+        const Float4 place = (bounds.low - bounds.negated_high - binning->origin) * binning->scale;
+        for (int axis = 0; axis < 3; axis++) {
+            const int bin = (int)place[axis];
+            bounds_unite(&bins->bounds[axis][bin], &bounds);
+            bins->weights[axis][bin] += range->items[i].weight;
+        }
     }
 }
 
 // Sweeps once from the right, to know each right side, and once from the left, to price each plane.
-static void price_planes(const Bin bins[BINS], int axis, Plane *best)
+static void price_planes(const Bins *bins, int axis, const Costs *costs, Plane *best)
 {
     float right_cost[BINS];
-    Bin side = {box_empty(), 0};
+    Bounds side = bounds_empty();
+    uint32_t weight = 0;
     for (int i = BINS - 1; i > 0; i--) {
-        box_include(&side.box, &bins[i].box);
-        side.count += bins[i].count;
-        right_cost[i] = side.count > 0 ? box_half_area(&side.box) * (float)side.count : INFINITY;
+        bounds_unite(&side, &bins->bounds[axis][i]);
+        weight += bins->weights[axis][i];
+        right_cost[i] = price(costs, &side, weight);
     }
-    side = (Bin){box_empty(), 0};
+    side = bounds_empty();
+    weight = 0;
+    // Prices of empty sides are no numbers and never less than the best.
     for (int i = 1; i < BINS; i++) {
-        box_include(&side.box, &bins[i - 1].box);
-        side.count += bins[i - 1].count;
-        const float cost = box_half_area(&side.box) * (float)side.count + right_cost[i];
-        if (side.count > 0 && cost < best->cost)
-            *best = (Plane){axis, i, cost};
+        bounds_unite(&side, &bins->bounds[axis][i - 1]);
+        weight += bins->weights[axis][i - 1];
+        const float cost = price(costs, &side, weight) + right_cost[i];
+        if (cost < best->cost)
+            *best = (Plane){axis, i, weight, cost};
     }
 }
 
-static uint32_t partition(const BuildRange *range, Plane plane, Binning binning)
+static Plane cheapest_plane(const BuildRange *range, const Binning *binning, const Costs *costs)
 {
-    uint32_t left = 0, right = range->count;
-    while (left < right) {
-        if (bin_of(&range->items[left], plane.axis, binning) < plane.bin) {
-            left++;
-        } else {
-            right--;
-            const BuildItem swapped = range->items[left];
-            range->items[left] = range->items[right];
-            range->items[right] = swapped;
-        }
-    }
-    return left;
+    Bins bins;
+    Plane best = {-1, 0, 0, INFINITY};
+    clear_bins(&bins);
+    fill_bins(&bins, range, binning);
+    for (int axis = 0; axis < 3; axis++)
+        if (binning->scale[axis] > 0)
+            price_planes(&bins, axis, costs, &best);
+    return best;
 }
 
-static int longest_axis(const Box *box)
+Split split_sah(const BuildRange *range)
 {
-    int longest = 0;
-    for (int axis = 1; axis < 3; axis++)
-        if (box->high[axis] - box->low[axis] > box->high[longest] - box->low[longest])
-            longest = axis;
-    return longest;
-}
-
-#define COMPARE_ON_AXIS(axis)                                                                      \
-    static int compare_##axis(const void *first, const void *second)                               \
-    {                                                                                              \
-        const BuildItem *a = first, *b = second;                                                   \
-        const float x = item_center(a, axis), y = item_center(b, axis);                            \
-        if (x != y)                                                                                \
-            return x < y ? -1 : 1;                                                                 \
-        return a->triangle < b->triangle ? -1 : 1;                                                 \
-    }
-COMPARE_ON_AXIS(0)
-COMPARE_ON_AXIS(1)
-COMPARE_ON_AXIS(2)
-
-// Halves the items by number, so that any set of triangles, equal ones included, ends in leaves.
-static uint32_t split_median(const BuildRange *range, const Box *centers)
-{
-    static int (*const compare[3])(const void *, const void *) = {compare_0, compare_1, compare_2};
-    qsort(range->items, range->count, sizeof *range->items, compare[longest_axis(centers)]);
-    return range->count / 2;
-}
-
-uint32_t split_sah(const BuildRange *range)
-{
-    if (range->count <= LARGEST_LEAF)
-        return 0;
-    const Box centers = center_bounds(range);
-    const float area = box_half_area(&range->box);
-    Plane best = {-1, 0, INFINITY};
-    if (range->depth < MEDIAN_SPLIT_DEPTH) {
-        for (int axis = 0; axis < 3; axis++) {
-            Bin bins[BINS];
-            const Binning binning = binning_of(&centers, axis);
-            if (binning.scale == 0)
-                continue;
-            fill_bins(bins, range, axis, binning);
-            price_planes(bins, axis, &best);
-        }
-    }
-    const bool pays = best.cost + NODE_COST * area < area * (float)range->count;
-    if (best.axis >= 0 && (pays || range->count > LARGEST_LEAF))
-        return partition(range, best, binning_of(&centers, best.axis));
-    return range->count > LARGEST_LEAF ? split_median(range, &centers) : 0;
+    const Costs *costs = &costs_of[range->leaves];
+    // A block is tested at once, however full.
+    if (range->weight <= costs->unit)
+        return (Split){.kind = SPLIT_NONE};
+    Plane best = {-1, 0, 0, INFINITY};
+    const Binning binning = binning_of(&range->centers);
+    if (range->depth < MEDIAN_SPLIT_DEPTH)
+        best = cheapest_plane(range, &binning, costs);
+    const float area = bounds_half_area(&range->box);
+    const bool pays = best.cost + costs->node * area < price(costs, &range->box, range->weight);
+    if (best.axis >= 0 && (pays || range->weight > LARGEST_LEAF))
+        return (Split){
+            SPLIT_PLANE,     best.axis, binning.origin[best.axis], binning.scale[best.axis],
+            (float)best.bin, best.left};
+    return (Split){.kind = range->weight > LARGEST_LEAF ? SPLIT_HALVES : SPLIT_NONE};
 }

@@ -3,6 +3,7 @@
 // Equal points give equal floats, which watertightness and the builders rest on.
 #pragma once
 
+#include "base/parallel.h"
 #include "scene/normalize.h"
 
 typedef struct {
@@ -12,5 +13,5 @@ typedef struct {
 
 // The n-th triangle here is the scene's n-th in file order.
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
-                    Error *error);
+                    Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);

@@ -57,6 +57,15 @@ void *memory_raw(size_t count, size_t size, Error *error)
     return memory;
 }
 
+void *memory_sparse(size_t count, size_t size, Error *error)
+{
+    const size_t bytes = byte_count(count, size);
+    void *memory = bytes > PTRDIFF_MAX ? NULL : malloc(bytes);
+    if (memory == NULL)
+        error_out_of_memory(error, bytes);
+    return memory;
+}
+
 void *memory_zeroed(size_t count, size_t size, Error *error)
 {
     const size_t bytes = byte_count(count, size);

@@ -30,3 +30,6 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
 // NULL on overflow or exhaustion.  Zero elements give a pointer that may be freed.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
+
+// memory_raw for an array most of which is never touched: pages no larger than need be.
+void *memory_sparse(size_t count, size_t size, Error *error);

@@ -127,11 +127,14 @@ static bool build_scene(Run *run, Error *error)
     Bvh bvh = {0};
     double moment = clock_seconds();
     const Options *options = run->options;
-    const FlatSource source = {&run->scene, &triangles, &bvh,
-                               run->starter.setup.source.choice.nodes};
-    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, error) &&
-                    (!options->uses_bvh || bvh_build(&bvh, &triangles, options->builder, error)) &&
+    const NodeLayout layout = run->starter.setup.source.choice.nodes;
+    Crew *crew = crew_open(threads_allowed(options->threads));
+    const BvhSettings settings = {options->builder, flat_leaves(layout)};
+    const FlatSource source = {&run->scene, &triangles, &bvh, &run->normalization, layout, crew};
+    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, crew, error) &&
+                    (!options->uses_bvh || bvh_build(&bvh, &triangles, &settings, crew, error)) &&
                     flat_make(&run->flat, &source, error);
+    crew_close(crew);
     run->report.build += lap(&moment);
     if (ok)
         count_scene(&run->report, &run->scene, &bvh);

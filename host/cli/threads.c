@@ -28,6 +28,13 @@ static uint32_t granted_processors(void)
     return quota / period < 4096 ? (uint32_t)(quota / period + 0.999) : UINT32_MAX;
 }
 
+uint32_t threads_allowed(uint32_t count)
+{
+    const uint32_t allowed = allowed_processors(), granted = granted_processors();
+    const uint32_t usable = allowed < granted ? allowed : granted;
+    return count > 0 ? count : usable < UINT32_MAX ? usable : 1;
+}
+
 void threads_limit(uint32_t count)
 {
     char text[16];

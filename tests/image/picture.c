@@ -48,11 +48,14 @@ static bool flatten(Pipeline *pipeline, Error *error)
 {
     Triangles triangles = {0};
     Bvh bvh = {0};
-    const FlatSource source = {&pipeline->scene, &triangles, &bvh, pipeline->request->choice.nodes};
-    const bool ok = triangles_make(&triangles, &pipeline->scene, &pipeline->normalization, error) &&
-                    (!pipeline->request->uses_bvh ||
-                     bvh_build(&bvh, &triangles, pipeline->request->builder, error)) &&
-                    flat_make(&pipeline->flat, &source, error);
+    const NodeLayout layout = pipeline->request->choice.nodes;
+    const BvhSettings settings = {pipeline->request->builder, flat_leaves(layout)};
+    const FlatSource source = {&pipeline->scene,         &triangles, &bvh,
+                               &pipeline->normalization, layout,     NULL};
+    const bool ok =
+        triangles_make(&triangles, &pipeline->scene, &pipeline->normalization, NULL, error) &&
+        (!pipeline->request->uses_bvh || bvh_build(&bvh, &triangles, &settings, NULL, error)) &&
+        flat_make(&pipeline->flat, &source, error);
     bvh_free(&bvh);
     triangles_free(&triangles);
     return ok;

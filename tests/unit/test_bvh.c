@@ -7,12 +7,21 @@
 
 #include <string.h>
 
-static Bvh built(const Triangles *triangles, BvhBuilder builder)
+// Every builder with every kind of leaves.
+static const BvhSettings settings[] = {{BVH_SAH, LEAVES_SINGLE},
+                                       {BVH_SAH, LEAVES_BLOCKS},
+                                       {BVH_MIDPOINT, LEAVES_SINGLE},
+                                       {BVH_MIDPOINT, LEAVES_BLOCKS}};
+#define SETTINGS (sizeof settings / sizeof settings[0])
+
+static Bvh built(const Triangles *triangles, const BvhSettings *how, uint32_t threads)
 {
     Bvh bvh;
     Error error = {0};
-    if (!bvh_build(&bvh, triangles, builder, &error))
+    Crew *crew = crew_open(threads);
+    if (!bvh_build(&bvh, triangles, how, crew, &error))
         fail_msg("%s", error.text);
+    crew_close(crew);
     return bvh;
 }
 
@@ -38,7 +47,6 @@ static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t 
         return 1;
     uint32_t levels = 0;
     for (uint32_t child = node->first; child < node->first + 2; child++) {
-        assert_true(child > number && child < bvh->node_count);
         assert_true(box_holds(&node->box, bvh->nodes[child].box.low));
         assert_true(box_holds(&node->box, bvh->nodes[child].box.high));
         const uint32_t below = check_node(bvh, triangles, child, seen);
@@ -47,9 +55,9 @@ static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t 
     return levels + 1;
 }
 
-static void check_tree(const Triangles *triangles, BvhBuilder builder)
+static void check_tree(const Triangles *triangles, const BvhSettings *how)
 {
-    Bvh bvh = built(triangles, builder);
+    Bvh bvh = built(triangles, how, 1);
     unsigned *seen = calloc(triangles->count, sizeof *seen);
     assert_non_null(seen);
     assert_int_equal(check_node(&bvh, triangles, 0, seen), bvh.depth);
@@ -68,33 +76,49 @@ static void every_triangle_is_in_one_leaf_inside_nested_boxes(void **state)
     for (int set = 0; set < SET_KINDS; set++)
         for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
             Triangles triangles = triangle_set((TriangleSet)set, counts[i]);
-            check_tree(&triangles, BVH_SAH);
-            check_tree(&triangles, BVH_MIDPOINT);
+            for (size_t how = 0; how < SETTINGS; how++)
+                check_tree(&triangles, &settings[how]);
             triangles_free(&triangles);
         }
 }
 
-static void the_same_triangles_give_the_same_tree(void **state)
+// Compares what is below two nodes.
+static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
+{
+    const BvhNode *a = &one->nodes[number], *b = &two->nodes[number];
+    assert_memory_equal(a, b, sizeof *a);
+    if (a->count > 0)
+        return;
+    expect_same(one, two, a->first);
+    expect_same(one, two, a->first + 1);
+}
+
+static void any_number_of_threads_builds_the_same_tree(void **state)
 {
     (void)state;
-    Triangles triangles = triangle_set(SET_SCATTERED, 5000);
-    for (int builder = BVH_SAH; builder <= BVH_MIDPOINT; builder++) {
-        Bvh one = built(&triangles, (BvhBuilder)builder);
-        Bvh two = built(&triangles, (BvhBuilder)builder);
-        assert_int_equal(one.node_count, two.node_count);
-        assert_memory_equal(one.nodes, two.nodes, one.node_count * sizeof *one.nodes);
-        assert_memory_equal(one.order, two.order, triangles.count * sizeof *one.order);
-        bvh_free(&one);
-        bvh_free(&two);
+    for (int set = 0; set < SET_KINDS; set++) {
+        Triangles triangles = triangle_set((TriangleSet)set, 60000);
+        for (size_t how = 0; how < SETTINGS; how++) {
+            Bvh one = built(&triangles, &settings[how], 1);
+            for (uint32_t threads = 1; threads <= 3; threads++) {
+                Bvh other = built(&triangles, &settings[how], threads);
+                assert_int_equal(one.node_count, other.node_count);
+                assert_int_equal(one.upper_count, other.upper_count);
+                expect_same(&one, &other, 0);
+                assert_memory_equal(one.order, other.order, triangles.count * sizeof *one.order);
+                bvh_free(&other);
+            }
+            bvh_free(&one);
+        }
+        triangles_free(&triangles);
     }
-    triangles_free(&triangles);
 }
 
 static void sah_leaves_stay_small_even_for_equal_triangles(void **state)
 {
     (void)state;
     Triangles triangles = triangle_set(SET_EQUAL, 10000);
-    Bvh bvh = built(&triangles, BVH_SAH);
+    Bvh bvh = built(&triangles, &settings[0], 1);
     assert_true(bvh.largest_leaf <= 8);
     bvh_free(&bvh);
     triangles_free(&triangles);
@@ -104,7 +128,7 @@ static void no_triangles_make_no_tree(void **state)
 {
     (void)state;
     Triangles none = {0};
-    Bvh bvh = built(&none, BVH_SAH);
+    Bvh bvh = built(&none, &settings[0], 1);
     assert_int_equal(bvh.node_count, 0);
     bvh_free(&bvh);
     bvh_free(&bvh);
@@ -114,7 +138,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_triangle_is_in_one_leaf_inside_nested_boxes),
-        cmocka_unit_test(the_same_triangles_give_the_same_tree),
+        cmocka_unit_test(any_number_of_threads_builds_the_same_tree),
         cmocka_unit_test(sah_leaves_stay_small_even_for_equal_triangles),
         cmocka_unit_test(no_triangles_make_no_tree),
     };

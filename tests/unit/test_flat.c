@@ -23,9 +23,10 @@ static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout
     bool ok =
         scn_parse(&all.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error);
     const Normalization frame = normalization_of(&all.scene);
-    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, layout};
-    ok = ok && triangles_make(&all.triangles, &all.scene, &frame, &error) &&
-         (!uses_bvh || bvh_build(&all.bvh, &all.triangles, BVH_SAH, &error)) &&
+    const BvhSettings settings = {BVH_SAH, flat_leaves(layout)};
+    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame, layout, NULL};
+    ok = ok && triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
+         (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
          flat_make(&all.flat, &source, &error);
     if (!ok)
         fail_msg("%s", error.text);
@@ -107,7 +108,8 @@ static void a_lone_leaf_gets_a_node_with_one_child(void **state)
     all.bvh.nodes[0].first = 0;
     FlatScene flat = {0};
     Error error = {0};
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, NODES_PAIR};
+    const Normalization frame = normalization_of(&all.scene);
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_PAIR, NULL};
     assert_true(flat_make(&flat, &source, &error));
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
@@ -212,7 +214,8 @@ static void a_leaf_too_large_for_a_block_becomes_several(void **state)
         .node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, NODES_WIDE};
+    const Normalization frame = normalization_of(&all.scene);
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_WIDE, NULL};
     Error error = {0};
     flat_free(&all.flat);
     assert_true(flat_make(&all.flat, &source, &error));

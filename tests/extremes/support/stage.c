@@ -10,12 +10,14 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
 {
     Error error = {0};
     *stage = (Stage){.normalization = normalization_of(scene)};
-    const FlatSource source = {scene, &stage->triangles, &stage->bvh, layout};
+    const FlatSource source = {scene, &stage->triangles, &stage->bvh, &stage->normalization, layout,
+                               NULL};
     const BvhBuilder builder = tree == TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
+    const BvhSettings settings = {builder, flat_leaves(layout)};
     const bool ok =
         normalization_check(&stage->normalization, scene, &error) &&
-        triangles_make(&stage->triangles, scene, &stage->normalization, &error) &&
-        (tree == TREE_NONE || bvh_build(&stage->bvh, &stage->triangles, builder, &error)) &&
+        triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
+        (tree == TREE_NONE || bvh_build(&stage->bvh, &stage->triangles, &settings, NULL, &error)) &&
         flat_make(&stage->flat, &source, &error);
     require(ok, &error);
 }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Boxes as builders handle them: lower and negated upper planes in vectors, so that one minimum
+// each unites two boxes.  Planes are never -0, so that unions do not depend on their order.
+#pragma once
+
+#include "accel/bvh.h"
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+typedef float Float4 __attribute__((vector_size(16)));
+
+typedef struct {
+    Float4 low, negated_high; // x y z, and a fourth that means nothing
+} Bounds;
+
+// A triangle, or a cell of several, as builders move it about.
+typedef union {
+    Bounds bounds;
+    struct {
+        float low[3];
+        uint32_t number;
+        float negated_high[3];
+        uint32_t weight; // triangles
+    };
+} BuildItem;
+
+static inline Float4 float4_minimum(Float4 a, Float4 b)
+{
+#ifdef __SSE__
+    return _mm_min_ps(a, b);
+#else
+    Float4 minimum;
+    for (int i = 0; i < 4; i++)
+        minimum[i] = a[i] < b[i] ? a[i] : b[i];
+    return minimum;
+#endif
+}
+
+static inline Bounds bounds_empty(void)
+{
+    const Float4 nowhere = {INFINITY, INFINITY, INFINITY, INFINITY};
+    return (Bounds){nowhere, nowhere};
+}
+
+static inline void bounds_unite(Bounds *bounds, const Bounds *other)
+{
+    bounds->low = float4_minimum(bounds->low, other->low);
+    bounds->negated_high = float4_minimum(bounds->negated_high, other->negated_high);
+}
+
+static inline float bounds_extent(const Bounds *bounds, int axis)
+{
+    return -(bounds->low[axis] + bounds->negated_high[axis]);
+}
+
+// Half the surface; not a number for empty bounds.
+static inline float bounds_half_area(const Bounds *bounds)
+{
+    const Float4 sides = bounds->low + bounds->negated_high;
+    return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+}
+
+static inline Box bounds_box(const Bounds *bounds)
+{
+    Box box;
+    for (int axis = 0; axis < 3; axis++) {
+        box.low[axis] = bounds->low[axis];
+        box.high[axis] = 0 - bounds->negated_high[axis];
+    }
+    return box;
+}
+
+static inline Float4 float4_of(const float values[3])
+{
+    return (Float4){values[0], values[1], values[2], 0};
+}
+
+static inline Bounds bounds_of_triangle(const float corners[3][3])
+{
+    const Float4 zero = {0}, a = float4_of(corners[0]), b = float4_of(corners[1]),
+                 c = float4_of(corners[2]);
+    // Adding zero turns -0 into 0.
+    return (Bounds){float4_minimum(float4_minimum(a, b), c) + zero,
+                    float4_minimum(float4_minimum(-a, -b), -c) + zero};
+}
+
+// Around the doubled center of what is in the bounds.
+static inline Bounds bounds_of_center(const Bounds *bounds)
+{
+    return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};
+}
+
+// The center of an item on an axis, doubled.
+static inline float item_center(const BuildItem *item, int axis)
+{
+    return item->low[axis] - item->negated_high[axis];
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Objects one after the other, their triangles shared out.
+#include "accel/flat_looks.h"
+
+#include <string.h>
+
+typedef struct {
+    const MeshObject *object;
+    TriangleLook *looks;    // of its triangles
+    CornerNormals *normals; // of its triangles; NULL where it is flat
+    uint32_t first_normals; // their place among all
+} ObjectLooks;
+
+static Vec3 mesh_corner(const Mesh *mesh, const uint32_t *triangle, int corner)
+{
+    const double *p = mesh->positions[triangle[corner]];
+    return vec3(p[0], p[1], p[2]);
+}
+
+static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
+{
+    const Vec3 a = mesh_corner(mesh, triangle, 0);
+    const Vec3 first = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 1), a));
+    const Vec3 second = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 2), a));
+    return vec3_normalize(vec3_cross(first, second));
+}
+
+static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
+{
+    const float *n = mesh->normals[triangle[corner]];
+    const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
+    return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
+}
+
+// The lengths of a triangle's normals weigh them against each other, so they are kept; a power of
+// two common to the three keeps their squares in range.
+static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle)
+{
+    Vec3 normals[3];
+    double extent = 0;
+    for (int corner = 0; corner < 3; corner++) {
+        normals[corner] = corner_normal(mesh, triangle, corner);
+        extent = fmax(extent, vec3_extent(normals[corner]));
+    }
+    const double scale = extent > 0 ? scalbn(1, -ilogb(extent)) : 1;
+    for (int corner = 0; corner < 3; corner++) {
+        data->normals[corner][0] = (float)(normals[corner].x * scale);
+        data->normals[corner][1] = (float)(normals[corner].y * scale);
+        data->normals[corner][2] = (float)(normals[corner].z * scale);
+        data->normals[corner][3] = 0;
+    }
+}
+
+static float extent_of(const float *normal)
+{
+    const float x = fabsf(normal[0]), y = fabsf(normal[1]), z = fabsf(normal[2]);
+    const float xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+
+// 2^-floor(log2(value)) of a value whose reciprocal is a normal number.
+static float inverse_power(float value)
+{
+    uint32_t bits;
+    float power;
+    memcpy(&bits, &value, sizeof bits);
+    bits = (254 - (bits >> 23)) << 23;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
+// scale_normals in float, which gives the same bits, where all three are given and of usual size.
+static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle)
+{
+    const float *normals[3];
+    float smallest = INFINITY, largest = 0;
+    for (int corner = 0; corner < 3; corner++) {
+        normals[corner] = mesh->normals[triangle[corner]];
+        const float extent = extent_of(normals[corner]);
+        smallest = extent < smallest ? extent : smallest;
+        largest = extent > largest ? extent : largest;
+    }
+    if (!(smallest > 0x1p-100f && largest < 0x1p100f))
+        return false;
+    const float scale = inverse_power(largest);
+    for (int corner = 0; corner < 3; corner++) {
+        for (int axis = 0; axis < 3; axis++)
+            data->normals[corner][axis] = normals[corner][axis] * scale;
+        data->normals[corner][3] = 0;
+    }
+    return true;
+}
+
+static void make_chunk(void *context, uint32_t chunk, uint32_t worker)
+{
+    const ObjectLooks *looks = context;
+    const MeshObject *object = looks->object;
+    const Mesh *mesh = &object->mesh;
+    const uint32_t end = chunk_end(chunk, (uint32_t)mesh->triangle_count);
+    const uint32_t material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
+    const bool smooth = looks->normals != NULL;
+    (void)worker;
+    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+        looks->looks[i] = (TriangleLook){material, smooth ? looks->first_normals + i : NOTHING};
+        if (smooth && !scale_usual_normals(&looks->normals[i], mesh, mesh->triangles[i]))
+            scale_normals(&looks->normals[i], mesh, mesh->triangles[i]);
+    }
+}
+
+static bool object_is_smooth(const MeshObject *object)
+{
+    return object->smooth && object->mesh.normals != NULL;
+}
+
+static uint32_t count_smooth_triangles(const Scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        if (object_is_smooth(&scene->objects.data[i]))
+            count += scene->objects.data[i].mesh.triangle_count;
+    return (uint32_t)count;
+}
+
+bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
+{
+    const Scene *scene = source->scene;
+    TriangleLook *next = flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
+    flat->normals = memory_raw(count_smooth_triangles(scene), sizeof *flat->normals, error);
+    if (flat->looks == NULL || flat->normals == NULL)
+        return false;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        const uint32_t count = (uint32_t)object->mesh.triangle_count;
+        const bool smooth = object_is_smooth(object);
+        ObjectLooks looks = {object, next, smooth ? flat->normals + flat->normals_count : NULL,
+                             flat->normals_count};
+        crew_run(source->crew, chunk_count(count), make_chunk, &looks);
+        next += count;
+        flat->normals_count += smooth ? count : 0;
+    }
+    return true;
+}

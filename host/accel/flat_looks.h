@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// Scene -> what shading a triangle takes beside its corners: materials and normals, in file order.
+#pragma once
+
+#include "accel/flat.h"
+
+// Fills flat's looks and normals.  A look carries the mark of two-sided triangles until the layout
+// moves it to its place.
+bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error);
