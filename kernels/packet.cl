@@ -16,6 +16,9 @@
 #define LANES_PER_TEST 2
 #define PACKET_CREDIT  64
 
+// A block entered by this many lanes or fewer is tested for each alone, all triangles at once.
+#define MOST_LANES_ALONE 2
+
 // The rays of a packet that share their signs and their longest axis, with bounds over all of
 // them.
 typedef struct {
@@ -188,11 +191,9 @@ static inline Real3 corner_from(global const TriangleBlock *block, uint corner, 
                     (Real)(block->corners[corner][packet->axes[2]][place]) - o.z);
 }
 
-static inline __attribute__((always_inline)) bool test_triangle(global const TriangleBlock *blocks,
-                                                                uint number, uint place,
-                                                                const Packet *packet,
-                                                                const Corners *relative,
-                                                                Truth lanes, Hit *best)
+static ALWAYS_INLINE bool test_triangle(global const TriangleBlock *blocks, uint number, uint place,
+                                        const Packet *packet, const Corners *relative, Truth lanes,
+                                        Hit *best)
 {
     const Corners sheared = corners_sheared(relative, &packet->rays.shear);
     const Edges edges = edges_of(&sheared);
@@ -209,10 +210,8 @@ static inline __attribute__((always_inline)) bool test_triangle(global const Tri
     return any_lane(precedes);
 }
 
-static inline __attribute__((always_inline)) bool test_packet_block(const SceneView *scene,
-                                                                    uint number,
-                                                                    const Packet *packet,
-                                                                    Truth lanes, Hit *best)
+static ALWAYS_INLINE bool test_packet_block(const SceneView *scene, uint number,
+                                            const Packet *packet, Truth lanes, Hit *best)
 {
     global const TriangleBlock *block = &scene->triangles[number];
     bool changed = false;
@@ -239,56 +238,99 @@ static inline __attribute__((always_inline)) bool test_packet_block(const SceneV
     return changed;
 }
 
+static ALWAYS_INLINE bool test_packet_leaf(const SceneView *scene, uint number,
+                                           const Packet *packet, uint bits, Hit *best)
+{
+    if (popcount(bits) > MOST_LANES_ALONE)
+        return test_packet_block(scene, number, packet, lanes_of(bits), best);
+    bool changed = false;
+    for (; bits != 0; bits &= bits - 1)
+        changed |= test_block(scene->triangles, number, &packet->rays, lowest_bit(bits), best);
+    return changed;
+}
+
+// Puts the children whose bits are set on the stack, the nearest on top.
+static inline void wait_for_children(WideWaiting *waiting, uint bits, const float8 *entry,
+                                     uint first)
+{
+    const float *entries = (const float *)entry;
+    const uint start = waiting->count;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint number = lowest_bit(bits);
+        wait_in_order(waiting, start, waiting_child(entries[number], first + number));
+    }
+}
+
+// Where a packet's search stands.  Children wait as WIDE * node + place.
+typedef struct {
+    WideWaiting waiting;
+    Truth searching; // lanes that a shadow ray's hit has not ended
+    float farthest;  // distance of the searching lanes' hits
+    int credit;
+    Hit *best;
+} PacketWalk;
+
+static inline void expand_node(PacketWalk *walk, const SceneView *scene, const Packet *packet,
+                               uint number)
+{
+    float8 entry;
+    const int8 near = children_near(&scene->nodes[number], packet, walk->farthest, &entry);
+    wait_for_children(&walk->waiting, lane_bits(near), &entry, number * WIDE);
+}
+
+// The lanes that go on into the child.
+static inline uint lanes_to_child(PacketWalk *walk, const SceneView *scene, const Packet *packet,
+                                  uint child, Tally *tally)
+{
+    global const BvhWide *node = &scene->nodes[child / WIDE];
+    const Truth inside = lanes_in_child(node, child % WIDE, packet, walk->best->t);
+    const uint bits = lane_bits(walk->searching && inside);
+    walk->credit += (int)popcount(bits) - LANES_PER_TEST;
+    if (CLRT_STATISTICS)
+        tally->box_tests += lane_count(walk->searching);
+    return bits;
+}
+
+static inline void note_hits(PacketWalk *walk, bool is_shadow)
+{
+    if (is_shadow)
+        walk->searching = walk->searching && walk->best->id == NOTHING;
+    walk->farthest = highest(walk->searching ? walk->best->t : (Real)(0.0f));
+}
+
 // Returns the lanes left over when the packet is given up.
 static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
                                    Tally *tally)
 {
-    int credit = PACKET_CREDIT;
     const bool is_shadow = packet->rays.ray->kind == RAY_SHADOW;
-    Truth searching = packet->active;
-    float farthest = highest(best->t);
-    WideWaiting waiting;
-    waiting.count = 0;
-    uint parent = 0;
-    for (;;) {
-        global const BvhWide *node = &scene->nodes[parent];
-        float8 entry;
-        const int8 near = children_near(node, packet, farthest, &entry);
-        wait_for_children(&waiting, lane_bits(near), &entry, parent * WIDE);
-        for (;;) {
-            if (waiting.count == 0)
-                return 0;
-            const ulong next = waiting.child[--waiting.count];
-            if (waiting_entry(next) > farthest)
-                continue;
-            global const BvhWide *from = &scene->nodes[(uint)next / WIDE];
-            const uint number = (uint)next % WIDE;
-            const Truth lanes = searching && lanes_in_child(from, number, packet, best->t);
-            if (CLRT_STATISTICS)
-                tally->box_tests += CLRT_LANES;
-            const uint bits = lane_bits(lanes);
-            credit += (int)popcount(bits) - LANES_PER_TEST;
-            if (credit < 0)
-                return lane_bits(searching);
-            if (bits == 0)
-                continue;
-            const uint child = from->child[number];
-            if ((child & WIDE_LEAF) == 0) {
-                parent = child;
-                break;
-            }
-            if (CLRT_STATISTICS)
-                tally->triangle_tests += WIDE * lane_count(lanes);
-            if (!test_packet_block(scene, child & ~WIDE_LEAF, packet, lanes, best))
-                continue;
-            if (is_shadow) {
-                searching = searching && best->id == NOTHING;
-                if (!any_lane(searching))
-                    return 0;
-            }
-            farthest = highest(searching ? best->t : (Real)(0.0f));
+    PacketWalk walk;
+    walk.waiting.count = 0;
+    walk.searching = packet->active;
+    walk.farthest = highest(best->t);
+    walk.credit = PACKET_CREDIT;
+    walk.best = best;
+    expand_node(&walk, scene, packet, 0);
+    uint waiting;
+    while (next_child(&walk.waiting, walk.farthest, &waiting)) {
+        const uint bits = lanes_to_child(&walk, scene, packet, waiting, tally);
+        if (walk.credit < 0)
+            return lane_bits(walk.searching);
+        if (bits == 0)
+            continue;
+        const uint child = scene->nodes[waiting / WIDE].child[waiting % WIDE];
+        if ((child & WIDE_LEAF) == 0) {
+            expand_node(&walk, scene, packet, child);
+            continue;
         }
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += WIDE * popcount(bits);
+        if (!test_packet_leaf(scene, child & ~WIDE_LEAF, packet, bits, best))
+            continue;
+        note_hits(&walk, is_shadow);
+        if (is_shadow && !any_lane(walk.searching))
+            return 0;
     }
+    return 0;
 }
 
 // What a packet's rays must share: the signs of their directions and the longest axis.
@@ -311,9 +353,8 @@ static inline Real3 filled(Real3 v, Truth lanes, uint lane)
                     lanes ? v.z : one_lane(v.z, lane));
 }
 
-static __attribute__((noinline)) uint search_part(const SceneView *scene, const FrameData *frame,
-                                                  const Ray *ray, uint bits, Hit *best,
-                                                  Tally *tally)
+static NOT_INLINE uint search_part(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                                   uint bits, Hit *best, Tally *tally)
 {
     const uint first = lowest_bit(bits);
     const Truth lanes = lanes_of(bits);
