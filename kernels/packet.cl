@@ -49,44 +49,69 @@ static inline float lowest(Real v)
 
 static inline float highest(Real v)
 {
-    return -lowest(-v);
+#if CLRT_LANES == 16
+    const float8 a = max(v.lo, v.hi);
+    const float4 b = max(a.lo, a.hi);
+#elif CLRT_LANES == 8
+    const float4 b = max(v.lo, v.hi);
+#else
+    const float4 b = v;
+#endif
+    const float2 c = max(b.lo, b.hi);
+    return max(c.x, c.y);
 }
 
-// near and far are where the slab's planes seem to lie for each ray's origin: -offset / inverse.
+// The origin that lies farthest along makes entries early, the one farthest back leaves late.
 static inline void packet_bounds(Packet *packet, uint axis, Real origin, Real slack, Real inverse)
 {
     const float low = lowest(inverse), high = highest(inverse);
     const bool negative = high < 0.0f;
-    const Real ahead = negative ? origin - slack : origin + slack;
-    const Real behind = negative ? origin + slack : origin - slack;
-    // The origin that lies farthest along makes entries early, the one farthest back leaves late.
-    const float near_bound = negative ? lowest(ahead) : highest(ahead);
-    const float far_bound = negative ? highest(behind) : lowest(behind);
+    const Real ahead = origin + slack, behind = origin - slack;
+    const float most = packet->common_origin ? ahead.s0 : highest(ahead);
+    const float least = packet->common_origin ? behind.s0 : lowest(behind);
+    const float near = negative ? least : most, far = negative ? most : least;
     packet->negative[axis] = negative;
     packet->inverse_low[axis] = low;
     packet->inverse_high[axis] = high;
-    packet->near_low[axis] = -near_bound * low;
-    packet->near_high[axis] = -near_bound * high;
-    packet->far_low[axis] = -far_bound * low;
-    packet->far_high[axis] = -far_bound * high;
+    packet->near_low[axis] = -near * low;
+    packet->near_high[axis] = -near * high;
+    packet->far_low[axis] = -far * low;
+    packet->far_high[axis] = -far * high;
 }
 
-static inline void packet_prepare(Packet *packet, Real3 o)
+// Component `axis` of all lanes.
+static inline Real on_axis(const Real3 *v, uint axis)
 {
-    const Search *rays = &packet->rays;
-    const Real slack = BVH_SLACK * largest_component(o);
-    packet->ordered_origin = axes_ordered(o, &rays->axes);
-    packet->axes[0] = rays->axes.x.s0;
-    packet->axes[1] = rays->axes.y.s0;
-    packet->axes[2] = rays->axes.z.s0;
+    return (&v->x)[axis];
+}
+
+// The rays have origins o and directions d, longest along the axis z.  Their inverse on that axis
+// is the shear's: no other is as long, so the slabs leave it as it is.
+static inline void packet_prepare(Packet *packet, Real3 o, Real3 d, uint z)
+{
+    Search *rays = &packet->rays;
+    const uint x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
+    search_slabs(rays, o, d);
+    rays->axes = (ShearAxes){x, y, z};
+    rays->shear.direction_z = on_axis(&d, z);
+    rays->shear.inverse_z = on_axis(&rays->inverse, z);
+    rays->shear.shear_x = on_axis(&d, x) * rays->shear.inverse_z;
+    rays->shear.shear_y = on_axis(&d, y) * rays->shear.inverse_z;
+    packet->ordered_origin = real3_of(on_axis(&o, x), on_axis(&o, y), on_axis(&o, z));
+    packet->axes[0] = x;
+    packet->axes[1] = y;
+    packet->axes[2] = z;
+    // Beside the origin's own, the slack that nodes have and boxes of single triangles lack:
+    // their coordinates are at most 1.
+    const Real slack = BVH_SLACK * (largest_component(o) + 1.0f);
     packet_bounds(packet, 0, o.x, slack, rays->inverse.x);
     packet_bounds(packet, 1, o.y, slack, rays->inverse.y);
     packet_bounds(packet, 2, o.z, slack, rays->inverse.z);
 }
 
-static inline float8 entry_bound(global const BvhWide *node, const Packet *packet, uint axis)
+// Bounds of the distances at which the rays meet the planes of an axis.
+static inline float8 entry_bound(float8 plane, const Packet *packet, uint axis)
 {
-    const float8 plane = vload8(0, node->planes[axis][packet->negative[axis]]);
     const float8 low =
         fma(plane, (float8)(packet->inverse_low[axis]), (float8)(packet->near_low[axis]));
     const float8 high =
@@ -94,9 +119,8 @@ static inline float8 entry_bound(global const BvhWide *node, const Packet *packe
     return min(low, high);
 }
 
-static inline float8 leave_bound(global const BvhWide *node, const Packet *packet, uint axis)
+static inline float8 leave_bound(float8 plane, const Packet *packet, uint axis)
 {
-    const float8 plane = vload8(0, node->planes[axis][1 - packet->negative[axis]]);
     const float8 low =
         fma(plane, (float8)(packet->inverse_low[axis]), (float8)(packet->far_low[axis]));
     const float8 high =
@@ -104,16 +128,48 @@ static inline float8 leave_bound(global const BvhWide *node, const Packet *packe
     return max(low, high);
 }
 
+static inline float8 node_plane(global const BvhWide *node, const Packet *packet, uint axis,
+                                uint other)
+{
+    return vload8(0, node->planes[axis][packet->negative[axis] ^ other]);
+}
+
 // The children that some ray of the packet may meet before `reach`.
 static inline int8 children_near(global const BvhWide *node, const Packet *packet, float reach,
                                  float8 *entry)
 {
-    const float8 near_x = entry_bound(node, packet, 0), near_y = entry_bound(node, packet, 1);
-    const float8 near_z = entry_bound(node, packet, 2);
-    const float8 far_x = leave_bound(node, packet, 0), far_y = leave_bound(node, packet, 1);
-    const float8 far_z = leave_bound(node, packet, 2);
+    const float8 near_x = entry_bound(node_plane(node, packet, 0, 0), packet, 0);
+    const float8 near_y = entry_bound(node_plane(node, packet, 1, 0), packet, 1);
+    const float8 near_z = entry_bound(node_plane(node, packet, 2, 0), packet, 2);
+    const float8 far_x = leave_bound(node_plane(node, packet, 0, 1), packet, 0);
+    const float8 far_y = leave_bound(node_plane(node, packet, 1, 1), packet, 1);
+    const float8 far_z = leave_bound(node_plane(node, packet, 2, 1), packet, 2);
     *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
     return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
+}
+
+// The side of the triangles' boxes that the rays meet first, or the other.
+static inline float8 block_plane(global const TriangleBlock *block, const Packet *packet, uint axis,
+                                 uint other)
+{
+    const float8 a = block_row(block, 0, axis), b = block_row(block, 1, axis);
+    const float8 c = block_row(block, 2, axis);
+    return (packet->negative[axis] ^ other) ? max(max(a, b), c) : min(min(a, b), c);
+}
+
+// The triangles that some ray of the packet may meet before `reach`: a third of a block's, and
+// testing each of them against all lanes costs as much as this.
+static inline uint triangles_near(global const TriangleBlock *block, const Packet *packet,
+                                  float reach)
+{
+    const float8 near_x = entry_bound(block_plane(block, packet, 0, 0), packet, 0);
+    const float8 near_y = entry_bound(block_plane(block, packet, 1, 0), packet, 1);
+    const float8 near_z = entry_bound(block_plane(block, packet, 2, 0), packet, 2);
+    const float8 far_x = leave_bound(block_plane(block, packet, 0, 1), packet, 0);
+    const float8 far_y = leave_bound(block_plane(block, packet, 1, 1), packet, 1);
+    const float8 far_z = leave_bound(block_plane(block, packet, 2, 1), packet, 2);
+    const float8 entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
+    return lane_bits(entry <= min(min(far_x, far_y), min(far_z, (float8)(reach))));
 }
 
 // The lanes whose rays are in the child's box before they reach what they have hit.
@@ -211,16 +267,21 @@ static ALWAYS_INLINE bool test_triangle(global const TriangleBlock *blocks, uint
 }
 
 static ALWAYS_INLINE bool test_packet_block(const SceneView *scene, uint number,
-                                            const Packet *packet, Truth lanes, Hit *best)
+                                            const Packet *packet, Truth lanes, float reach,
+                                            Hit *best)
 {
     global const TriangleBlock *block = &scene->triangles[number];
+    uint near = triangles_near(block, packet, reach);
     bool changed = false;
+    if (near == 0)
+        return false;
     if (packet->common_origin) {
         RelativeBlock relative;
         for (uint corner = 0; corner < 3; corner++)
             for (uint axis = 0; axis < 3; axis++)
                 relative_row(&relative, block, corner, axis, packet);
-        for (uint place = 0; place < WIDE && block->id[place] != NOTHING; place++) {
+        for (; near != 0; near &= near - 1) {
+            const uint place = lowest_bit(near);
             const Corners corners = {relative_corner(&relative, 0, place),
                                      relative_corner(&relative, 1, place),
                                      relative_corner(&relative, 2, place)};
@@ -229,7 +290,8 @@ static ALWAYS_INLINE bool test_packet_block(const SceneView *scene, uint number,
         }
         return changed;
     }
-    for (uint place = 0; place < WIDE && block->id[place] != NOTHING; place++) {
+    for (; near != 0; near &= near - 1) {
+        const uint place = lowest_bit(near);
         const Corners corners = {corner_from(block, 0, place, packet),
                                  corner_from(block, 1, place, packet),
                                  corner_from(block, 2, place, packet)};
@@ -239,10 +301,10 @@ static ALWAYS_INLINE bool test_packet_block(const SceneView *scene, uint number,
 }
 
 static ALWAYS_INLINE bool test_packet_leaf(const SceneView *scene, uint number,
-                                           const Packet *packet, uint bits, Hit *best)
+                                           const Packet *packet, uint bits, float reach, Hit *best)
 {
     if (popcount(bits) > MOST_LANES_ALONE)
-        return test_packet_block(scene, number, packet, lanes_of(bits), best);
+        return test_packet_block(scene, number, packet, lanes_of(bits), reach, best);
     bool changed = false;
     for (; bits != 0; bits &= bits - 1)
         changed |= test_block(scene->triangles, number, &packet->rays, lowest_bit(bits), best);
@@ -324,7 +386,7 @@ static inline uint traverse_packet(const SceneView *scene, const Packet *packet,
         }
         if (CLRT_STATISTICS)
             tally->triangle_tests += WIDE * popcount(bits);
-        if (!test_packet_leaf(scene, child & ~WIDE_LEAF, packet, bits, best))
+        if (!test_packet_leaf(scene, child & ~WIDE_LEAF, packet, bits, walk.farthest, best))
             continue;
         note_hits(&walk, is_shadow);
         if (is_shadow && !any_lane(walk.searching))
@@ -353,31 +415,38 @@ static inline Real3 filled(Real3 v, Truth lanes, uint lane)
                     lanes ? v.z : one_lane(v.z, lane));
 }
 
-static NOT_INLINE uint search_part(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                                   uint bits, Hit *best, Tally *tally)
+// Gathers the lanes whose bits are set, which share signs and the longest axis, into a packet.
+static inline void packet_gather(Packet *packet, const Ray *ray, uint bits, uint longest_axis)
 {
     const uint first = lowest_bit(bits);
-    const Truth lanes = lanes_of(bits);
-    Packet packet;
-    packet.active = lanes;
-    packet.common_origin = ray->kind != RAY_REFLECTED;
-    const Real3 origin = packet.common_origin ? ray->origin : filled(ray->origin, lanes, first);
-    search_prepare(&packet.rays, ray, origin, filled(ray->direction, lanes, first));
-    packet_prepare(&packet, origin);
+    packet->active = lanes_of(bits);
+    packet->common_origin = ray->kind != RAY_REFLECTED;
+    packet->rays.ray = ray;
+    const Real3 direction = filled(ray->direction, packet->active, first);
+    const Real3 origin =
+        packet->common_origin ? ray->origin : filled(ray->origin, packet->active, first);
+    packet_prepare(packet, origin, direction, longest_axis);
+}
+
+// Returns the lanes left over, whose rays have to search alone.
+static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *frame,
+                                     const Packet *packet, Hit *best, Tally *tally)
+{
+    const Truth lanes = packet->active;
     Hit hit = *best;
-    uint undone = 0;
+    uint left = 0;
     if (CLRT_BVH && frame->uses_bvh) {
-        undone = traverse_packet(scene, &packet, &hit, tally);
+        left = traverse_packet(scene, packet, &hit, tally);
     } else {
         for (uint block = 0; block * WIDE < frame->triangle_count; block++)
-            test_packet_block(scene, block, &packet, lanes, &hit);
+            test_packet_block(scene, block, packet, lanes, INFINITY, &hit);
         if (CLRT_STATISTICS)
             tally->triangle_tests += frame->triangle_count * lane_count(lanes);
     }
     best->t = lanes ? hit.t : best->t;
     best->id = lanes ? hit.id : best->id;
     best->index = lanes ? hit.index : best->index;
-    return undone;
+    return left;
 }
 
 // Rays that share signs and longest axis with enough others go as a packet, the rest alone.
@@ -395,15 +464,21 @@ static void meet_triangles(const SceneView *scene, const FrameData *frame, const
         const uint wanted = count_of(&classes, lowest_bit(left));
         const uint part = left & lane_bits(classes == wanted);
         left &= ~part;
-        if (popcount(part) < smallest)
+        if (popcount(part) < smallest) {
             alone |= part;
-        else
-            alone |= search_part(scene, frame, ray, part, best, tally);
+            continue;
+        }
+        Packet packet;
+        packet_gather(&packet, ray, part, wanted / 8);
+        alone |= meet_together(scene, frame, &packet, best, tally);
     }
     if (alone == 0)
         return;
     Search search;
-    search_prepare(&search, ray, ray->origin, ray->direction);
+    search.ray = ray;
+    search.axes = shear_axes(ray->direction);
+    search.shear = shear_along(ray->direction, &search.axes);
+    search_slabs(&search, ray->origin, ray->direction);
     meet_alone(scene, &search, alone, best, tally);
 }
 

@@ -44,14 +44,11 @@ static inline void search_slab(Real direction, Real origin, Real slack, Real *in
     *far_offset = -(origin - widening) * *inverse;
 }
 
-// Prepares the rays for origins o and directions d, which are the ray's own in its active lanes.
-static inline void search_prepare(Search *search, const Ray *ray, Real3 o, Real3 d)
+// The slabs of rays with origins o and directions d.
+static inline void search_slabs(Search *search, Real3 o, Real3 d)
 {
     const Real smallest = 0x1p-30f * largest_component(d);
     const Real slack = BVH_SLACK * largest_component(o);
-    search->ray = ray;
-    search->axes = shear_axes(d);
-    search->shear = shear_along(d, &search->axes);
     search_slab(slab_direction(d.x, smallest), o.x, slack, &search->inverse.x,
                 &search->near_offset.x, &search->far_offset.x);
     search_slab(slab_direction(d.y, smallest), o.y, slack, &search->inverse.y,
