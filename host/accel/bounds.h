@@ -10,6 +10,7 @@
 #endif
 
 typedef float Float4 __attribute__((vector_size(16)));
+typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
     Float4 low, negated_high; // x y z, and a fourth that means nothing
@@ -60,6 +61,20 @@ static inline float bounds_half_area(const Bounds *bounds)
 {
     const Float4 sides = bounds->low + bounds->negated_high;
     return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+}
+
+// The same of three bounds; the fourth is that of the last.
+static inline Float4 bounds_half_areas(const Bounds bounds[3])
+{
+    const Float4 a = bounds[0].low + bounds[0].negated_high;
+    const Float4 b = bounds[1].low + bounds[1].negated_high;
+    const Float4 c = bounds[2].low + bounds[2].negated_high;
+    const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Float4 x = __builtin_shufflevector(ab, c, 0, 1, 4, 4);
+    const Float4 y = __builtin_shufflevector(ab, c, 2, 3, 5, 5);
+    const Float4 z =
+        __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 2, 6), c, 0, 1, 6, 6);
+    return x * y + y * z + z * x;
 }
 
 static inline Box bounds_box(const Bounds *bounds)

@@ -116,6 +116,7 @@ static void make_leaf(const Subtree *subtree, const Waiting *waiting)
     BuildCounts *counts = subtree->counts;
     bvh->nodes[task->node].first = task->first;
     bvh->nodes[task->node].count = task->count;
+    bvh->nodes[task->node].leaf_count = 1;
     for (uint32_t i = 0; i < task->count; i++)
         bvh->order[task->first + i] = items[i].number;
     counts->leaf_count++;
@@ -130,6 +131,8 @@ static void make_items(const Subtree *subtree, uint32_t count)
     const uint32_t *numbers = subtree->build->bvh->order + subtree->first;
     for (uint32_t i = 0; i < count; i++) {
         BuildItem *item = &subtree->items[0][i];
+        if (i + TRIANGLES_AHEAD < count)
+            triangles_fetch(subtree->build->triangles, numbers[i + TRIANGLES_AHEAD]);
         item->bounds =
             bounds_of_triangle((const float(*)[3])subtree->build->triangles->corners[numbers[i]]);
         item->number = numbers[i];
@@ -146,6 +149,14 @@ void build_inner(const Build *build, const BuildTask *task, uint32_t left, uint3
     node->count = 0;
     children[0] = (BuildTask){child, task->first, left, depth};
     children[1] = (BuildTask){child + 1, task->first + left, task->count - left, depth};
+}
+
+void build_count_leaves(Bvh *bvh, uint32_t number)
+{
+    BvhNode *node = &bvh->nodes[number];
+    if (node->count == 0)
+        node->leaf_count =
+            bvh->nodes[node->first].leaf_count + bvh->nodes[node->first + 1].leaf_count;
 }
 
 void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, BuildCounts *counts)
@@ -169,4 +180,8 @@ void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, 
         counts->node_count += 2;
         child += 2;
     }
+    // Children stand behind their parents.
+    while (child > 2 * root->first + 1)
+        build_count_leaves(build->bvh, --child);
+    build_count_leaves(build->bvh, root->node);
 }

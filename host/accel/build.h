@@ -38,6 +38,9 @@ void build_move(const BuildItem *items, uint32_t count, const Split *split, Buil
 void build_inner(const Build *build, const BuildTask *task, uint32_t left, uint32_t child,
                  BuildTask children[2]);
 
+// Adds up the leaves below a node's children, where it has any.
+void build_count_leaves(Bvh *bvh, uint32_t number);
+
 // Divides the root and all below it; items has room for the double of its triangles.  The nodes
 // below the root take some of the places [2 * first + 1, 2 * (first + count) - 1), which no other
 // subtree does.

@@ -65,15 +65,30 @@ static bool build_subtrees(Whole *whole, Error *error)
     return true;
 }
 
+// Upper nodes are in the order of their division, so that children come behind their parents.
+static void count_upper_leaves(const Whole *whole)
+{
+    for (size_t i = whole->upper.nodes.count; i > 0; i--)
+        build_count_leaves(whole->build.bvh, whole->upper.nodes.data[i - 1]);
+}
+
+static int compare_numbers(const void *first, const void *second)
+{
+    const uint32_t *a = first, *b = second;
+    return *a < *b ? -1 : 1;
+}
+
 static bool finish(const Whole *whole, Error *error)
 {
     Bvh *bvh = whole->build.bvh;
+    count_upper_leaves(whole);
     bvh->upper_count = (uint32_t)whole->upper.nodes.count;
     bvh->upper = memory_raw(bvh->upper_count, sizeof *bvh->upper, error);
     if (bvh->upper == NULL)
         return false;
     if (bvh->upper_count > 0)
         memcpy(bvh->upper, whole->upper.nodes.data, bvh->upper_count * sizeof *bvh->upper);
+    qsort(bvh->upper, bvh->upper_count, sizeof *bvh->upper, compare_numbers);
     bvh->node_count = 1 + 2 * bvh->upper_count;
     for (uint32_t i = 0; i < whole->upper.subtrees.count; i++) {
         const BuildCounts *counts = &whole->counts[i];

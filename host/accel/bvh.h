@@ -28,6 +28,7 @@ typedef struct {
 typedef struct {
     Box box; // exactly around the triangles below
     uint32_t first, count;
+    uint32_t leaf_count; // of the leaves below; a leaf has one
 } BvhNode;
 
 typedef struct {

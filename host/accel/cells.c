@@ -159,6 +159,8 @@ static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t firs
     Bounds bounds = bounds_empty();
     do {
         const Bounds triangle = bounds_of(sorting, keyed[place].number);
+        if (place + TRIANGLES_AHEAD < sorting->count)
+            triangles_fetch(sorting->triangles, keyed[place + TRIANGLES_AHEAD].number);
         bounds_unite(&bounds, &triangle);
         sorting->cells->numbers[place] = keyed[place].number;
         place++;

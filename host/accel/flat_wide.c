@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Collapses the binary tree: a wide node starts with a binary node's two children and opens the one
-// with the largest surface, the likeliest to be met, until it has eight.  One walk through the
-// upper levels finds the wide nodes below them; threads count what each of these will take with all
-// that is below, and then write it to its place.  Nodes are written depth first, and so are the
+// with the largest surface, the likeliest to be met, until it has eight.  What would fill a node of
+// its own is not opened in part, which would leave nodes of two or three blocks.  One walk through
+// the upper levels finds the wide nodes below them; threads count what each of these will take with
+// all that is below, and then write it to its place.  Nodes are written depth first, and so are the
 // blocks.
 #include "accel/flat_wide.h"
 
@@ -19,6 +20,7 @@ typedef struct {
     float area;
     uint32_t node;
     uint32_t first, count; // places of the triangles, for a leaf
+    uint32_t leaf_count;
 } Part;
 
 // How much of the arrays something takes, or where it begins.
@@ -54,7 +56,10 @@ static bool is_block(const Part *part)
 static Part part_of(const Bvh *bvh, uint32_t number)
 {
     const BvhNode *node = &bvh->nodes[number];
-    Part part = {.box = node->box, .area = box_half_area(&node->box), .node = number};
+    Part part = {.box = node->box,
+                 .area = box_half_area(&node->box),
+                 .node = number,
+                 .leaf_count = node->leaf_count};
     if (node->count > 0) {
         part.first = node->first;
         part.count = node->count;
@@ -79,11 +84,19 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
+// Whether to open a part where there is room for so many more; the only part is opened always.
+static bool can_open(const Part *part, uint32_t room)
+{
+    return !is_block(part) &&
+           (part->leaf_count > WIDE || part->leaf_count <= room + 1 || room + 1 == WIDE);
+}
+
 static int largest_part(const Part *parts, uint32_t count)
 {
     int largest = -1;
     for (uint32_t i = 0; i < count; i++)
-        if (!is_block(&parts[i]) && (largest < 0 || parts[i].area > parts[largest].area))
+        if (can_open(&parts[i], WIDE - count) &&
+            (largest < 0 || parts[i].area > parts[largest].area))
             largest = (int)i;
     return largest;
 }
@@ -163,6 +176,9 @@ static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first
         memset(block, 0, sizeof *block);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t triangle = order == NULL ? first + i : order[first + i];
+        const uint32_t ahead = first + i + TRIANGLES_AHEAD;
+        if (order != NULL && ahead < flat->triangle_count)
+            triangles_fetch(collapse->source->triangles, order[ahead]);
         const float(*corners)[3] =
             (const float(*)[3])collapse->source->triangles->corners[triangle];
         for (int corner = 0; corner < 3; corner++)

@@ -8,6 +8,13 @@
 
 #define BINS 16
 
+// Small nodes are many, and theirs are as good with fewer.
+#define FEW_ITEMS 32
+#define FEW_BINS  8
+
+// Large ones are filled in two streams.
+#define MANY_ITEMS 128
+
 // What a leaf of single triangles may hold.
 #define LARGEST_LEAF 8
 
@@ -16,101 +23,150 @@
 
 // Prices are in tests of a leaf's unit, which is one triangle or a block of them.
 typedef struct {
-    uint32_t unit; // triangles
-    float node;    // reading a node and testing both its boxes
+    uint32_t unit, unit_bits; // triangles, and their logarithm
+    float node;               // reading a node and testing both its boxes
 } Costs;
 
-static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 1.0f}, [LEAVES_BLOCKS] = {WIDE, 0.3f}};
+static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS] = {8, 3, 0.3f}};
 
+// Bin by bin those of the three axes, so that planes are priced three at a time.
 typedef struct {
-    Bounds bounds[3][BINS];
-    uint32_t weights[3][BINS];
+    Bounds bounds[BINS][3];
+    Uint4 weights[BINS];
 } Bins;
 
 // Bin = (doubled center - origin) * scale; the scale is zero on an axis without extent.
 typedef struct {
     Float4 origin, scale;
+    int bins;
 } Binning;
 
 typedef struct {
     int axis; // -1 while none was found
     int bin;  // the first bin of the right side
     uint32_t left;
-    float cost;
+    float price;
 } Plane;
 
-static float price(const Costs *costs, const Bounds *bounds, uint32_t weight)
+// How many units so many triangles take.
+static Float4 units_of(const Costs *costs, Uint4 weights)
 {
-    return bounds_half_area(bounds) * (float)((weight + costs->unit - 1) / costs->unit);
+    const Uint4 units = (weights + (costs->unit - 1)) >> costs->unit_bits;
+    return __builtin_convertvector(units, Float4);
 }
 
-static Binning binning_of(const Bounds *centers)
+static Binning binning_of(const Bounds *centers, uint32_t count)
 {
-    Binning binning = {centers->low, {0}};
+    Binning binning = {centers->low, {0}, count <= FEW_ITEMS ? FEW_BINS : BINS};
     for (int axis = 0; axis < 3; axis++) {
         const float extent = bounds_extent(centers, axis);
-        const float scale = (float)BINS * 0.999999f / extent;
+        const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
     binning.origin[3] = 1; // far from the item numbers there, which are denormal numbers
     return binning;
 }
 
-static void clear_bins(Bins *bins)
+static void clear_bins(Bins *bins, int count)
 {
-    for (int axis = 0; axis < 3; axis++)
-        for (int bin = 0; bin < BINS; bin++) {
-            bins->bounds[axis][bin] = bounds_empty();
-            bins->weights[axis][bin] = 0;
-        }
+    for (int bin = 0; bin < count; bin++) {
+        for (int axis = 0; axis < 3; axis++)
+            bins->bounds[bin][axis] = bounds_empty();
+        bins->weights[bin] = (Uint4){0};
+    }
+}
+
+static void fill_item(Bins *bins, const BuildItem *item, const Binning *binning)
+{
+    const Bounds bounds = item->bounds;
+    const Float4 place = (bounds.low - bounds.negated_high - binning->origin) * binning->scale;
+    for (int axis = 0; axis < 3; axis++) {
+        const int bin = (int)place[axis];
+        bounds_unite(&bins->bounds[bin][axis], &bounds);
+        bins->weights[bin][axis] += item->weight;
+    }
+}
+
+// Neighbors fall into the same bins, and each would wait for the one before: two sets of bins, for
+// the two halves of the items.
+static void fill_bins_twice(Bins *bins, const BuildRange *range, const Binning *binning)
+{
+    Bins second;
+    const uint32_t half = range->count / 2;
+    clear_bins(&second, binning->bins);
+    for (uint32_t i = 0; i < half; i++) {
+        fill_item(bins, &range->items[i], binning);
+        fill_item(&second, &range->items[half + i], binning);
+    }
+    if (range->count % 2 > 0)
+        fill_item(bins, &range->items[range->count - 1], binning);
+    for (int bin = 0; bin < binning->bins; bin++) {
+        for (int axis = 0; axis < 3; axis++)
+            bounds_unite(&bins->bounds[bin][axis], &second.bounds[bin][axis]);
+        bins->weights[bin] += second.weights[bin];
+    }
 }
 
 static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binning)
 {
-    for (uint32_t i = 0; i < range->count; i++) {
-        const Bounds bounds = range->items[i].bounds;
-        const Float4 place = (bounds.low - bounds.negated_high - binning->origin) * binning->scale;
-        for (int axis = 0; axis < 3; axis++) {
-            const int bin = (int)place[axis];
-            bounds_unite(&bins->bounds[axis][bin], &bounds);
-            bins->weights[axis][bin] += range->items[i].weight;
-        }
+    clear_bins(bins, binning->bins);
+    if (range->count >= MANY_ITEMS) {
+        fill_bins_twice(bins, range, binning);
+        return;
     }
+    for (uint32_t i = 0; i < range->count; i++)
+        fill_item(bins, &range->items[i], binning);
+}
+
+// What is on one side of a plane of each axis.
+typedef struct {
+    Bounds bounds[3];
+    Uint4 weights;
+} Sides;
+
+static Sides sides_empty(void)
+{
+    return (Sides){{bounds_empty(), bounds_empty(), bounds_empty()}, {0}};
+}
+
+static void sides_add(Sides *sides, const Bins *bins, int bin)
+{
+    for (int axis = 0; axis < 3; axis++)
+        bounds_unite(&sides->bounds[axis], &bins->bounds[bin][axis]);
+    sides->weights += bins->weights[bin];
+}
+
+// Prices of empty sides are no numbers.
+static Float4 sides_price(const Sides *sides, const Costs *costs)
+{
+    return bounds_half_areas(sides->bounds) * units_of(costs, sides->weights);
 }
 
 // Sweeps once from the right, to know each right side, and once from the left, to price each plane.
-static void price_planes(const Bins *bins, int axis, const Costs *costs, Plane *best)
+static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
 {
-    float right_cost[BINS];
-    Bounds side = bounds_empty();
-    uint32_t weight = 0;
-    for (int i = BINS - 1; i > 0; i--) {
-        bounds_unite(&side, &bins->bounds[axis][i]);
-        weight += bins->weights[axis][i];
-        right_cost[i] = price(costs, &side, weight);
+    Float4 right_prices[BINS];
+    Float4 best = {INFINITY, INFINITY, INFINITY, INFINITY};
+    Uint4 best_bins = {0}, best_left = {0};
+    Sides sides = sides_empty();
+    for (int bin = count - 1; bin > 0; bin--) {
+        sides_add(&sides, bins, bin);
+        right_prices[bin] = sides_price(&sides, costs);
     }
-    side = bounds_empty();
-    weight = 0;
-    // Prices of empty sides are no numbers and never less than the best.
-    for (int i = 1; i < BINS; i++) {
-        bounds_unite(&side, &bins->bounds[axis][i - 1]);
-        weight += bins->weights[axis][i - 1];
-        const float cost = price(costs, &side, weight) + right_cost[i];
-        if (cost < best->cost)
-            *best = (Plane){axis, i, weight, cost};
+    sides = sides_empty();
+    for (int bin = 1; bin < count; bin++) {
+        sides_add(&sides, bins, bin - 1);
+        const Float4 prices = sides_price(&sides, costs) + right_prices[bin];
+        const Uint4 less = (Uint4)(prices < best);
+        best = (Float4)((less & (Uint4)prices) | (~less & (Uint4)best));
+        best_bins = (less & (uint32_t)bin) | (~less & best_bins);
+        best_left = (less & sides.weights) | (~less & best_left);
     }
-}
-
-static Plane cheapest_plane(const BuildRange *range, const Binning *binning, const Costs *costs)
-{
-    Bins bins;
-    Plane best = {-1, 0, 0, INFINITY};
-    clear_bins(&bins);
-    fill_bins(&bins, range, binning);
+    Plane plane = {-1, 0, 0, INFINITY};
     for (int axis = 0; axis < 3; axis++)
-        if (binning->scale[axis] > 0)
-            price_planes(&bins, axis, costs, &best);
-    return best;
+        if (best[axis] < plane.price)
+            plane = (Plane){axis, (int)best_bins[axis], best_left[axis], best[axis]};
+    return plane;
 }
 
 Split split_sah(const BuildRange *range)
@@ -120,11 +176,15 @@ Split split_sah(const BuildRange *range)
     if (range->weight <= costs->unit)
         return (Split){.kind = SPLIT_NONE};
     Plane best = {-1, 0, 0, INFINITY};
-    const Binning binning = binning_of(&range->centers);
-    if (range->depth < MEDIAN_SPLIT_DEPTH)
-        best = cheapest_plane(range, &binning, costs);
+    const Binning binning = binning_of(&range->centers, range->count);
+    if (range->depth < MEDIAN_SPLIT_DEPTH) {
+        Bins bins;
+        fill_bins(&bins, range, &binning);
+        best = cheapest_plane(&bins, binning.bins, costs);
+    }
     const float area = bounds_half_area(&range->box);
-    const bool pays = best.cost + costs->node * area < price(costs, &range->box, range->weight);
+    const float units = units_of(costs, (Uint4){range->weight})[0];
+    const bool pays = best.price + costs->node * area < units * area;
     if (best.axis >= 0 && (pays || range->weight > LARGEST_LEAF))
         return (Split){
             SPLIT_PLANE,     best.axis, binning.origin[best.axis], binning.scale[best.axis],

@@ -15,3 +15,13 @@ typedef struct {
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);
+
+// How far ahead of their use to fetch triangles that are read in no order.
+#define TRIANGLES_AHEAD 16
+
+static inline void triangles_fetch(const Triangles *triangles, uint32_t triangle)
+{
+    const char *corners = (const char *)triangles->corners[triangle];
+    __builtin_prefetch(corners);
+    __builtin_prefetch(corners + sizeof triangles->corners[0] - 1);
+}

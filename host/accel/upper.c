@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Planes between fewer cells would be too far from the best.
-#define FEWEST_CELLS 32
+// Nodes of more triangles are divided while there are cells enough: with fewer, planes between them
+// would be too far from the best.
+#define USUAL_TRIANGLES 8192
+#define FEWEST_CELLS    32
 
 // Deeper, the triangles lie so unevenly that grids hardly divide them.
 #define DEEPEST_GRID 24
@@ -31,7 +33,7 @@ typedef struct {
 static bool is_divided_by_cells(const Division *division, const CellTask *node)
 {
     const bool is_whole = node->item_count == division->cells.count;
-    return node->task.count > SUBTREE_TRIANGLES && node->task.depth < DEEPEST_GRID &&
+    return node->task.count > USUAL_TRIANGLES && node->task.depth < DEEPEST_GRID &&
            node->item_count >= (is_whole ? 2 : FEWEST_CELLS);
 }
 
@@ -115,32 +117,27 @@ static bool divide_node(Upper *upper, const Build *build, const BuildTask *task,
     return ok;
 }
 
-static int compare_numbers(const void *first, const void *second)
-{
-    const uint32_t *a = first, *b = second;
-    return *a < *b ? -1 : 1;
-}
-
-static int compare_places(const void *first, const void *second)
+// The largest first: small ones are shared out more evenly at the end.
+static int compare_subtrees(const void *first, const void *second)
 {
     const BuildTask *a = first, *b = second;
+    if (a->count != b->count)
+        return a->count > b->count ? -1 : 1;
     return a->first < b->first ? -1 : 1;
 }
 
 bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error)
 {
     const BuildTask root = {.count = (uint32_t)build->triangles->count, .depth = 1};
-    if (root.count <= SUBTREE_TRIANGLES)
+    if (root.count <= USUAL_TRIANGLES)
         return array_push(&upper->subtrees, root, error);
     bool ok = array_push(&upper->tasks, root, error);
     while (ok && upper->tasks.count > 0) {
         const BuildTask task = upper->tasks.data[--upper->tasks.count];
         ok = divide_node(upper, build, &task, crew, error);
     }
-    if (ok && upper->nodes.count > 0)
-        qsort(upper->nodes.data, upper->nodes.count, sizeof(uint32_t), compare_numbers);
     if (ok)
-        qsort(upper->subtrees.data, upper->subtrees.count, sizeof(BuildTask), compare_places);
+        qsort(upper->subtrees.data, upper->subtrees.count, sizeof(BuildTask), compare_subtrees);
     return ok;
 }
 

@@ -7,12 +7,11 @@
 #include "base/parallel.h"
 
 // Subtrees have no more triangles, but for those that nothing divides well.
-
-#define SUBTREE_TRIANGLES 8192
+#define SUBTREE_TRIANGLES 65536
 
 typedef struct {
-    ARRAY(uint32_t) nodes;     // that were divided, ascending
-    ARRAY(BuildTask) subtrees; // what is left below them, in the order of their triangles
+    ARRAY(uint32_t) nodes;     // that were divided, in this order
+    ARRAY(BuildTask) subtrees; // what is left below them, the largest first
     ARRAY(BuildTask) tasks;    // nodes that are still to be divided
 } Upper;
 
