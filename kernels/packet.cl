@@ -9,7 +9,7 @@
 #if CLRT_WIDE_NODES
 
 // Smaller parts are faster one by one.
-#define SMALLEST_PACKET 4
+#define SMALLEST_PACKET 6
 
 // A packet whose tests of a box against all lanes find fewer lanes inside than this on average has
 // fallen apart, and its rays start again alone.  The credit bridges bad luck at the start.
