@@ -19,7 +19,7 @@ static bool open_device(Starter *starter)
     const bool ok = device_open(&starter->device, options->device, &starter->error);
     starter->device_seconds = clock_seconds() - start;
     KernelChoice *choice = &starter->setup.source.choice;
-    *choice = kernel_choose(&options->kernel);
+    *choice = kernel_choose(&options->kernel, starter->device.is_cpu);
     const uint32_t side = choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
     starter->group[0] = options->group_width > 0 ? options->group_width : side;
     starter->group[1] = options->group_height > 0 ? options->group_height : side;

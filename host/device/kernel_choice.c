@@ -24,9 +24,12 @@ bool kernel_check_wish(const KernelWish *wish, Error *error)
     return true;
 }
 
-KernelChoice kernel_choose(const KernelWish *wish)
+KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu)
 {
-    KernelChoice choice = {.lanes = wish->choice.lanes};
+    const bool wants_pairs = wish->nodes_given && wish->choice.nodes == NODES_PAIR;
+    KernelChoice choice = {.family = is_cpu && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
+                           .nodes = is_cpu ? NODES_WIDE : NODES_PAIR,
+                           .lanes = wish->choice.lanes};
     if (wish->family_given)
         choice.family = wish->choice.family;
     if (wish->nodes_given)

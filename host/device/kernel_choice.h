@@ -26,8 +26,9 @@ typedef struct {
 // Fails where the wish contradicts itself.
 bool kernel_check_wish(const KernelWish *wish, Error *error);
 
-// Fills in what was not asked for by what suits the device.
-KernelChoice kernel_choose(const KernelWish *wish);
+// Fills in what was not asked for by what suits the device: packets on CPUs, rays and pairs
+// elsewhere.
+KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu);
 
 #define KERNEL_OPTIONS_SIZE 80
 

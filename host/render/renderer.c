@@ -22,11 +22,11 @@ static bool upload(Renderer *renderer, int place, const void *data, size_t size,
     if (size > device->largest_allocation)
         return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
                          size, device->name, (unsigned long long)device->largest_allocation);
+    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
     cl_int status;
     void *source = (void *)(size > 0 ? data : nothing);
-    renderer->arrays[place] =
-        clCreateBuffer(device->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR,
-                       size > 0 ? size : sizeof nothing, source, &status);
+    renderer->arrays[place] = clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin,
+                                             size > 0 ? size : sizeof nothing, source, &status);
     return cl_succeeded(status, "upload the scene", error);
 }
 
