@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Keeps two tiles in flight: while one is traced, the one before is read back and copied into the
+// Keeps two tiles in flight: while one is traced, the one before is read back into its place in the
 // picture.  Every tile uses the same padded grid with offset 0, since PoCL compiles a kernel again
 // for each local size and each new kind of grid.
 #include "render/draw.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define SLOTS 2
 
 // One tile in flight.
 typedef struct {
     cl_mem pixels, tallies; // on the device
-    float (*host_pixels)[3];
     uint (*host_tallies)[TALLY_KINDS];
     cl_event done;
     uint32_t x, y, width, height;
@@ -54,16 +52,15 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     const size_t tallies = settings->statistics ? count : 1;
     cl_int status;
     slot->pixels = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
-                                  count * sizeof *slot->host_pixels, NULL, &status);
+                                  count * 3 * sizeof(float), NULL, &status);
     if (!cl_succeeded(status, "allocate a tile", error))
         return false;
     slot->tallies = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
                                    tallies * sizeof *slot->host_tallies, NULL, &status);
     if (!cl_succeeded(status, "allocate a tile's counters", error))
         return false;
-    slot->host_pixels = memory_raw(count, sizeof *slot->host_pixels, error);
     slot->host_tallies = memory_raw(tallies, sizeof *slot->host_tallies, error);
-    return slot->host_pixels != NULL && slot->host_tallies != NULL;
+    return slot->host_tallies != NULL;
 }
 
 static void close_slot(Slot *slot)
@@ -74,7 +71,6 @@ static void close_slot(Slot *slot)
         clReleaseMemObject(slot->pixels);
     if (slot->tallies != NULL)
         clReleaseMemObject(slot->tallies);
-    free(slot->host_pixels);
     free(slot->host_tallies);
     *slot = (Slot){0};
 }
@@ -111,6 +107,18 @@ bool draw_warm_up(Renderer *renderer, Error *error)
     return ok;
 }
 
+// Reads the slot's colors into the picture.
+static cl_int read_pixels(const Drawing *drawing, Slot *slot)
+{
+    Framebuffer *framebuffer = drawing->framebuffer;
+    const size_t pixel = sizeof *framebuffer->pixels;
+    const size_t from[3] = {0, 0, 0}, to[3] = {slot->x * pixel, slot->y, 0};
+    const size_t region[3] = {slot->width * pixel, slot->height, 1};
+    return clEnqueueReadBufferRect(drawing->renderer->device->queue, slot->pixels, CL_FALSE, from,
+                                   to, region, slot->width * pixel, 0, framebuffer->width * pixel,
+                                   0, framebuffer->pixels, 0, NULL, &slot->done);
+}
+
 static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Error *error)
 {
     const Renderer *renderer = drawing->renderer;
@@ -128,15 +136,13 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
                                      count * sizeof *slot->host_tallies, slot->host_tallies, 0,
                                      NULL, NULL);
     if (status == CL_SUCCESS)
-        status =
-            clEnqueueReadBuffer(queue, slot->pixels, CL_FALSE, 0, count * sizeof *slot->host_pixels,
-                                slot->host_pixels, 0, NULL, &slot->done);
+        status = read_pixels(drawing, slot);
     if (status == CL_SUCCESS)
         status = clFlush(queue);
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// Copies a finished tile into the picture and adds up what it cost.
+// Waits for a tile and adds up what it cost.
 static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
 {
     Renderer *renderer = drawing->renderer;
@@ -144,11 +150,6 @@ static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
         return false;
     clReleaseEvent(slot->done);
     slot->done = NULL;
-    for (uint32_t row = 0; row < slot->height; row++) {
-        const size_t place = (size_t)(slot->y + row) * drawing->framebuffer->width + slot->x;
-        memcpy(drawing->framebuffer->pixels[place], slot->host_pixels[(size_t)row * slot->width],
-               slot->width * sizeof *slot->host_pixels);
-    }
     renderer->progress.tiles_done++;
     const size_t count = renderer->settings.statistics ? (size_t)slot->width * slot->height : 0;
     for (size_t pixel = 0; pixel < count; pixel++)
