@@ -87,15 +87,17 @@ static inline Box bounds_box(const Bounds *bounds)
     return box;
 }
 
-static inline Float4 float4_of(const float values[3])
+static inline Float4 float4_corner(const Triangles *triangles, uint32_t triangle, int corner)
 {
-    return (Float4){values[0], values[1], values[2], 0};
+    const float *point = triangles_corner(triangles, triangle, corner);
+    return (Float4){point[0], point[1], point[2], point[3]};
 }
 
-static inline Bounds bounds_of_triangle(const float corners[3][3])
+static inline Bounds bounds_of_triangle(const Triangles *triangles, uint32_t triangle)
 {
-    const Float4 zero = {0}, a = float4_of(corners[0]), b = float4_of(corners[1]),
-                 c = float4_of(corners[2]);
+    const Float4 zero = {0}, a = float4_corner(triangles, triangle, 0),
+                 b = float4_corner(triangles, triangle, 1),
+                 c = float4_corner(triangles, triangle, 2);
     // Adding zero turns -0 into 0.
     return (Bounds){float4_minimum(float4_minimum(a, b), c) + zero,
                     float4_minimum(float4_minimum(-a, -b), -c) + zero};

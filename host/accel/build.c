@@ -131,10 +131,7 @@ static void make_items(const Subtree *subtree, uint32_t count)
     const uint32_t *numbers = subtree->build->bvh->order + subtree->first;
     for (uint32_t i = 0; i < count; i++) {
         BuildItem *item = &subtree->items[0][i];
-        if (i + TRIANGLES_AHEAD < count)
-            triangles_fetch(subtree->build->triangles, numbers[i + TRIANGLES_AHEAD]);
-        item->bounds =
-            bounds_of_triangle((const float(*)[3])subtree->build->triangles->corners[numbers[i]]);
+        item->bounds = bounds_of_triangle(subtree->build->triangles, numbers[i]);
         item->number = numbers[i];
         item->weight = 1;
     }

@@ -34,7 +34,7 @@ typedef struct {
 
 static Bounds bounds_of(const Sorting *sorting, uint32_t number)
 {
-    return bounds_of_triangle((const float(*)[3])sorting->triangles->corners[number]);
+    return bounds_of_triangle(sorting->triangles, number);
 }
 
 static void measure_chunk(void *context, uint32_t chunk, uint32_t worker)
@@ -159,8 +159,6 @@ static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t firs
     Bounds bounds = bounds_empty();
     do {
         const Bounds triangle = bounds_of(sorting, keyed[place].number);
-        if (place + TRIANGLES_AHEAD < sorting->count)
-            triangles_fetch(sorting->triangles, keyed[place + TRIANGLES_AHEAD].number);
         bounds_unite(&bounds, &triangle);
         sorting->cells->numbers[place] = keyed[place].number;
         place++;

@@ -68,14 +68,13 @@ static void place_triangles(FlatScene *flat, const FlatSource *source)
     const uint32_t *order = source->bvh->order;
     for (uint32_t place = 0; place < flat->triangle_count; place++) {
         const uint32_t number = order == NULL ? place : order[place];
-        const float(*corners)[3] = (const float(*)[3])source->triangles->corners[number];
         TriangleData *triangle = &flat->triangles[place];
         triangle->id = flat->sphere_count + number;
         triangle->material = flat->looks[number].material;
         triangle->normals = flat->looks[number].normals;
-        memcpy(triangle->a, corners[0], sizeof triangle->a);
-        memcpy(triangle->b, corners[1], sizeof triangle->b);
-        memcpy(triangle->c, corners[2], sizeof triangle->c);
+        memcpy(triangle->a, triangles_corner(source->triangles, number, 0), sizeof triangle->a);
+        memcpy(triangle->b, triangles_corner(source->triangles, number, 1), sizeof triangle->b);
+        memcpy(triangle->c, triangles_corner(source->triangles, number, 2), sizeof triangle->c);
     }
 }
 

@@ -176,14 +176,11 @@ static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first
         memset(block, 0, sizeof *block);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t triangle = order == NULL ? first + i : order[first + i];
-        const uint32_t ahead = first + i + TRIANGLES_AHEAD;
-        if (order != NULL && ahead < flat->triangle_count)
-            triangles_fetch(collapse->source->triangles, order[ahead]);
-        const float(*corners)[3] =
-            (const float(*)[3])collapse->source->triangles->corners[triangle];
-        for (int corner = 0; corner < 3; corner++)
+        for (int corner = 0; corner < 3; corner++) {
+            const float *point = triangles_corner(collapse->source->triangles, triangle, corner);
             for (int axis = 0; axis < 3; axis++)
-                block->corners[corner][axis][i] = corners[corner][axis];
+                block->corners[corner][axis][i] = point[axis];
+        }
         block->id[i] =
             (flat->sphere_count + triangle) | (flat->looks[triangle].material & TRIANGLE_TWO_SIDED);
     }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Normalizes every vertex in fp64, rounds it once, and copies it to the triangles it is a corner
-// of.
+// Normalizes every vertex in fp64 and rounds it once; triangles keep sharing them.
 #include "accel/triangles.h"
 
 #include <stdlib.h>
-#include <string.h>
 
+// A mesh whose vertices come behind those of the meshes before.
 typedef struct {
     const Mesh *mesh;
     const Normalization *normalization;
-    float (*points)[3];     // the mesh's vertices
-    float (*corners)[3][3]; // of the mesh's triangles
+    float (*points)[4];     // its own
+    uint32_t (*corners)[3]; // its own
+    uint32_t first_point;   // among all
 } Storing;
 
 static void store_points(void *context, uint32_t chunk, uint32_t worker)
@@ -22,9 +22,11 @@ static void store_points(void *context, uint32_t chunk, uint32_t worker)
         const double *position = storing->mesh->positions[vertex];
         const Vec3 p =
             normalize_point(storing->normalization, vec3(position[0], position[1], position[2]));
-        storing->points[vertex][0] = (float)p.x;
-        storing->points[vertex][1] = (float)p.y;
-        storing->points[vertex][2] = (float)p.z;
+        float *point = storing->points[vertex];
+        point[0] = (float)p.x;
+        point[1] = (float)p.y;
+        point[2] = (float)p.z;
+        point[3] = 0;
     }
 }
 
@@ -35,48 +37,52 @@ static void store_corners(void *context, uint32_t chunk, uint32_t worker)
     (void)worker;
     for (uint32_t triangle = chunk * CHUNK_ELEMENTS; triangle < end; triangle++)
         for (int corner = 0; corner < 3; corner++)
-            memcpy(storing->corners[triangle][corner],
-                   storing->points[storing->mesh->triangles[triangle][corner]],
-                   sizeof storing->corners[triangle][corner]);
+            storing->corners[triangle][corner] =
+                storing->first_point + storing->mesh->triangles[triangle][corner];
 }
 
-static bool store_mesh(Storing *storing, Crew *crew, Error *error)
+static void store_mesh(Triangles *triangles, const Mesh *mesh, const Normalization *normalization,
+                       Crew *crew)
 {
-    const Mesh *mesh = storing->mesh;
-    storing->points = memory_raw(mesh->vertex_count, sizeof *storing->points, error);
-    if (storing->points == NULL)
-        return false;
-    crew_run(crew, chunk_count((uint32_t)mesh->vertex_count), store_points, storing);
-    crew_run(crew, chunk_count((uint32_t)mesh->triangle_count), store_corners, storing);
-    free(storing->points);
-    return true;
+    Storing storing = {mesh, normalization, triangles->points + triangles->point_count,
+                       triangles->corners + triangles->count, (uint32_t)triangles->point_count};
+    crew_run(crew, chunk_count((uint32_t)mesh->vertex_count), store_points, &storing);
+    crew_run(crew, chunk_count((uint32_t)mesh->triangle_count), store_corners, &storing);
+    triangles->point_count += mesh->vertex_count;
+    triangles->count += mesh->triangle_count;
+}
+
+static size_t vertex_count(const Scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        count += scene->objects.data[i].mesh.vertex_count;
+    return count;
 }
 
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     Crew *crew, Error *error)
 {
-    const size_t count = scene_triangle_count(scene);
+    const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     // Ids share 32 bits with the spheres', and children on the traversal stack take one of them.
     if (count + scene->spheres.count >= 0x7fffffff)
         return error_set(error, "the scene has %zu triangles, more than 2^31 primitives", count);
+    if (points > UINT32_MAX)
+        return error_set(error, "the scene has %zu vertices, more than 2^32", points);
+    triangles->points = memory_raw(points, sizeof *triangles->points, error);
     triangles->corners = memory_raw(count, sizeof *triangles->corners, error);
-    if (triangles->corners == NULL)
+    if (triangles->points == NULL || triangles->corners == NULL) {
+        triangles_free(triangles);
         return false;
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        Storing storing = {.mesh = &scene->objects.data[i].mesh,
-                           .normalization = normalization,
-                           .corners = triangles->corners + triangles->count};
-        if (!store_mesh(&storing, crew, error)) {
-            triangles_free(triangles);
-            return false;
-        }
-        triangles->count += storing.mesh->triangle_count;
     }
+    for (size_t i = 0; i < scene->objects.count; i++)
+        store_mesh(triangles, &scene->objects.data[i].mesh, normalization, crew);
     return true;
 }
 
 void triangles_free(Triangles *triangles)
 {
+    free(triangles->points);
     free(triangles->corners);
     *triangles = (Triangles){0};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene -> Triangles: the corners of all triangles in id order, as the floats that are traced.
+// Scene -> Triangles: all triangles in id order, their corners as the floats that are traced.
 // Equal points give equal floats, which watertightness and the builders rest on.
 #pragma once
 
@@ -7,8 +7,9 @@
 #include "scene/normalize.h"
 
 typedef struct {
-    float (*corners)[3][3]; // [triangle][corner][axis], in [-1, 1]; owned
-    size_t count;
+    float (*points)[4];     // all meshes' vertices in the normalized frame; the fourth is zero
+    uint32_t (*corners)[3]; // of each triangle: the places of its points
+    size_t count, point_count;
 } Triangles;
 
 // The n-th triangle here is the scene's n-th in file order.
@@ -16,12 +17,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
                     Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);
 
-// How far ahead of their use to fetch triangles that are read in no order.
-#define TRIANGLES_AHEAD 16
-
-static inline void triangles_fetch(const Triangles *triangles, uint32_t triangle)
+static inline const float *triangles_corner(const Triangles *triangles, size_t triangle, int corner)
 {
-    const char *corners = (const char *)triangles->corners[triangle];
-    __builtin_prefetch(corners);
-    __builtin_prefetch(corners + sizeof triangles->corners[0] - 1);
+    return triangles->points[triangles->corners[triangle][corner]];
 }

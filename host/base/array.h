@@ -26,8 +26,8 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
                    sizeof *(array)->data, error) &&                                                \
      ((array)->data[(array)->count++] = (item), true))
 
-// calloc and malloc of count elements that fill Error instead of returning NULL silently;
-// NULL on overflow or exhaustion.  Zero elements give a pointer that may be freed.
+// calloc and malloc of count elements, aligned to 64 bytes, that fill Error instead of returning
+// NULL silently; NULL on overflow or exhaustion.  Zero elements give a pointer that may be freed.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 

@@ -13,7 +13,7 @@ typedef struct {
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool is_cpu;
-    bool shares_memory; // with the host, whose arrays it reads in place
+    bool shares_memory;    // with the host, whose arrays it reads in place
     bool correct_division; // offers correctly rounded divide and square root
 } Device;
 

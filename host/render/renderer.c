@@ -17,7 +17,7 @@
 static bool upload(Renderer *renderer, int place, const void *data, size_t size, Error *error)
 {
     // OpenCL has no empty buffers, and kernels read nothing from one that stands for no elements.
-    static const char nothing[64];
+    static const _Alignas(64) char nothing[64];
     const Device *device = renderer->device;
     if (size > device->largest_allocation)
         return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",

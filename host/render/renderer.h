@@ -53,7 +53,8 @@ typedef struct {
     RenderProgress progress; // of the latest picture
 } Renderer;
 
-// Uploads the scene, which must outlive the renderer, and builds the program.  The scene is flattened for the nodes of the choice.
+// Uploads the scene, or lets the device read it where it is, and builds the program.  The scene is
+// flattened for the nodes of the choice and outlives the renderer.
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);

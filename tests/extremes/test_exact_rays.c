@@ -47,9 +47,11 @@ static bool face_holds(const AxisRay *ray, const float corners[3][3])
 // The lowest id of the triangles that hold the point, which all are equally far.
 static TestHit expected_hit(const AxisRay *ray, const Triangles *triangles)
 {
-    for (size_t i = 0; i < triangles->count; i++)
-        if (face_holds(ray, (const float(*)[3])triangles->corners[i]))
+    for (size_t i = 0; i < triangles->count; i++) {
+        const StageTriangle triangle = stage_triangle(triangles, i);
+        if (face_holds(ray, triangle.corners))
             return (TestHit){ray->t, (uint32_t)i};
+    }
     return (TestHit){INFINITY, NOTHING};
 }
 
@@ -134,13 +136,14 @@ static void axis_parallel_rays_meet_a_lattice_cube_exactly_t20(void **state)
     assert_int_equal(wrong, 0);
 }
 
-static bool lies_in_plane(const float corners[3][3], const float normal[3], float offset)
+static bool lies_in_plane(const Triangles *triangles, uint32_t number, const float normal[3],
+                          float offset)
 {
-    for (int corner = 0; corner < 3; corner++)
-        if (corners[corner][0] * normal[0] + corners[corner][1] * normal[1] +
-                corners[corner][2] * normal[2] !=
-            offset)
+    for (int corner = 0; corner < 3; corner++) {
+        const float *at = triangles_corner(triangles, number, corner);
+        if (at[0] * normal[0] + at[1] * normal[1] + at[2] * normal[2] != offset)
             return false;
+    }
     return true;
 }
 
@@ -171,7 +174,7 @@ static void rays_in_the_plane_of_a_face_meet_its_neighbor_instead_t19(void **sta
                 continue;
             ray_batch_trace(*state, BATCH_NEAREST, &ray, 1, &hit);
             wrong += hit.t != 1 || hit.id == NOTHING ||
-                     lies_in_plane((const float(*)[3])stage.triangles.corners[hit.id], up, HALF);
+                     lies_in_plane(&stage.triangles, hit.id, up, HALF);
             count++;
         }
     stage_free(&stage);
@@ -227,9 +230,8 @@ static void rays_in_a_tilted_plane_meet_a_neighbor_instead_t19(void **state)
         rays[i] = ray_in_tilted_plane(&random);
     ray_batch_trace(*state, BATCH_NEAREST, rays, TILTED_RAYS, hits);
     for (int i = 0; i < TILTED_RAYS; i++)
-        wrong +=
-            hits[i].id == NOTHING || !(hits[i].t < INFINITY) ||
-            lies_in_plane((const float(*)[3])stage.triangles.corners[hits[i].id], normal, HALF);
+        wrong += hits[i].id == NOTHING || !(hits[i].t < INFINITY) ||
+                 lies_in_plane(&stage.triangles, hits[i].id, normal, HALF);
     stage_free(&stage);
     report_case("T-19", "plane=tilted", TILTED_RAYS, wrong);
     assert_int_equal(wrong, 0);
@@ -288,8 +290,8 @@ static void hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19(void **st
         if (hits[i].id == NOTHING)
             continue;
         hits_seen++;
-        const float(*corners)[3] = (const float(*)[3])stage.triangles.corners[hits[i].id];
-        wrong += !hit_lies_on_triangle(&rays[i], &hits[i], corners);
+        const StageTriangle triangle = stage_triangle(&stage.triangles, hits[i].id);
+        wrong += !hit_lies_on_triangle(&rays[i], &hits[i], triangle.corners);
     }
     stage_free(&stage);
     scene_free(&scene);

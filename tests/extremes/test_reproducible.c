@@ -150,11 +150,12 @@ static void draw_tile(const Renderer *renderer, cl_mem pixels, uint32_t tile, Fr
 static void draw_in_order(Framebuffer *picture, const Studio *studio, const uint32_t order[TILES])
 {
     Renderer renderer;
+    Stage stage;
     Error error = {0};
     cl_int status;
     const PictureSettings settings = usual_settings();
     Scene scene = varied_scene();
-    picture_open(&renderer, studio, &scene, &settings);
+    picture_open(&renderer, &stage, studio, &scene, &settings);
     FrameData frame = renderer.frame;
     frame.camera = picture_camera(&scene, &settings.render);
     const cl_mem pixels = clCreateBuffer(studio->device.context, CL_MEM_WRITE_ONLY,
@@ -165,6 +166,7 @@ static void draw_in_order(Framebuffer *picture, const Studio *studio, const uint
         draw_tile(&renderer, pixels, order[i], frame, picture);
     clReleaseMemObject(pixels);
     renderer_close(&renderer);
+    stage_free(&stage);
     scene_free(&scene);
 }
 

@@ -41,7 +41,8 @@ static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t 
     for (uint32_t place = node->first; place < node->first + node->count; place++) {
         seen[bvh->order[place]]++;
         for (int corner = 0; corner < 3; corner++)
-            assert_true(box_holds(&node->box, triangles->corners[bvh->order[place]][corner]));
+            assert_true(
+                box_holds(&node->box, triangles_corner(triangles, bvh->order[place], corner)));
     }
     if (node->count > 0)
         return 1;

@@ -58,7 +58,8 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
         const TriangleData *triangle = &all.flat.triangles[place];
         const uint32_t number = triangle->id - 2;
         assert_int_equal(number, all.bvh.order[place]);
-        assert_memory_equal(triangle->b, all.triangles.corners[number][1], sizeof triangle->b);
+        assert_memory_equal(triangle->b, triangles_corner(&all.triangles, number, 1),
+                            sizeof triangle->b);
     }
     release(&all);
 }
@@ -145,7 +146,8 @@ static void check_block(const Flattened *all, uint32_t number, const Box *box, u
                     assert_true(at == 0);
                     continue;
                 }
-                assert_true(at == all->triangles.corners[NUMBER_OF(block->id[i])][corner][axis]);
+                assert_true(
+                    at == triangles_corner(&all->triangles, NUMBER_OF(block->id[i]), corner)[axis]);
                 assert_true(box->low[axis] < at && at < box->high[axis]);
                 seen[NUMBER_OF(block->id[i])]++;
             }

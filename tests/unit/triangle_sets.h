@@ -17,19 +17,25 @@ static inline float random_float(uint64_t *state)
 
 static inline Triangles triangle_set(TriangleSet set, size_t count)
 {
-    Triangles triangles = {malloc((count + 1) * sizeof *triangles.corners), count};
-    assert(triangles.corners != NULL);
+    Triangles triangles = {.points = malloc((3 * count + 1) * sizeof *triangles.points),
+                           .corners = malloc((count + 1) * sizeof *triangles.corners),
+                           .count = count,
+                           .point_count = 3 * count};
+    assert(triangles.points != NULL && triangles.corners != NULL);
     uint64_t state = 1;
     float size = 1;
     for (size_t i = 0; i < count; i++) {
         const float corner = set == SET_CONCENTRIC ? (float)(i + 1) / (float)count : 0.01f;
         const float center = set == SET_SPIRAL ? size : 0;
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
+            float *point = triangles.points[3 * i + (size_t)k];
+            triangles.corners[i][k] = (uint32_t)(3 * i) + (uint32_t)k;
+            point[3] = 0;
             for (int axis = 0; axis < 3; axis++) {
                 const float at = axis == k ? corner : -0.5f * corner;
-                triangles.corners[i][k][axis] =
-                    set == SET_SCATTERED ? random_float(&state) : center + at * size;
+                point[axis] = set == SET_SCATTERED ? random_float(&state) : center + at * size;
             }
+        }
         if (set == SET_SPIRAL && i < 100)
             size *= 0.5f;
     }

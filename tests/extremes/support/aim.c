@@ -29,7 +29,7 @@ void aim_randomly(TestRay *rays, size_t count, const Room *room, Random *random)
 
 Vec3 aim_corner(const Triangles *triangles, size_t triangle, size_t corner)
 {
-    const float *position = triangles->corners[triangle][corner];
+    const float *position = triangles_corner(triangles, triangle, (int)corner);
     return vec3((double)position[0], (double)position[1], (double)position[2]);
 }
 

@@ -40,20 +40,17 @@ PictureSettings picture_settings(void)
                                         .specialization = SPECIALIZE_NEVER}};
 }
 
-void picture_open(Renderer *renderer, const Studio *studio, const Scene *scene,
+void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
-    Stage stage;
     Error error = {0};
     const RendererSetup setup = {.device = &studio->device,
                                  .cache = &studio->cache,
                                  .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
                                             .extra_options = settings->extra_options,
                                             .choice = settings->choice}};
-    stage_make_as(&stage, scene, settings->tree, settings->choice.nodes);
-    const bool ok = renderer_open(renderer, &setup, &stage.flat, &settings->render, &error);
-    stage_free(&stage);
-    require(ok, &error);
+    stage_make_as(stage, scene, settings->tree, settings->choice.nodes);
+    require(renderer_open(renderer, &setup, &stage->flat, &settings->render, &error), &error);
 }
 
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
@@ -67,13 +64,15 @@ void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *s
                   const PictureSettings *settings)
 {
     Renderer renderer;
+    Stage stage;
     Error error = {0};
     const RenderSettings *render = &settings->render;
     const CameraData camera = picture_camera(scene, render);
-    picture_open(&renderer, studio, scene, settings);
+    picture_open(&renderer, &stage, studio, scene, settings);
     const bool ok = framebuffer_make(framebuffer, render->width, render->height, &error) &&
                     renderer_draw(&renderer, &camera, NULL, framebuffer, &error);
     renderer_close(&renderer);
+    stage_free(&stage);
     require(ok, &error);
 }
 

@@ -26,8 +26,9 @@ typedef struct {
 // 64 x 64 pixels of one sample in tiles of 32 x 32, drawn by the general program.
 PictureSettings picture_settings(void);
 
-// Opens a renderer for the scene; kernels are those that are built in, or CLRT_KERNEL_DIR's.
-void picture_open(Renderer *renderer, const Studio *studio, const Scene *scene,
+// Opens a renderer for the scene, with a stage that it needs until it is closed; kernels are those
+// that are built in, or CLRT_KERNEL_DIR's.
+void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
 
 // The first of the scene's viewpoints, as the renderer's settings want it.

@@ -56,9 +56,10 @@ Room room_inside(const Stage *stage, Vec3 center, double half_side)
                  half_side * stage->normalization.scale, INFINITY};
     double winding = 0;
     for (size_t i = 0; i < stage->triangles.count; i++) {
-        const float(*corners)[3] = (const float(*)[3])stage->triangles.corners[i];
-        room.radius = fmin(room.radius, 0.999 * triangle_distance_to(corners, room.center));
-        winding += solid_angle(corners, room.center);
+        const StageTriangle triangle = stage_triangle(&stage->triangles, i);
+        room.radius =
+            fmin(room.radius, 0.999 * triangle_distance_to(triangle.corners, room.center));
+        winding += solid_angle(triangle.corners, room.center);
     }
     assert_true(room.radius > 0);
     assert_true(fabs(fabs(winding) - 1) < 1e-6);

@@ -34,3 +34,12 @@ void stage_free(Stage *stage)
     triangles_free(&stage->triangles);
     *stage = (Stage){0};
 }
+
+StageTriangle stage_triangle(const Triangles *triangles, size_t number)
+{
+    StageTriangle triangle;
+    for (int corner = 0; corner < 3; corner++)
+        for (int axis = 0; axis < 3; axis++)
+            triangle.corners[corner][axis] = triangles_corner(triangles, number, corner)[axis];
+    return triangle;
+}

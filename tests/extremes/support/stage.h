@@ -21,3 +21,9 @@ void stage_make(Stage *stage, const Scene *scene, TreeKind tree);
 // stage_make lays out pairs.
 void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout layout);
 void stage_free(Stage *stage);
+
+typedef struct {
+    float corners[3][3];
+} StageTriangle;
+
+StageTriangle stage_triangle(const Triangles *triangles, size_t number);
