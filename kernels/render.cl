@@ -40,42 +40,49 @@ static inline Real mean_of(LongCount sum, ulong count)
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
-static inline Real3 sample_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
-                                 Truth active, Tally *tally)
+// Places in the picture, of pixels or of samples.
+typedef struct {
+    Count x, y;
+    Truth active;
+} Places;
+
+static inline Real3 sample_color(const SceneView *scene, const FrameData *frame,
+                                 const Places *samples, Tally *tally)
 {
-    const Ray ray = camera_ray(frame, x, y, active);
+    const Ray ray = camera_ray(frame, samples->x, samples->y, samples->active);
     const Real3 color = trace(scene, frame, ray, tally);
     if (CLRT_STATISTICS)
-        tally->camera_rays += lane_count(active);
+        tally->camera_rays += lane_count(samples->active);
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
 // Samples are summed as integers: exact in any order, so that a constant color stays itself
 // however many samples there are.
-static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
-                               Truth active, Tally *tally)
+static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, const Places *pixels,
+                               Tally *tally)
 {
     LongCount red = 0, green = 0, blue = 0;
-    const uint samples = frame->samples;
-    for (uint row = 0; row < samples; row++)
-        for (uint column = 0; column < samples; column++) {
-            const Real3 color =
-                sample_color(scene, frame, x * samples + column, y * samples + row, active, tally);
+    const uint side = frame->samples;
+    for (uint row = 0; row < side; row++)
+        for (uint column = 0; column < side; column++) {
+            const Places samples = {pixels->x * side + column, pixels->y * side + row,
+                                    pixels->active};
+            const Real3 color = sample_color(scene, frame, &samples, tally);
             red += to_long(color.x);
             green += to_long(color.y);
             blue += to_long(color.z);
         }
-    const ulong count = (ulong)samples * samples;
+    const ulong count = (ulong)side * side;
     return real3_of(mean_of(red, count), mean_of(green, count), mean_of(blue, count));
 }
 
-static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame, Count x, Count y,
-                                Truth active, Tally *tally)
+// One sample needs no sum, whose division costs more than tracing a simple scene.
+static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame,
+                                const Places *pixels, Tally *tally)
 {
     if (frame->samples > 1)
-        return mean_color(scene, frame, x, y, active, tally);
-    const Real3 color = sample_color(scene, frame, x, y, active, tally);
-    return scaled3(0x1p-32f, color);
+        return mean_color(scene, frame, pixels, tally);
+    return scaled3(0x1p-32f, sample_color(scene, frame, pixels, tally));
 }
 
 static inline void store_tally(global uint *counts, const Tally *tally)
@@ -90,9 +97,14 @@ static inline void store_tally(global uint *counts, const Tally *tally)
     counts[TALLY_SPHERE_TESTS] = tally->sphere_tests;
 }
 
+typedef struct {
+    global float *pixels;
+    global uint *tallies;
+} Output;
+
 // Stores the colors of the lanes inside the tile, and with the first of them what all cost.
 static inline void store_packet(const FrameData *frame, uint2 corner, Real3 color,
-                                const Tally *tally, global float *pixels, global uint *tallies)
+                                const Tally *tally, const Output *output)
 {
     const float *red = (const float *)&color.x, *green = (const float *)&color.y,
                 *blue = (const float *)&color.z;
@@ -102,11 +114,11 @@ static inline void store_packet(const FrameData *frame, uint2 corner, Real3 colo
         if (column >= frame->tile_width || row >= frame->tile_height)
             continue;
         const size_t place = (size_t)row * frame->tile_width + column;
-        pixels[3 * place] = red[lane];
-        pixels[3 * place + 1] = green[lane];
-        pixels[3 * place + 2] = blue[lane];
+        output->pixels[3 * place] = red[lane];
+        output->pixels[3 * place + 1] = green[lane];
+        output->pixels[3 * place + 2] = blue[lane];
         if (CLRT_STATISTICS)
-            store_tally(tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
+            store_tally(output->tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
     }
 }
 
@@ -120,14 +132,15 @@ kernel void render_tile(const FrameData frame, global const PointLight *lights,
                         global float *pixels, global uint *tallies)
 {
     const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const Output output = {pixels, tallies};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
             const Count column = x + LANE_X, row = y + LANE_Y;
-            const Truth active = column < frame.tile_width && row < frame.tile_height;
+            const Places places = {frame.tile_x + column, frame.tile_y + row,
+                                   column < frame.tile_width && row < frame.tile_height};
             Tally tally = {0};
-            const Real3 color = pixel_color(&scene, &frame, frame.tile_x + column,
-                                            frame.tile_y + row, active, &tally);
-            store_packet(&frame, (uint2)(x, y), color, &tally, pixels, tallies);
+            const Real3 color = pixel_color(&scene, &frame, &places, &tally);
+            store_packet(&frame, (uint2)(x, y), color, &tally, &output);
         }
 }

@@ -38,34 +38,37 @@ static inline Real3 half_vector_of(const Surface *surface, Real3 toward_light)
     return choose3(has_length(half_vector), half_vector, surface->normal);
 }
 
+// What is lit, in which lanes, and the light received so far.
 typedef struct {
+    const Surface *surface;
+    const MaterialLanes *material;
+    Truth wanted;
     Real diffuse, specular;
-} LightSum;
+} Lighting;
 
-// Adds what the light at `light` gives to the surfaces.  Those turned away from it get nothing and
-// need no shadow ray.
-static inline void receive_light(const SceneView *scene, const FrameData *frame,
-                                 const Surface *surface, const MaterialLanes *material, uint index,
-                                 Truth wanted, LightSum *sum, Tally *tally)
+// Adds what a light gives.  Surfaces turned away from it get nothing and need no shadow ray.
+static inline void receive_light(const SceneView *scene, const FrameData *frame, uint index,
+                                 Lighting *lighting, Tally *tally)
 {
+    const Surface *surface = lighting->surface;
     const Real3 light = load3(scene->lights[index].position);
     const float intensity = scene->lights[index].intensity;
     const Real3 toward_light = unit_vector(difference(light, surface->point));
     const Real cosine = dot_product(surface->normal, toward_light);
-    const Truth faces = wanted && cosine > 0.0f;
+    const Truth faces = lighting->wanted && cosine > 0.0f;
     if (!any_lane(faces))
         return;
     if (CLRT_STATISTICS)
         tally->shadow_rays += lane_count(faces);
     const Ray ray = ray_from_light(light, surface, faces);
     const Truth is_lit = faces && !is_blocked(scene, frame, &ray, tally);
-    sum->diffuse = is_lit ? sum->diffuse + intensity * cosine : sum->diffuse;
-    const Truth shines = is_lit && material->shader == SHADER_BLINN_PHONG;
+    lighting->diffuse = is_lit ? lighting->diffuse + intensity * cosine : lighting->diffuse;
+    const Truth shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!CLRT_SPECULAR || !any_lane(shines))
         return;
-    const Real shine =
-        intensity * highlight(material, surface->normal, half_vector_of(surface, toward_light));
-    sum->specular = shines ? sum->specular + shine : sum->specular;
+    const Real3 half_vector = half_vector_of(surface, toward_light);
+    const Real shine = intensity * highlight(lighting->material, surface->normal, half_vector);
+    lighting->specular = shines ? lighting->specular + shine : lighting->specular;
 }
 
 // The color of the surfaces where `met`; other lanes hold anything.
@@ -74,16 +77,16 @@ static inline Real3 shade(const SceneView *scene, const FrameData *frame, const 
 {
     const Truth is_flat = material->shader == SHADER_SILHOUETTE;
     const Truth wanted = met && !is_flat;
-    LightSum sum = {0.0f, 0.0f};
+    Lighting lighting = {surface, material, wanted, 0.0f, 0.0f};
     if (!any_lane(wanted))
         return material->diffuse;
     for (uint index = 0; index < frame->light_count; index++)
-        receive_light(scene, frame, surface, material, index, wanted, &sum, tally);
-    const Real diffuse = frame->ambient + material->kd * min(sum.diffuse, BRIGHTEST);
+        receive_light(scene, frame, index, &lighting, tally);
+    const Real diffuse = frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
     Real3 color = scaled3(diffuse, material->diffuse);
     if (CLRT_SPECULAR) {
         const Real3 shine =
-            scaled3(material->ks * min(sum.specular, BRIGHTEST), material->specular);
+            scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);
         color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     }
     color = real3_of(clamp(color.x, 0.0f, 1.0f), clamp(color.y, 0.0f, 1.0f),

@@ -3,10 +3,9 @@
 // anything blocks a shadow ray.  Triangles are found by the search the program is built for.
 #ifndef CLRT_TRAVERSE_CL
 #define CLRT_TRAVERSE_CL
-#include "packet.cl"
+#include "meet.cl"
 #include "pair.cl"
 #include "sphere.cl"
-#include "wide.cl"
 
 // A ray meets its own sphere only from inside, and only by reflection.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Truth is_own)

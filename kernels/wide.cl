@@ -35,13 +35,12 @@ static inline Real slab_direction(Real direction, Real smallest)
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
 }
 
-static inline void search_slab(Real direction, Real origin, Real slack, Real *inverse,
-                               Real *near_offset, Real *far_offset)
+static inline void search_slab(Search *search, uint axis, Real direction, Real origin, Real slack)
 {
-    const Real widening = copysign(slack, direction);
-    *inverse = 1.0f / direction;
-    *near_offset = -(origin + widening) * *inverse;
-    *far_offset = -(origin - widening) * *inverse;
+    const Real widening = copysign(slack, direction), inverse = 1.0f / direction;
+    (&search->inverse.x)[axis] = inverse;
+    (&search->near_offset.x)[axis] = -(origin + widening) * inverse;
+    (&search->far_offset.x)[axis] = -(origin - widening) * inverse;
 }
 
 // The slabs of rays with origins o and directions d.
@@ -49,12 +48,9 @@ static inline void search_slabs(Search *search, Real3 o, Real3 d)
 {
     const Real smallest = 0x1p-30f * largest_component(d);
     const Real slack = BVH_SLACK * largest_component(o);
-    search_slab(slab_direction(d.x, smallest), o.x, slack, &search->inverse.x,
-                &search->near_offset.x, &search->far_offset.x);
-    search_slab(slab_direction(d.y, smallest), o.y, slack, &search->inverse.y,
-                &search->near_offset.y, &search->far_offset.y);
-    search_slab(slab_direction(d.z, smallest), o.z, slack, &search->inverse.z,
-                &search->near_offset.z, &search->far_offset.z);
+    search_slab(search, 0, slab_direction(d.x, smallest), o.x, slack);
+    search_slab(search, 1, slab_direction(d.y, smallest), o.y, slack);
+    search_slab(search, 2, slab_direction(d.z, smallest), o.z, slack);
 }
 
 // Children that wait: the distance at which they are entered in the high half, as the bits of a
@@ -183,15 +179,28 @@ static inline Wide3 block_corner_relative(global const TriangleBlock *block, uin
 
 // What a lane's ray has found out about a block: the triangles whose edges contain it.
 typedef struct {
+    WideShear shear;
     WideCorners sheared;
     WideEdges edges;
     int8 inside;
 } BlockTest;
 
+// A triangle's place: index counts those of all blocks.
+typedef struct {
+    global const TriangleBlock *block;
+    uint place, index;
+} BlockPlace;
+
+static inline BlockPlace block_start(const SceneView *scene, uint number)
+{
+    return (BlockPlace){scene->triangles + number, 0, number * WIDE};
+}
+
 // Where the lane's ray stops on those triangles; INFINITY where it does not, or not before `reach`.
 static inline float8 block_distances(global const TriangleBlock *block, const Ray *ray, uint lane,
-                                     const WideShear *shear, const BlockTest *test, float reach)
+                                     const BlockTest *test, float reach)
 {
+    const WideShear *shear = &test->shear;
     const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint8 id = vload8(0, block->id);
     const int8 front = edges_face(&test->edges, shear);
@@ -214,8 +223,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Ra
 }
 
 // Records the nearest of the distances if it precedes the lane's hit, and tells whether it does.
-static inline bool lane_hits(const float8 *distances, global const TriangleBlock *block,
-                             uint first_index, uint lane, Hit *hits)
+static inline bool lane_hits(const float8 *distances, const BlockPlace *start, uint lane, Hit *hits)
 {
     float *best_t = (float *)&hits->t + lane;
     uint *best_id = (uint *)&hits->id + lane, *best_index = (uint *)&hits->index + lane;
@@ -224,11 +232,11 @@ static inline bool lane_hits(const float8 *distances, global const TriangleBlock
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = lowest_bit(candidates);
         const float t = ((const float *)distances)[place];
-        const uint id = block->id[place] & ~TRIANGLE_TWO_SIDED;
+        const uint id = start->block->id[place] & ~TRIANGLE_TWO_SIDED;
         if (t < *best_t || (t == *best_t && id < *best_id)) {
             *best_t = t;
             *best_id = id;
-            *best_index = first_index + place;
+            *best_index = start->index + place;
             changed = true;
         }
     }
@@ -236,23 +244,23 @@ static inline bool lane_hits(const float8 *distances, global const TriangleBlock
 }
 
 // Tests the triangles of a block against the lane's ray; tells whether its hit changed.
-static inline bool test_block(global const TriangleBlock *blocks, uint number, const Search *search,
-                              uint lane, Hit *hits)
+static inline bool test_block(const BlockPlace *start, const Search *search, uint lane, Hit *hits)
 {
-    global const TriangleBlock *block = blocks + number;
+    global const TriangleBlock *block = start->block;
     const LaneRay ray = lane_ray(search, lane);
     const WideCorners relative = {block_corner_relative(block, 0, &ray),
                                   block_corner_relative(block, 1, &ray),
                                   block_corner_relative(block, 2, &ray)};
     BlockTest test;
+    test.shear = ray.shear;
     test.sheared = corners_sheared(&relative, &ray.shear);
     test.edges = edges_of(&test.sheared);
     test.inside = edges_contain(&test.edges);
     if (lane_bits(test.inside) == 0)
         return false;
     const float reach = real_of(&hits->t, lane);
-    const float8 distances = block_distances(block, search->ray, lane, &ray.shear, &test, reach);
-    return lane_hits(&distances, block, number * WIDE, lane, hits);
+    const float8 distances = block_distances(block, search->ray, lane, &test, reach);
+    return lane_hits(&distances, start, lane, hits);
 }
 
 // Asks for memory that is going to be read.  OpenCL's prefetch does nothing on PoCL.
@@ -331,9 +339,8 @@ static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *
     walkers->leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        const uint block = walkers->child[lane] & ~WIDE_LEAF;
-        const bool changed =
-            test_block(scene->triangles, block, walkers->search, lane, walkers->hits);
+        const BlockPlace start = block_start(scene, walkers->child[lane] & ~WIDE_LEAF);
+        const bool changed = test_block(&start, walkers->search, lane, walkers->hits);
         if (CLRT_STATISTICS)
             tally->triangle_tests += WIDE;
         if (!is_shadow || !changed)

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Packets through the tree of wide nodes (Wald, Slusallek, Benthin and Wagner, "Interactive
+// rendering with coherent ray tracing", 2001).  Bounds over the packet's rays cull a node's
+// children (Boulos, Wald and Shirley, "Geometric and arithmetic culling methods for entire ray
+// packets", 2006), then each child is tested against all lanes when its turn comes.
+#ifndef CLRT_MEET_CL
+#define CLRT_MEET_CL
+#include "packet.cl"
+
+#if CLRT_WIDE_NODES
+
+// Smaller parts are faster one by one.
+#define SMALLEST_PACKET 6
+
+// A packet whose tests of a box against all lanes find fewer lanes inside than this on average has
+// fallen apart, and its rays start again alone.  The credit bridges bad luck at the start.
+#define LANES_PER_TEST 2
+#define PACKET_CREDIT  64
+
+static inline float8 node_plane(global const BvhWide *node, const Packet *packet, uint axis,
+                                uint other)
+{
+    return vload8(0, node->planes[axis][packet->negative[axis] ^ other]);
+}
+
+// The children that some ray of the packet may meet before `reach`.
+static inline int8 children_near(global const BvhWide *node, const Packet *packet, float reach,
+                                 float8 *entry)
+{
+    const float8 near_x = entry_bound(node_plane(node, packet, 0, 0), packet, 0);
+    const float8 near_y = entry_bound(node_plane(node, packet, 1, 0), packet, 1);
+    const float8 near_z = entry_bound(node_plane(node, packet, 2, 0), packet, 2);
+    const float8 far_x = leave_bound(node_plane(node, packet, 0, 1), packet, 0);
+    const float8 far_y = leave_bound(node_plane(node, packet, 1, 1), packet, 1);
+    const float8 far_z = leave_bound(node_plane(node, packet, 2, 1), packet, 2);
+    *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
+    return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
+}
+
+// The lanes whose rays are in the child's box before they reach what they have hit.
+static inline Truth lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
+                                   Real reach)
+{
+    const uint x = packet->negative[0], y = packet->negative[1], z = packet->negative[2];
+    const Real3 i = packet->rays.inverse, near = packet->rays.near_offset,
+                far = packet->rays.far_offset;
+    const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
+    const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
+    const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
+    const Real far_x = fma((Real)(node->planes[0][1 - x][child]), i.x, far.x);
+    const Real far_y = fma((Real)(node->planes[1][1 - y][child]), i.y, far.y);
+    const Real far_z = fma((Real)(node->planes[2][1 - z][child]), i.z, far.z);
+    const Real entry = max(max(near_x, near_y), max(near_z, (Real)(0.0f)));
+    return entry <= min(min(far_x, far_y), min(far_z, reach));
+}
+
+// Puts the children whose bits are set on the stack, the nearest on top.
+static inline void wait_for_children(WideWaiting *waiting, uint bits, const float8 *entry,
+                                     uint first)
+{
+    const float *entries = (const float *)entry;
+    const uint start = waiting->count;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint number = lowest_bit(bits);
+        wait_in_order(waiting, start, waiting_child(entries[number], first + number));
+    }
+}
+
+// Where a packet's search stands.  Children wait as WIDE * node + place.
+typedef struct {
+    WideWaiting waiting;
+    Truth searching; // lanes that a shadow ray's hit has not ended
+    float farthest;  // distance of the searching lanes' hits
+    int credit;
+    Hit *best;
+} PacketWalk;
+
+static inline void expand_node(PacketWalk *walk, const SceneView *scene, const Packet *packet,
+                               uint number)
+{
+    float8 entry;
+    const int8 near = children_near(&scene->nodes[number], packet, walk->farthest, &entry);
+    wait_for_children(&walk->waiting, lane_bits(near), &entry, number * WIDE);
+}
+
+// The lanes that go on into the child.
+static inline uint lanes_to_child(PacketWalk *walk, const SceneView *scene, const Packet *packet,
+                                  uint child, Tally *tally)
+{
+    global const BvhWide *node = &scene->nodes[child / WIDE];
+    const Truth inside = lanes_in_child(node, child % WIDE, packet, walk->best->t);
+    const uint bits = lane_bits(walk->searching && inside);
+    walk->credit += (int)popcount(bits) - LANES_PER_TEST;
+    if (CLRT_STATISTICS)
+        tally->box_tests += lane_count(walk->searching);
+    return bits;
+}
+
+static inline void note_hits(PacketWalk *walk, bool is_shadow)
+{
+    if (is_shadow)
+        walk->searching = walk->searching && walk->best->id == NOTHING;
+    walk->farthest = highest(walk->searching ? walk->best->t : (Real)(0.0f));
+}
+
+// Returns the lanes left over when the packet is given up.
+static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
+                                   Tally *tally)
+{
+    const bool is_shadow = packet->rays.ray->kind == RAY_SHADOW;
+    PacketWalk walk;
+    walk.waiting.count = 0;
+    walk.searching = packet->active;
+    walk.farthest = highest(best->t);
+    walk.credit = PACKET_CREDIT;
+    walk.best = best;
+    expand_node(&walk, scene, packet, 0);
+    uint waiting;
+    while (next_child(&walk.waiting, walk.farthest, &waiting)) {
+        const uint bits = lanes_to_child(&walk, scene, packet, waiting, tally);
+        if (walk.credit < 0)
+            return lane_bits(walk.searching);
+        if (bits == 0)
+            continue;
+        const uint child = scene->nodes[waiting / WIDE].child[waiting % WIDE];
+        if ((child & WIDE_LEAF) == 0) {
+            expand_node(&walk, scene, packet, child);
+            continue;
+        }
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += WIDE * popcount(bits);
+        const BlockPlace start = block_start(scene, child & ~WIDE_LEAF);
+        if (!test_packet_leaf(&start, packet, bits, walk.farthest, best))
+            continue;
+        note_hits(&walk, is_shadow);
+        if (is_shadow && !any_lane(walk.searching))
+            return 0;
+    }
+    return 0;
+}
+
+// What a packet's rays must share: the signs of their directions and the longest axis.
+static inline Count ray_classes(Real3 direction)
+{
+    const ShearAxes axes = shear_axes(direction);
+    const Count x = as_count(direction.x) >> 31, y = as_count(direction.y) >> 31;
+    const Count z = as_count(direction.z) >> 31;
+    return axes.z * 8 + x * 4 + y * 2 + z;
+}
+
+// Returns the lanes left over, whose rays have to search alone.
+static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *frame,
+                                     const Packet *packet, Hit *best, Tally *tally)
+{
+    const Truth lanes = packet->active;
+    Hit hit = *best;
+    uint left = 0;
+    if (CLRT_BVH && frame->uses_bvh) {
+        left = traverse_packet(scene, packet, &hit, tally);
+    } else {
+        for (uint block = 0; block * WIDE < frame->triangle_count; block++) {
+            const BlockPlace start = block_start(scene, block);
+            test_packet_block(&start, packet, lanes, INFINITY, &hit);
+        }
+        if (CLRT_STATISTICS)
+            tally->triangle_tests += frame->triangle_count * lane_count(lanes);
+    }
+    best->t = lanes ? hit.t : best->t;
+    best->id = lanes ? hit.id : best->id;
+    best->index = lanes ? hit.index : best->index;
+    return left;
+}
+
+// Rays that share signs and longest axis with enough others go as a packet, the rest alone.
+// Without a tree there is nothing to walk, and all go as packets.
+static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                           Hit *best, Tally *tally)
+{
+    const uint all = lane_bits(ray->active);
+    const bool has_tree = CLRT_BVH && frame->uses_bvh;
+    const uint smallest = has_tree ? SMALLEST_PACKET : 1;
+    uint alone = has_tree && !CLRT_PACKET ? all : 0;
+    uint left = all & ~alone;
+    const Count classes = ray_classes(ray->direction);
+    while (left != 0) {
+        const uint wanted = count_of(&classes, lowest_bit(left));
+        const uint part = left & lane_bits(classes == wanted);
+        left &= ~part;
+        if (popcount(part) < smallest) {
+            alone |= part;
+            continue;
+        }
+        Packet packet;
+        packet_gather(&packet, ray, part, wanted / 8);
+        alone |= meet_together(scene, frame, &packet, best, tally);
+    }
+    if (alone == 0)
+        return;
+    Search search;
+    search.ray = ray;
+    search.axes = shear_axes(ray->direction);
+    search.shear = shear_along(ray->direction, &search.axes);
+    search_slabs(&search, ray->origin, ray->direction);
+    meet_alone(scene, &search, alone, best, tally);
+}
+
+#endif
+#endif
