@@ -3,6 +3,7 @@
 #include "picture.h"
 
 #include "check.h"
+#include "image/form.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>
@@ -28,31 +29,34 @@ int picture_teardown(void **state)
 
 PictureSettings picture_settings(void)
 {
+    const KernelChoice choice = form_choice();
+    const uint32_t group = form_group(&choice);
     return (PictureSettings){.tree = TREE_SAH,
+                             .choice = choice,
                              .render = {.width = 64,
                                         .height = 64,
                                         .samples = 1,
                                         .max_level = 4,
                                         .tile_width = 32,
                                         .tile_height = 32,
-                                        .group_width = 8,
-                                        .group_height = 8,
+                                        .group_width = group,
+                                        .group_height = group,
                                         .specialization = SPECIALIZE_NEVER}};
 }
 
-void picture_open(Renderer *renderer, const Studio *studio, const Scene *scene,
+void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
-    Stage stage;
     Error error = {0};
     const RendererSetup setup = {.device = &studio->device,
                                  .cache = &studio->cache,
                                  .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
                                             .extra_options = settings->extra_options,
                                             .choice = settings->choice}};
-    stage_make_as(&stage, scene, settings->tree, settings->choice.nodes);
-    const bool ok = renderer_open(renderer, &setup, &stage.flat, &settings->render, &error);
-    stage_free(&stage);
+    stage_make_as(stage, scene, settings->tree, settings->choice.nodes);
+    const bool ok = renderer_open(renderer, &setup, &stage->flat, &settings->render, &error);
+    if (!ok)
+        stage_free(stage);
     require(ok, &error);
 }
 
@@ -66,14 +70,16 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
 void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
+    Stage stage;
     Renderer renderer;
     Error error = {0};
     const RenderSettings *render = &settings->render;
     const CameraData camera = picture_camera(scene, render);
-    picture_open(&renderer, studio, scene, settings);
+    picture_open(&renderer, &stage, studio, scene, settings);
     const bool ok = framebuffer_make(framebuffer, render->width, render->height, &error) &&
                     renderer_draw(&renderer, &camera, NULL, framebuffer, &error);
     renderer_close(&renderer);
+    stage_free(&stage);
     require(ok, &error);
 }
 
