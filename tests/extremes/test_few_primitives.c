@@ -141,7 +141,7 @@ static size_t wrong_pixels(const Framebuffer *picture, const Scene *scene,
     Stage stage;
     size_t wrong = 0, unclear = 0, seen = 0;
     const CameraData camera = picture_camera(scene, &settings->render);
-    stage_make(&stage, scene, TREE_NONE);
+    stage_make_as(&stage, scene, TREE_NONE, NODES_PAIR);
     for (uint32_t y = 0; y < SIZE; y++)
         for (uint32_t x = 0; x < SIZE; x++) {
             const Witness witness = witness_pixel(&stage.flat, &camera, SIZE, x, y);

@@ -134,7 +134,9 @@ static void draw_tile(const Renderer *renderer, cl_mem pixels, uint32_t tile, Fr
     status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &pixels);
     status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &pixels);
     require_success(status, "set the kernel's arguments");
-    const size_t grid[2] = {TILE, TILE}, group[2] = {8, 8};
+    const uint32_t side = renderer->settings.group_width;
+    const size_t items = renderer->nodes == NODES_WIDE ? TILE / PACKET_SIDE : TILE;
+    const size_t grid[2] = {items, items}, group[2] = {side, side};
     cl_command_queue queue = renderer->device->queue;
     require_success(
         clEnqueueNDRangeKernel(queue, renderer->kernel, 2, NULL, grid, group, 0, NULL, NULL),
@@ -149,6 +151,7 @@ static void draw_tile(const Renderer *renderer, cl_mem pixels, uint32_t tile, Fr
 
 static void draw_in_order(Framebuffer *picture, const Studio *studio, const uint32_t order[TILES])
 {
+    Stage stage;
     Renderer renderer;
     Stage stage;
     Error error = {0};

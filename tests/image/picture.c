@@ -2,6 +2,7 @@
 // Runs the stages one after the other; every one leaves a value that is empty where it failed.
 #include "image/picture.h"
 
+#include "image/form.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
 
@@ -20,6 +21,8 @@ typedef struct {
 
 PictureRequest picture_request(const char *scene_path, uint32_t view)
 {
+    const KernelChoice choice = form_choice();
+    const uint32_t group = form_group(&choice);
     return (PictureRequest){.scene_path = scene_path,
                             .view = view,
                             .samples = 1,
@@ -28,9 +31,10 @@ PictureRequest picture_request(const char *scene_path, uint32_t view)
                             .builder = BVH_SAH,
                             .tile_width = 128,
                             .tile_height = 128,
-                            .group_width = 8,
-                            .group_height = 8,
-                            .specialization = SPECIALIZE_NEVER};
+                            .group_width = group,
+                            .group_height = group,
+                            .specialization = SPECIALIZE_NEVER,
+                            .choice = choice};
 }
 
 static bool load(Pipeline *pipeline, Error *error)

@@ -19,8 +19,8 @@ typedef struct {
     uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
 } PictureRequest;
 
-// What the program does without options, but always with the general kernels: which of them "auto"
-// takes depends on what was compiled before.
+// What the program does without options, but always with the general kernels, since which of them
+// "auto" takes depends on what was compiled before, and with those of form_choice.
 PictureRequest picture_request(const char *scene_path, uint32_t view);
 
 // Draws on the device that the environment variable CLRT_DEVICE names (unset: the best).

@@ -3,6 +3,7 @@
 #include "picture.h"
 
 #include "check.h"
+#include "image/form.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>
@@ -28,15 +29,18 @@ int picture_teardown(void **state)
 
 PictureSettings picture_settings(void)
 {
+    const KernelChoice choice = form_choice();
+    const uint32_t group = form_group(&choice);
     return (PictureSettings){.tree = TREE_SAH,
+                             .choice = choice,
                              .render = {.width = 64,
                                         .height = 64,
                                         .samples = 1,
                                         .max_level = 4,
                                         .tile_width = 32,
                                         .tile_height = 32,
-                                        .group_width = 8,
-                                        .group_height = 8,
+                                        .group_width = group,
+                                        .group_height = group,
                                         .specialization = SPECIALIZE_NEVER}};
 }
 
@@ -50,7 +54,10 @@ void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const 
                                             .extra_options = settings->extra_options,
                                             .choice = settings->choice}};
     stage_make_as(stage, scene, settings->tree, settings->choice.nodes);
-    require(renderer_open(renderer, &setup, &stage->flat, &settings->render, &error), &error);
+    const bool ok = renderer_open(renderer, &setup, &stage->flat, &settings->render, &error);
+    if (!ok)
+        stage_free(stage);
+    require(ok, &error);
 }
 
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
@@ -63,8 +70,8 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
 void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
-    Renderer renderer;
     Stage stage;
+    Renderer renderer;
     Error error = {0};
     const RenderSettings *render = &settings->render;
     const CameraData camera = picture_camera(scene, render);

@@ -23,11 +23,11 @@ typedef struct {
     const char *extra_options; // for the kernels' compiler, NULL for none
 } PictureSettings;
 
-// 64 x 64 pixels of one sample in tiles of 32 x 32, drawn by the general program.
+// 64 x 64 pixels of one sample in tiles of 32 x 32, drawn by the general program of form_choice.
 PictureSettings picture_settings(void);
 
-// Opens a renderer for the scene, with a stage that it needs until it is closed; kernels are those
-// that are built in, or CLRT_KERNEL_DIR's.
+// Opens a renderer for the scene; kernels are those that are built in, or CLRT_KERNEL_DIR's.  The
+// caller closes it and frees the stage after it: the device may read the scene where it lies.
 void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
 

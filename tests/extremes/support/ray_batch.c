@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// All launches have one size: PoCL compiles a kernel again for each local size and kind of grid,
-// and compiling has to happen under the cache's lock, which only ray_batch_open holds.
+// All launches of a form have one size: PoCL compiles a kernel again for each local size and kind
+// of grid, and compiling has to happen under the cache's lock, which only ray_batch_open holds.
 #include "ray_batch.h"
 
 #include "base/file.h"
 #include "check.h"
+#include "image/form.h"
+#include "ray_order.h"
 
 #include <stdlib.h>
 
-#define BATCH_GRID  65536
-#define BATCH_GROUP 64
+#define BATCH_RAYS 65536
+
+// Of kernels whose number of lanes nobody chose: the host has to know it.
+#define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
                                                       "batch_each", "batch_boxes"};
@@ -43,7 +47,9 @@ static cl_mem make_room(const RayBatch *batch, size_t size)
 // Runs a kernel over the first count rays in the buffer.
 static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *error)
 {
-    const size_t grid = BATCH_GRID, group = BATCH_GROUP;
+    const bool is_wide = batch->choice.nodes == NODES_WIDE;
+    const size_t grid = is_wide ? BATCH_RAYS / batch->choice.lanes : BATCH_RAYS;
+    const size_t group = is_wide ? 4 : 64;
     cl_kernel kernel = batch->kernels[task];
     cl_int status = clSetKernelArg(kernel, 0, sizeof batch->frame, &batch->frame);
     status |= clSetKernelArg(kernel, 1, sizeof(cl_mem), &batch->spheres);
@@ -94,17 +100,20 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder)
 {
     Error error = {0};
     File file = {0};
-    *batch = (RayBatch){0};
+    *batch = (RayBatch){.choice = form_choice()};
+    if (batch->choice.nodes == NODES_WIDE && batch->choice.lanes == 0)
+        batch->choice.lanes = BATCH_LANES;
     cache_open(&batch->cache);
     require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&
                 file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error),
             &error);
-    batch->rays = make_room(batch, BATCH_GRID * sizeof(TestRay));
-    batch->hits = make_room(batch, BATCH_GRID * sizeof(TestHit));
-    ray_batch_upload(batch, &(FlatScene){0});
+    batch->rays = make_room(batch, BATCH_RAYS * sizeof(TestRay));
+    batch->hits = make_room(batch, BATCH_RAYS * sizeof(TestHit));
+    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
     const ProgramSource source = {
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
-        .appended = file.bytes};
+        .appended = file.bytes,
+        .choice = batch->choice};
     build_locked(batch, &source);
     file_free(&file);
 }
@@ -151,11 +160,19 @@ int ray_batch_teardown(void **state)
 
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
 {
+    assert_int_equal(flat->layout, batch->choice.nodes);
     release_scene(batch);
     batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
-    batch->nodes = make_buffer(batch, flat->pairs, flat->node_count * sizeof(BvhPair));
-    batch->triangles =
-        make_buffer(batch, flat->triangles, flat->triangle_count * sizeof(TriangleData));
+    if (flat->layout == NODES_WIDE) {
+        batch->nodes = make_buffer(batch, flat->wides, flat->node_count * sizeof(BvhWide));
+        batch->triangles =
+            make_buffer(batch, flat->blocks, flat->block_count * sizeof(TriangleBlock));
+    } else {
+        batch->nodes = make_buffer(batch, flat->pairs, flat->node_count * sizeof(BvhPair));
+        batch->triangles =
+            make_buffer(batch, flat->triangles, flat->triangle_count * sizeof(TriangleData));
+    }
+    batch->block_count = flat->block_count;
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
                                .triangle_count = flat->triangle_count,
                                .uses_bvh = flat->node_count > 0};
@@ -177,37 +194,84 @@ static void read_hits(const RayBatch *batch, TestHit *hits, size_t count)
 
 static size_t chunk_of(size_t first, size_t count)
 {
-    return count - first < BATCH_GRID ? count - first : BATCH_GRID;
+    return count - first < BATCH_RAYS ? count - first : BATCH_RAYS;
+}
+
+// Traces the rays in an order that suits packets.
+static void trace_ordered(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
+                          TestHit *hits)
+{
+    Error error = {0};
+    uint32_t *places = memory_raw(count, sizeof *places, &error);
+    TestRay *ordered = memory_raw(count, sizeof *ordered, &error);
+    TestHit *found = memory_raw(count, sizeof *found, &error);
+    require(places != NULL && ordered != NULL && found != NULL, &error);
+    ray_order(rays, count, places);
+    for (size_t i = 0; i < count; i++)
+        ordered[i] = rays[places[i]];
+    write_rays(batch, ordered, count);
+    run(batch, task, count);
+    read_hits(batch, found, count);
+    for (size_t i = 0; i < count; i++)
+        hits[places[i]] = found[i];
+    free(places);
+    free(ordered);
+    free(found);
 }
 
 void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
                      TestHit *hits)
 {
-    for (size_t first = 0; first < count; first += BATCH_GRID) {
-        const size_t chunk = chunk_of(first, count);
-        write_rays(batch, rays + first, chunk);
-        run(batch, task, chunk);
-        read_hits(batch, hits + first, chunk);
-    }
+    for (size_t first = 0; first < count; first += BATCH_RAYS)
+        trace_ordered(batch, task, rays + first, chunk_of(first, count), hits + first);
 }
 
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
 {
-    assert_true(batch->frame.triangle_count <= BATCH_GRID);
+    const bool is_wide = batch->choice.nodes == NODES_WIDE;
+    const uint32_t items = is_wide ? batch->block_count : batch->frame.triangle_count;
+    assert_true(batch->frame.triangle_count <= BATCH_RAYS);
+    assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
     write_rays(batch, ray, 1);
-    run(batch, BATCH_EACH, batch->frame.triangle_count);
+    run(batch, BATCH_EACH, items);
     read_hits(batch, hits, batch->frame.triangle_count);
+}
+
+// A wide node with the children of a pair and no others.
+static BvhWide widened(const BvhPair *pair)
+{
+    BvhWide wide = {.child_count = 2};
+    for (int axis = 0; axis < 3; axis++)
+        for (int child = 0; child < WIDE; child++) {
+            wide.planes[axis][0][child] = child < 2 ? pair->planes[axis][0][child] : 1;
+            wide.planes[axis][1][child] = child < 2 ? pair->planes[axis][1][child] : -1;
+        }
+    return wide;
+}
+
+static cl_mem make_nodes(const RayBatch *batch, const BvhPair *pairs, size_t count)
+{
+    Error error = {0};
+    if (batch->choice.nodes == NODES_PAIR)
+        return make_buffer(batch, pairs, count * sizeof *pairs);
+    BvhWide *wides = memory_raw(count, sizeof *wides, &error);
+    require(wides != NULL, &error);
+    for (size_t i = 0; i < count; i++)
+        wides[i] = widened(&pairs[i]);
+    const cl_mem buffer = make_buffer(batch, wides, count * sizeof *wides);
+    free(wides);
+    return buffer;
 }
 
 void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,
                      TestHit *hits)
 {
-    for (size_t first = 0; first < count; first += BATCH_GRID) {
+    for (size_t first = 0; first < count; first += BATCH_RAYS) {
         const size_t chunk = chunk_of(first, count);
         release_scene(batch);
         batch->spheres = make_buffer(batch, NULL, 0);
         batch->triangles = make_buffer(batch, NULL, 0);
-        batch->nodes = make_buffer(batch, nodes + first, chunk * sizeof *nodes);
+        batch->nodes = make_nodes(batch, nodes + first, chunk);
         write_rays(batch, rays + first, chunk);
         run(batch, BATCH_BOXES, chunk);
         read_hits(batch, hits + first, chunk);

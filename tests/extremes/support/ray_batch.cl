@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernels that trace arrays of rays with the real functions; built behind the real kernels, where
-// everything they call is declared.  Every grid has BATCH_GRID items, as ray_batch.c says.
+// everything they call is declared.  A work-item takes CLRT_LANES rays that follow each other.
+// Every grid is as large as ray_batch.c says.
 
 typedef struct {
     float origin[3];
@@ -14,78 +15,253 @@ typedef struct {
     uint id;
 } TestHit;
 
-// Rays are made by the tracer's own functions, from surfaces that give such rays: a reflected ray
-// continues along a face it looks straight away from, and a shadow ray ends where t is 1.
-static inline Ray ray_of(global const TestRay *ray)
+// The rays of a work-item, one in each lane; `first` is the place of the first.
+typedef struct {
+    Real3 origin, direction;
+    Count own, kind;
+    uint first;
+    Truth exist; // lanes whose ray is among the count
+} TestRays;
+
+// Lanes past the end read the last ray.
+static inline TestRays test_rays(global const TestRay *rays, uint count)
 {
-    const float3 origin = load3(ray->origin), direction = load3(ray->direction);
-    Surface surface = {.id = ray->own};
-    if (ray->kind == RAY_SHADOW) {
-        surface.point = origin + direction;
-        return ray_from_light(origin, &surface);
-    }
-    if (ray->kind == RAY_REFLECTED) {
-        surface.point = origin;
-        surface.face = direction;
-        surface.toward_viewer = -direction;
-        return ray_reflected(&surface);
-    }
-    return (Ray){.origin = origin, .direction = direction, .own = ray->own, .kind = RAY_CAMERA};
+    const uint first = CLRT_LANES * (uint)get_global_id(0);
+    const Count place = first + LANE_Y * PACKET_WIDTH + LANE_X;
+    const Count last = count - 1;
+    const Record record = record_at(rays, min(place, last) * WORDS(TestRay));
+    return (TestRays){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
+                      record_word(&record, 3),     record_word(&record, 7),
+                      first,                       place < count};
+}
+
+static inline Truth same_in_first(Count value, Truth among)
+{
+    return value == first_lane(value, among);
+}
+
+// Those lanes of `left` that may search with the first of them: their rays are of one kind and,
+// unless reflected, start at one point.
+static inline Truth companions(const TestRays *rays, Truth left)
+{
+    const Real3 o = rays->origin;
+    const Truth same_kind = left && same_in_first(rays->kind, left);
+    const Truth same_origin = same_in_first(as_count(o.x), left) &&
+                              same_in_first(as_count(o.y), left) &&
+                              same_in_first(as_count(o.z), left);
+    return same_kind && (rays->kind == (uint)RAY_REFLECTED || same_origin);
+}
+
+static inline Real filled_lane(Real value, Truth lanes)
+{
+    return lanes ? value : as_real(first_lane(as_count(value), lanes));
+}
+
+static inline Real3 filled_lanes(Real3 v, Truth lanes)
+{
+    return real3_of(filled_lane(v.x, lanes), filled_lane(v.y, lanes), filled_lane(v.z, lanes));
+}
+
+static inline uint first_kind(const TestRays *rays, Truth lanes)
+{
+    const Count kind = first_lane(rays->kind, lanes);
+    return *(const uint *)&kind;
+}
+
+// Rays are made by the tracer's own functions, from surfaces that give such rays: a reflected ray
+// continues along a face it looks straight away from, and a shadow ray ends where t is 1.  The
+// other lanes copy the first.
+static inline Ray ray_of(const TestRays *rays, Truth lanes)
+{
+    const Real3 origin = filled_lanes(rays->origin, lanes);
+    const Real3 direction = filled_lanes(rays->direction, lanes);
+    const uint kind = first_kind(rays, lanes);
+    Surface surface;
+    surface.id = rays->own;
+    surface.point = kind == RAY_SHADOW ? sum3(origin, direction) : origin;
+    surface.normal = real3_of(0.0f, 0.0f, 0.0f);
+    surface.face = direction;
+    surface.toward_viewer = negative3(direction);
+    if (kind == RAY_SHADOW)
+        return ray_from_light(origin, &surface, lanes);
+    if (kind == RAY_REFLECTED)
+        return ray_reflected(&surface, lanes);
+    return (Ray){origin, direction, rays->own, RAY_CAMERA, origin, lanes};
+}
+
+static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth lanes, Real t,
+                              Count id)
+{
+    const uint bits = lane_bits(lanes);
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        if (bits >> lane & 1)
+            hits[rays->first + lane] =
+                (TestHit){((const float *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
 kernel void batch_nearest(const FrameData frame, global const SphereData *spheres,
-                          global const BvhPair *nodes, global const TriangleData *triangles,
+                          global const Node *nodes, global const Triangles *triangles,
                           global const TestRay *rays, uint count, global TestHit *hits)
 {
-    const uint place = get_global_id(0);
-    if (place >= count)
+    if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0};
-    const Ray ray = ray_of(&rays[place]);
-    Tally tally = {0};
-    const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
-    hits[place] = (TestHit){hit.t, hit.id};
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    const TestRays all = test_rays(rays, count);
+    Truth left = all.exist;
+    while (any_lane(left)) {
+        const Truth lanes = companions(&all, left);
+        const Ray ray = ray_of(&all, lanes);
+        Tally tally = {0};
+        const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
+        store_hits(hits, &all, lanes, hit.t, hit.id);
+        left = left && !lanes;
+    }
 }
 
 // id becomes 1 where the ray, a shadow ray, is blocked.
 kernel void batch_blocked(const FrameData frame, global const SphereData *spheres,
-                          global const BvhPair *nodes, global const TriangleData *triangles,
+                          global const Node *nodes, global const Triangles *triangles,
                           global const TestRay *rays, uint count, global TestHit *hits)
 {
-    const uint place = get_global_id(0);
-    if (place >= count)
+    if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0};
-    const Ray ray = ray_of(&rays[place]);
-    Tally tally = {0};
-    hits[place] = (TestHit){0.0f, is_blocked(&scene, &frame, &ray, &tally)};
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    const TestRays all = test_rays(rays, count);
+    Truth left = all.exist;
+    while (any_lane(left)) {
+        const Truth lanes = companions(&all, left);
+        const Ray ray = ray_of(&all, lanes);
+        Tally tally = {0};
+        const Truth blocked = is_blocked(&scene, &frame, &ray, &tally);
+        store_hits(hits, &all, lanes, 0.0f, blocked ? (Count)(1) : (Count)(0));
+        left = left && !lanes;
+    }
 }
 
-// What the first ray makes of each of count triangles alone.
+#if CLRT_WIDE_NODES
+// The first lane's ray, as the searches want it, in every lane of which only that one counts.
+static inline void prepare_first(Packet *packet, const Ray *ray)
+{
+    const Count classes = ray_classes(ray->direction);
+    packet_gather(packet, ray, 1, count_of(&classes, 0) / 8);
+}
+
+// Where the ray alone meets a triangle, by the test of packets or by that of blocks.
+static inline float distance_alone(global const TriangleBlock *triangles, uint block, uint place,
+                                   const Packet *packet)
+{
+    Hit hit = {INFINITY, NOTHING, NOTHING};
+    if (CLRT_PACKET) {
+        const Corners corners = {corner_from(&triangles[block], 0, place, packet),
+                                 corner_from(&triangles[block], 1, place, packet),
+                                 corner_from(&triangles[block], 2, place, packet)};
+        test_triangle(triangles, block, place, packet, &corners, packet->active, &hit);
+        return real_of(&hit.t, 0);
+    }
+    const LaneRay ray = lane_ray(&packet->rays, 0);
+    const WideCorners relative = {block_corner_relative(&triangles[block], 0, &ray),
+                                  block_corner_relative(&triangles[block], 1, &ray),
+                                  block_corner_relative(&triangles[block], 2, &ray)};
+    BlockTest test;
+    test.sheared = corners_sheared(&relative, &ray.shear);
+    test.edges = edges_of(&test.sheared);
+    test.inside = edges_contain(&test.edges);
+    const float8 distances = block_distances(&triangles[block], packet->rays.ray, 0, &ray.shear,
+                                             &test, INFINITY);
+    return ((const float *)&distances)[place];
+}
+
+// What the first ray makes of each triangle of count blocks alone, in file order.
 kernel void batch_each(const FrameData frame, global const SphereData *spheres,
-                       global const BvhPair *nodes, global const TriangleData *triangles,
+                       global const Node *nodes, global const Triangles *triangles,
+                       global const TestRay *rays, uint count, global TestHit *hits)
+{
+    const uint block = get_global_id(0);
+    if (block >= count)
+        return;
+    TestRays all = test_rays(rays, 1);
+    const Ray ray = ray_of(&all, lanes_of(1));
+    Packet packet;
+    prepare_first(&packet, &ray);
+    for (uint place = 0; place < WIDE; place++) {
+        const uint id = triangles[block].id[place] & ~TRIANGLE_TWO_SIDED;
+        if (triangles[block].id[place] != NOTHING)
+            hits[id - frame.sphere_count] =
+                (TestHit){distance_alone(triangles, block, place, &packet), id};
+    }
+}
+
+// Which of the first two children's boxes the lanes' rays meet, each those of its own node.
+static inline Count boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
+{
+    Count met = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const uint lane = lowest_bit(lanes);
+        float8 entry;
+        uint near = lane_bits(CLRT_PACKET
+                                  ? children_near(&nodes[lane], packet, INFINITY, &entry)
+                                  : children_met(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
+        for (uint child = 0; child < 2 && CLRT_PACKET; child++)
+            if ((lane_bits(lanes_in_child(&nodes[lane], child, packet, INFINITY)) >> lane & 1) == 0)
+                near &= ~(1u << child);
+        ((uint *)&met)[lane] = near & 3;
+    }
+    return met;
+}
+
+// Which boxes of its own node each ray meets: bit 0 of id the first, bit 1 the second.  Rays that
+// may go as a packet do, though their origins differ, as reflected ones do.
+kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
+                        global const Node *nodes, global const Triangles *triangles,
+                        global const TestRay *rays, uint count, global TestHit *hits)
+{
+    if (count == 0)
+        return;
+    TestRays all = test_rays(rays, count);
+    all.kind = (Count)((uint)RAY_REFLECTED);
+    const Count classes = ray_classes(all.direction);
+    Truth left = all.exist;
+    while (any_lane(left)) {
+        const Truth lanes = left && same_in_first(classes, left);
+        const Count wanted = first_lane(classes, left);
+        Ray ray = ray_of(&all, lanes);
+        ray.direction = filled_lanes(all.direction, lanes);
+        Packet packet;
+        packet_gather(&packet, &ray, lane_bits(lanes), count_of(&wanted, 0) / 8);
+        store_hits(hits, &all, lanes, 0.0f,
+                   boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
+        left = left && !lanes;
+    }
+}
+#else
+// What the first ray makes of each of count triangles alone, in file order.
+kernel void batch_each(const FrameData frame, global const SphereData *spheres,
+                       global const Node *nodes, global const Triangles *triangles,
                        global const TestRay *rays, uint count, global TestHit *hits)
 {
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const Ray ray = ray_of(&rays[0]);
-    const Shear shear = shear_along(&ray);
-    const float t = triangle_distance(&triangles[place], &ray, &shear);
-    hits[place] = (TestHit){t, triangles[place].id};
+    const TestRays all = test_rays(rays, 1);
+    const Ray ray = ray_of(&all, 1);
+    const Query query = query_of(&ray);
+    const float t = triangle_distance(&triangles[place], &ray, &query);
+    hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
 
 // Which boxes of its own node each ray meets: bit 0 of id the first, bit 1 the second.
 kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
-                        global const BvhPair *nodes, global const TriangleData *triangles,
+                        global const Node *nodes, global const Triangles *triangles,
                         global const TestRay *rays, uint count, global TestHit *hits)
 {
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const Ray ray = ray_of(&rays[place]);
-    const Slabs slabs = slabs_of(&ray);
+    const TestRays all = test_rays(rays, count);
+    const Ray ray = ray_of(&all, 1);
+    const Query query = query_of(&ray);
     float2 entry, leave;
-    slabs_meet(&nodes[place], &slabs, INFINITY, &entry, &leave);
+    slabs_meet(&nodes[place], &query, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
+#endif

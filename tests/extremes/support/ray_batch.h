@@ -7,7 +7,7 @@
 #include "device/cache.h"
 #include "device/program.h"
 
-// As in kernels/triangle.cl.
+// As in kernels/ray.cl.
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
 // In the normalized frame.
@@ -38,7 +38,9 @@ typedef struct {
     cl_kernel kernels[BATCH_TASKS];
     cl_mem rays, hits;
     cl_mem spheres, nodes, triangles; // of the scene
+    uint32_t block_count;
     FrameData frame;
+    KernelChoice choice; // form_choice, with a number of lanes
 } RayBatch;
 
 // Takes the kernels from a folder; where it is NULL, from the environment variable CLRT_KERNEL_DIR,
@@ -50,14 +52,15 @@ void ray_batch_close(RayBatch *batch);
 int ray_batch_setup(void **state);
 int ray_batch_teardown(void **state);
 
-// Replaces the scene that rays are traced through.
+// Replaces the scene that rays are traced through, which is laid out for form_choice.
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 
-// Fills hits[i] from rays[i]; task is BATCH_NEAREST or BATCH_BLOCKED.
+// Fills hits[i] from rays[i]; task is BATCH_NEAREST or BATCH_BLOCKED.  Rays from one origin and
+// reflected ones go as packets where they can.
 void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
                      TestHit *hits);
 
-// Fills one hit for each triangle of the scene, in the order of its leaves.
+// Fills one hit for each triangle of the scene, in file order.
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
 
 // Which boxes of nodes[i] does rays[i] meet?  Replaces the scene.

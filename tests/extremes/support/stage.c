@@ -3,6 +3,7 @@
 #include "stage.h"
 
 #include "check.h"
+#include "image/form.h"
 
 const char *const tree_names[TREE_KINDS] = {"sah", "midpoint", "none"};
 
@@ -24,7 +25,7 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
 
 void stage_make(Stage *stage, const Scene *scene, TreeKind tree)
 {
-    stage_make_as(stage, scene, tree, NODES_PAIR);
+    stage_make_as(stage, scene, tree, form_choice().nodes);
 }
 
 void stage_free(Stage *stage)

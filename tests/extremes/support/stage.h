@@ -15,10 +15,8 @@ typedef struct {
     FlatScene flat;
 } Stage;
 
-// Scene is needed no longer than the call takes.
+// Lays the nodes out for form_choice.  Scene is needed no longer than the call takes.
 void stage_make(Stage *stage, const Scene *scene, TreeKind tree);
-
-// stage_make lays out pairs.
 void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout layout);
 void stage_free(Stage *stage);
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The choice stays the same for all of a process.
+#include "image/form.h"
+
+#include "device/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    KernelChoice choice;
+} forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0}},
+             {"wide", {FAMILY_RAY, NODES_WIDE, 0}},
+             {"packet", {FAMILY_PACKET, NODES_WIDE, 0}},
+             {"packet8", {FAMILY_PACKET, NODES_WIDE, 8}},
+             {"packet4", {FAMILY_PACKET, NODES_WIDE, 4}}};
+
+static KernelChoice named_choice(const char *name)
+{
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (strcmp(name, forms[i].name) == 0)
+            return forms[i].choice;
+    fprintf(stderr, "CLRT_TEST_KERNEL is '%s', which names no form of the kernels\n", name);
+    exit(1);
+}
+
+static KernelChoice usual_choice(void)
+{
+    Device device;
+    Error error = {0};
+    const KernelWish nothing = {0};
+    if (!device_open(&device, getenv("CLRT_DEVICE"), &error)) {
+        fprintf(stderr, "%s\n", error.text);
+        exit(1);
+    }
+    const KernelChoice choice = kernel_choose(&nothing, device.is_cpu);
+    device_close(&device);
+    return choice;
+}
+
+KernelChoice form_choice(void)
+{
+    static bool is_known;
+    static KernelChoice choice;
+    const char *name = getenv("CLRT_TEST_KERNEL");
+    if (!is_known)
+        choice = name != NULL ? named_choice(name) : usual_choice();
+    is_known = true;
+    return choice;
+}
+
+uint32_t form_group(const KernelChoice *choice)
+{
+    return choice->nodes == NODES_WIDE ? 2 : 8;
+}

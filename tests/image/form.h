@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Which form of the kernels the tests run: CLRT_TEST_KERNEL in the environment names one of "pair",
+// "wide", "packet", "packet8" and "packet4".  Unset, it is the one that the program takes without
+// options on the device that CLRT_DEVICE names.
+#pragma once
+
+#include "device/kernel_choice.h"
+
+// Ends the process where there is no form of that name.
+KernelChoice form_choice(void);
+
+// Work-items along the sides of a work-group, as the program has them.
+uint32_t form_group(const KernelChoice *choice);
