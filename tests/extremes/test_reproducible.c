@@ -153,7 +153,6 @@ static void draw_in_order(Framebuffer *picture, const Studio *studio, const uint
 {
     Stage stage;
     Renderer renderer;
-    Stage stage;
     Error error = {0};
     cl_int status;
     const PictureSettings settings = usual_settings();
