@@ -19,13 +19,15 @@ static Vec3 point_above(Random *random)
     return point;
 }
 
-// Every other ray is sheared without rounding, so that it runs through the very apex and meets all
-// triangles at once.
+// Half of the rays are sheared without rounding, so that it runs through the very apex and meets
+// all triangles at once.
 static void aim_at_apex(TestRay *rays, Random *random)
 {
-    for (int i = 0; i < RAYS; i++) {
-        Vec3 origin = point_above(random);
-        if (i % 2 == 0)
+    Vec3 origin = {0};
+    for (size_t i = 0; i < RAYS; i++) {
+        if (aim_moves_origin(i, 8))
+            origin = point_above(random);
+        if (random_below(random, 2) == 0)
             origin.z = 1;
         rays[i] = aim_at(origin, vec3(0, 0, 0));
     }
@@ -33,10 +35,13 @@ static void aim_at_apex(TestRay *rays, Random *random)
 
 static void aim_along_spokes(TestRay *rays, const Triangles *triangles, Random *random)
 {
-    for (int i = 0; i < RAYS; i++) {
+    Vec3 origin = {0};
+    for (size_t i = 0; i < RAYS; i++) {
+        if (aim_moves_origin(i, 64))
+            origin = point_above(random);
         const Vec3 spoke = aim_corner(triangles, random_below(random, TRIANGLES), 1);
         const Vec3 target = vec3_scale(spoke, random_between(random, 0, 0.95));
-        rays[i] = aim_at(point_above(random), target);
+        rays[i] = aim_at(origin, target);
     }
 }
 

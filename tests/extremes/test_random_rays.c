@@ -12,15 +12,16 @@ static void random_rays_never_leave_a_closed_sphere_t01(void **state)
 {
     RayBatch *batch = *state;
     size_t misses = 0;
-    TestRay *rays = aim_make_rays(RAYS);
+    const size_t count = RAYS / aim_share();
+    TestRay *rays = aim_make_rays(count);
     for (int exponent = 0; exponent < SPHERE_EXPONENTS; exponent++) {
         char details[32];
         SphereCase sphere;
         Random random = {(uint64_t)(1000 + exponent)};
         sphere_case_make(&sphere, batch, exponent);
-        aim_randomly(rays, RAYS, &sphere.room, &random);
+        aim_randomly(rays, count, &sphere.room, &random);
         snprintf(details, sizeof details, "k=%d", exponent);
-        misses += report_case("T-01", details, RAYS, aim_count_misses(batch, rays, RAYS));
+        misses += report_case("T-01", details, count, aim_count_misses(batch, rays, count));
         sphere_case_free(&sphere);
     }
     free(rays);

@@ -35,10 +35,13 @@ static Vec3 combined(const Vec3 axes[3], Vec3 weights)
 // Rays from one side of the unit quad that axes 0 and 1 span to points of its diagonal.
 static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3], Random *random)
 {
-    for (int i = 0; i < ROTATED_RAYS; i++) {
+    Vec3 from = {0};
+    for (size_t i = 0; i < ROTATED_RAYS; i++) {
         const double place = random_between(random, 0.01, 0.99);
-        Vec3 from = random_in_cube(random, 2);
-        from.z = random_between(random, 0.5, 3);
+        if (aim_moves_origin(i, 64)) {
+            from = random_in_cube(random, 2);
+            from.z = random_between(random, 0.5, 3);
+        }
         const Vec3 target = combined(axes, vec3(place, place, 0));
         rays[i] = aim_at(normalize_point(&stage->normalization, combined(axes, from)),
                          normalize_point(&stage->normalization, target));
@@ -102,9 +105,11 @@ static size_t misses_through_pair(RayBatch *batch, Random *random, TestRay *rays
     stage_make(&stage, &scene, TREE_SAH);
     const Vec3 a = aim_corner(&stage.triangles, 0, 0);
     const Vec3 b = aim_corner(&stage.triangles, 0, 1);
-    for (int i = 0; i < PAIR_RAYS; i++) {
+    Vec3 from = {0};
+    for (size_t i = 0; i < PAIR_RAYS; i++) {
         const Vec3 along = vec3_scale(vec3_sub(b, a), random_between(random, 0.01, 0.99));
-        const Vec3 from = vec3_add(random_in_cube(random, 1), vec3(0, 0, 3));
+        if (aim_moves_origin(i, 64))
+            from = vec3_add(random_in_cube(random, 1), vec3(0, 0, 3));
         rays[i] = aim_at(normalize_point(&stage.normalization, from), vec3_add(a, along));
     }
     ray_batch_upload(batch, &stage.flat);
@@ -157,8 +162,10 @@ static size_t misses_of_plane(RayBatch *batch, const Stage *stage, double distan
 {
     Random random = {(uint64_t)(8000 + kind)};
     TestRay *rays = aim_make_rays(PLANE_RAYS);
-    for (int i = 0; i < PLANE_RAYS; i++) {
-        const Vec3 from = vec3_sub(random_in_cube(&random, 2), vec3(distance - PLANE_X, 0, 0));
+    Vec3 from = {0};
+    for (size_t i = 0; i < PLANE_RAYS; i++) {
+        if (aim_moves_origin(i, 64))
+            from = vec3_sub(random_in_cube(&random, 2), vec3(distance - PLANE_X, 0, 0));
         const Vec3 target = plane_target(kind, &random);
         rays[i] = aim_at(normalize_point(&stage->normalization, from),
                          normalize_point(&stage->normalization, target));

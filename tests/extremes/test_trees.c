@@ -39,15 +39,20 @@ static TestRay along_an_axis(Vec3 through, Random *random)
 // themselves, and along the axes.
 static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
 {
+    Vec3 near = {0}, far = {0};
     for (size_t i = 0; i < RAYS; i++) {
-        Vec3 origin = random_in_cube(random, 2);
+        if (aim_moves_origin(i, AIM_BUNDLE)) {
+            near = random_in_cube(random, 2);
+            far = random_in_cube(random, 1000);
+        }
+        Vec3 origin = near;
         Vec3 target = random_in_cube(random, 1);
         if (i % 8 == 1 || i % 8 == 2)
             target = random_corner(triangles, random);
         else if (i % 8 == 3 || i % 8 == 4)
             target = random_target(triangles, random);
         if (i % 8 == 4)
-            origin = random_in_cube(random, 1000);
+            origin = far;
         if (i % 8 == 5)
             origin = random_corner(triangles, random);
         rays[i] = aim_at(origin, target);
@@ -57,9 +62,10 @@ static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
 }
 
 // Reflected rays from points of triangles at or near one of their edges, where their neighbors are
-// met at distances that rounding can make zero or less.
-static void make_surface_rays(TestRay *rays, const Stage *stage, Random *random)
+// met at distances that rounding can make zero or less; or shadow rays to such points.
+static void make_surface_rays(TestRay *rays, const Stage *stage, bool are_shadows, Random *random)
 {
+    Vec3 light = {0};
     const Triangles *triangles = &stage->triangles;
     for (size_t i = 0; i < RAYS; i++) {
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
@@ -69,9 +75,14 @@ static void make_surface_rays(TestRay *rays, const Stage *stage, Random *random)
         const double inward = scalbn(random_between(random, 0, 1), -(int)random_below(random, 30));
         const Vec3 edge = vec3_add(a, along);
         const Vec3 origin = vec3_add(edge, vec3_scale(vec3_sub(c, edge), inward));
-        rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
+        if (aim_moves_origin(i, AIM_BUNDLE))
+            light = vec3_add(origin, random_in_cube(random, 1));
+        if (are_shadows)
+            rays[i] = aim_at(light, origin);
+        else
+            rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
         rays[i].own = stage->flat.sphere_count + triangle;
-        rays[i].kind = RAY_REFLECTED;
+        rays[i].kind = are_shadows ? RAY_SHADOW : RAY_REFLECTED;
     }
 }
 
@@ -128,14 +139,14 @@ static size_t differences_of(const Comparison *comparison, RayBatch *batch, size
     return differences;
 }
 
-static void make_scene_rays(TestRay *rays, size_t number, bool from_surfaces)
+static void make_scene_rays(TestRay *rays, size_t number, BatchTask task, bool from_surfaces)
 {
     Stage stage;
     Random random = {25 + number};
     Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, TREE_NONE);
     if (from_surfaces)
-        make_surface_rays(rays, &stage, &random);
+        make_surface_rays(rays, &stage, task == BATCH_BLOCKED, &random);
     else
         make_rays(rays, &stage.triangles, &random);
     stage_free(&stage);
@@ -148,7 +159,7 @@ static size_t compare_hits(RayBatch *batch, bool from_surfaces)
     Comparison comparison = comparison_make(BATCH_NEAREST);
     for (size_t number = 0; number < TREE_SCENES; number++) {
         size_t hits = 0;
-        make_scene_rays(comparison.rays, number, from_surfaces);
+        make_scene_rays(comparison.rays, number, comparison.task, from_surfaces);
         differences += differences_of(&comparison, batch, number);
         for (size_t i = 0; i < RAYS; i++)
             hits += comparison.expected[i].id != NOTHING;
@@ -176,29 +187,15 @@ static void make_shadow_ray(TestRay *ray, bool doubled)
         ray->direction[axis] *= 2;
 }
 
-// Makes the shadow ray to where the ray starts from where it leads.
-static void turn_to_shadow_ray(TestRay *ray)
-{
-    ray->kind = RAY_SHADOW;
-    for (int axis = 0; axis < 3; axis++) {
-        const float start = ray->origin[axis];
-        ray->origin[axis] += ray->direction[axis];
-        ray->direction[axis] = start - ray->origin[axis];
-    }
-}
-
 static size_t compare_shadows(RayBatch *batch, bool from_surfaces)
 {
     size_t differences = 0;
     Comparison comparison = comparison_make(BATCH_BLOCKED);
     for (size_t number = 0; number < TREE_SCENES; number++) {
         size_t blocked = 0;
-        make_scene_rays(comparison.rays, number, from_surfaces);
-        for (size_t i = 0; i < RAYS; i++)
-            if (from_surfaces)
-                turn_to_shadow_ray(&comparison.rays[i]);
-            else
-                make_shadow_ray(&comparison.rays[i], i % 16 < 8);
+        make_scene_rays(comparison.rays, number, comparison.task, from_surfaces);
+        for (size_t i = 0; i < RAYS && !from_surfaces; i++)
+            make_shadow_ray(&comparison.rays[i], i % 16 < 8);
         differences += differences_of(&comparison, batch, number);
         for (size_t i = 0; i < RAYS; i++)
             blocked += comparison.expected[i].id;

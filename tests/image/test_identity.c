@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One picture: whatever the tree, the tiles, the work-groups and the program, the same bits.
+// One picture: whatever the form of the kernels, the tree, the tiles, the work-groups and the
+// program, the same bits.
+#include "image/form.h"
 #include "image/picture.h"
 #include "unit/cmocka_all.h"
 
@@ -14,6 +16,20 @@ static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
+
+static const KernelChoice choices[] = {
+    {FAMILY_RAY, NODES_PAIR, 0},     {FAMILY_RAY, NODES_WIDE, 4},    {FAMILY_RAY, NODES_WIDE, 8},
+    {FAMILY_RAY, NODES_WIDE, 16},    {FAMILY_PACKET, NODES_WIDE, 4}, {FAMILY_PACKET, NODES_WIDE, 8},
+    {FAMILY_PACKET, NODES_WIDE, 16},
+};
+#define CHOICE_COUNT (sizeof choices / sizeof choices[0])
+
+static PictureRequest in_form(PictureRequest request, const KernelChoice *choice)
+{
+    request.choice = *choice;
+    request.group_width = request.group_height = form_group(choice);
+    return request;
+}
 
 // Neither side is a multiple of a tile or a work-group.
 static PictureRequest small_request(size_t scene)
@@ -56,10 +72,45 @@ static void every_way_to_find_triangles_draws_the_same(void **state)
     }
 }
 
+static void every_form_of_the_kernels_draws_the_same(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        for (size_t i = 0; i < CHOICE_COUNT; i++) {
+            PictureRequest usual = in_form(small_request(scene), &choices[0]);
+            usual.samples = 1;
+            const PictureRequest sah = in_form(usual, &choices[i]);
+            PictureRequest midpoint = sah, list = sah, tiled = sah;
+            midpoint.builder = BVH_MIDPOINT;
+            list.uses_bvh = false;
+            tiled.tile_width = 13;
+            tiled.tile_height = 7;
+            expect_same(&usual, &sah);
+            expect_same(&sah, &midpoint);
+            expect_same(&list, &tiled);
+            expect_same(&usual, &tiled);
+        }
+}
+
+static void every_form_draws_pictures_of_a_few_pixels(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
+    for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++)
+        for (size_t i = 0; i < CHOICE_COUNT; i++) {
+            PictureRequest usual = small_request(SCENE_COUNT - 1);
+            usual.width = sizes[size][0];
+            usual.height = sizes[size][1];
+            usual = in_form(usual, &choices[0]);
+            const PictureRequest other = in_form(usual, &choices[i]);
+            expect_same(&usual, &other);
+        }
+}
+
 static void every_tile_size_draws_the_same(void **state)
 {
     (void)state;
-    static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}};
+    static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         for (size_t i = 0; i < sizeof tiles / sizeof tiles[0]; i++) {
             const PictureRequest usual = small_request(scene);
@@ -118,20 +169,37 @@ static const char *write_scene(unsigned mask)
 }
 
 // All six switches: the mask's four, the tree and the statistics.
+static void expect_special_same(unsigned mask, const KernelChoice *choice)
+{
+    uint64_t tallies[TALLY_KINDS];
+    PictureRequest general = in_form(picture_request(write_scene(mask & 15), 1), choice);
+    general.width = general.height = 40;
+    general.uses_bvh = (mask & 16) != 0;
+    PictureRequest special = general;
+    special.specialization = SPECIALIZE_ALWAYS;
+    special.extra_options = "-Werror";
+    special.tallies = mask & 32 ? tallies : NULL;
+    expect_same(&general, &special);
+    remove(general.scene_path);
+}
+
 static void every_specialized_program_draws_what_the_general_one_does(void **state)
 {
     (void)state;
-    for (unsigned mask = 0; mask < 64; mask++) {
-        uint64_t tallies[TALLY_KINDS];
-        PictureRequest general = picture_request(write_scene(mask & 15), 1);
-        general.width = general.height = 40;
-        general.uses_bvh = (mask & 16) != 0;
-        PictureRequest special = general;
-        special.specialization = SPECIALIZE_ALWAYS;
-        special.extra_options = "-Werror";
-        special.tallies = mask & 32 ? tallies : NULL;
-        expect_same(&general, &special);
-        remove(general.scene_path);
+    for (unsigned mask = 0; mask < 64; mask++)
+        expect_special_same(mask, &choices[0]);
+}
+
+// Packets take longer to compile: all switches on, all off, and each alone on or off.
+static void specialized_packets_draw_what_general_ones_do(void **state)
+{
+    (void)state;
+    const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0};
+    expect_special_same(0, &packet);
+    expect_special_same(63, &packet);
+    for (unsigned place = 0; place < 6; place++) {
+        expect_special_same(1u << place, &packet);
+        expect_special_same(63u & ~(1u << place), &packet);
     }
 }
 
@@ -139,10 +207,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_to_find_triangles_draws_the_same),
+        cmocka_unit_test(every_form_of_the_kernels_draws_the_same),
+        cmocka_unit_test(every_form_draws_pictures_of_a_few_pixels),
         cmocka_unit_test(every_tile_size_draws_the_same),
         cmocka_unit_test(every_work_group_size_draws_the_same),
         cmocka_unit_test(counting_changes_no_pixel),
         cmocka_unit_test(every_specialized_program_draws_what_the_general_one_does),
+        cmocka_unit_test(specialized_packets_draw_what_general_ones_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,8 +20,19 @@ kernel void probe_layout(global uint *sizes)
     sizes[9] = (uint)((char *)&pair.count - (char *)&pair);
     sizes[10] = (uint)((char *)&frame.uses_bvh - (char *)&frame);
     sizes[11] = (uint)((char *)&triangle.normals - (char *)&triangle);
+    BvhWide wide;
+    TriangleBlock block;
+    TriangleLook look;
+    sizes[12] = sizeof(BvhWide);
+    sizes[13] = sizeof(TriangleBlock);
+    sizes[14] = sizeof(TriangleLook);
+    sizes[15] = (uint)((char *)&wide.child - (char *)&wide);
+    sizes[16] = (uint)((char *)&wide.child_count - (char *)&wide);
+    sizes[17] = (uint)((char *)&block.id - (char *)&block);
+    sizes[18] = (uint)((char *)&look.normals - (char *)&look);
 }
 
+#if CLRT_LANES == 1
 // values holds pairs {base, exponent}; results what the highlight of each kind makes of them.
 kernel void probe_powers(global const float *values, global float *results)
 {
@@ -47,3 +58,37 @@ kernel void probe_units(global const float *vectors, global float *results)
     const Real3 unit = unit_vector(load3(vectors + 3 * item));
     vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }
+#else
+// bits holds CLRT_LANES bits for each item; results two words: the bits of the lanes that these
+// make, and how many lanes are true.
+kernel void probe_lanes(global const uint *bits, global uint *results)
+{
+    const uint item = get_global_id(0);
+    const Truth lanes = lanes_of(bits[item]);
+    results[2 * item] = lane_bits(lanes);
+    results[2 * item + 1] = lane_count(lanes);
+}
+
+// Lane by lane: 1 where the lane is true.
+kernel void probe_truths(global const uint *bits, global uint *results)
+{
+    const uint item = get_global_id(0);
+    const Truth lanes = lanes_of(bits[item]);
+    const Count words = lanes ? (Count)(1) : (Count)(0);
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        results[item * CLRT_LANES + lane] = ((const uint *)&words)[lane];
+}
+
+// places holds CLRT_LANES places in words for each item.
+kernel void probe_gather(global const uint *words, global const uint *places,
+                         global uint *results)
+{
+    const uint item = get_global_id(0);
+    Count place;
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        ((uint *)&place)[lane] = places[item * CLRT_LANES + lane];
+    const Count gathered = gather(words, place);
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        results[item * CLRT_LANES + lane] = ((const uint *)&gathered)[lane];
+}
+#endif

@@ -15,7 +15,8 @@ typedef struct {
     size_t size;
 } ProbeInput;
 
-bool probe_open(Probe *probe, Error *error);
+// For kernels of that many lanes: 1, 4, 8 or 16.
+bool probe_open(Probe *probe, uint32_t lanes, Error *error);
 void probe_close(Probe *probe);
 
 // Runs kernel for items work-items over up to two inputs (the rest of the list has size 0) and

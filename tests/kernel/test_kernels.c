@@ -10,10 +10,10 @@ static Probe probe;
 static void host_and_device_agree_on_the_layout(void **state)
 {
     (void)state;
-    uint32_t sizes[12];
+    uint32_t sizes[19];
     const ProbeInput none[2] = {0};
     assert_true(probe_run(&probe, "probe_layout", none, 1, (ProbeInput){sizes, sizeof sizes}));
-    const size_t expected[12] = {sizeof(Material),
+    const size_t expected[19] = {sizeof(Material),
                                  sizeof(PointLight),
                                  sizeof(SphereData),
                                  sizeof(TriangleData),
@@ -24,8 +24,15 @@ static void host_and_device_agree_on_the_layout(void **state)
                                  offsetof(SphereData, material),
                                  offsetof(BvhPair, count),
                                  offsetof(FrameData, uses_bvh),
-                                 offsetof(TriangleData, normals)};
-    for (int i = 0; i < 12; i++)
+                                 offsetof(TriangleData, normals),
+                                 sizeof(BvhWide),
+                                 sizeof(TriangleBlock),
+                                 sizeof(TriangleLook),
+                                 offsetof(BvhWide, child),
+                                 offsetof(BvhWide, child_count),
+                                 offsetof(TriangleBlock, id),
+                                 offsetof(TriangleLook, normals)};
+    for (int i = 0; i < 19; i++)
         assert_int_equal(sizes[i], expected[i]);
 }
 
@@ -163,11 +170,76 @@ static void far_spheres_are_hit_and_missed_as_exactly(void **state)
     }
 }
 
+#define MASKS 65536
+#define WORDS 4096
+
+static Probe open_lanes(uint32_t lanes)
+{
+    Probe opened;
+    Error error = {0};
+    if (!probe_open(&opened, lanes, &error))
+        fail_msg("%s", error.text);
+    return opened;
+}
+
+// All masks there are.
+static void check_masks(const Probe *lanes_probe, uint32_t lanes)
+{
+    static uint32_t bits[MASKS], results[MASKS][2], truths[MASKS * 16];
+    const uint32_t count = 1u << lanes;
+    for (uint32_t mask = 0; mask < count; mask++)
+        bits[mask] = mask;
+    const ProbeInput inputs[2] = {{bits, count * sizeof *bits}, {0}};
+    assert_true(probe_run(lanes_probe, "probe_lanes", inputs, count,
+                          (ProbeInput){results, count * sizeof *results}));
+    assert_true(probe_run(lanes_probe, "probe_truths", inputs, count,
+                          (ProbeInput){truths, count * lanes * sizeof *truths}));
+    for (uint32_t mask = 0; mask < count; mask++) {
+        uint32_t set = 0;
+        for (uint32_t lane = 0; lane < lanes; lane++) {
+            assert_int_equal(truths[mask * lanes + lane], mask >> lane & 1);
+            set += mask >> lane & 1;
+        }
+        assert_int_equal(results[mask][0], mask);
+        assert_int_equal(results[mask][1], set);
+    }
+}
+
+static void every_mask_becomes_lanes_and_bits_again(void **state)
+{
+    (void)state;
+    for (uint32_t lanes = 4; lanes <= 16; lanes *= 2) {
+        Probe lanes_probe = open_lanes(lanes);
+        check_masks(&lanes_probe, lanes);
+        probe_close(&lanes_probe);
+    }
+}
+
+static void every_lane_gathers_its_own_word(void **state)
+{
+    (void)state;
+    static uint32_t words[WORDS], places[WORDS], results[WORDS];
+    uint64_t random = 11;
+    for (uint32_t i = 0; i < WORDS; i++) {
+        words[i] = i * 2654435761u;
+        places[i] = (uint32_t)(fabs(random_unit(&random)) * (WORDS - 1));
+    }
+    for (uint32_t lanes = 4; lanes <= 16; lanes *= 2) {
+        Probe lanes_probe = open_lanes(lanes);
+        const ProbeInput inputs[2] = {{words, sizeof words}, {places, sizeof places}};
+        assert_true(probe_run(&lanes_probe, "probe_gather", inputs, WORDS / lanes,
+                              (ProbeInput){results, sizeof results}));
+        for (uint32_t i = 0; i < WORDS; i++)
+            assert_int_equal(results[i], words[places[i]]);
+        probe_close(&lanes_probe);
+    }
+}
+
 static int open_probe(void **state)
 {
     (void)state;
     Error error = {0};
-    if (probe_open(&probe, &error))
+    if (probe_open(&probe, 1, &error))
         return 0;
     print_error("%s\n", error.text);
     return 1;
@@ -187,6 +259,8 @@ int main(void)
         cmocka_unit_test(powers_are_close_to_exact_ones),
         cmocka_unit_test(unit_vectors_survive_every_magnitude),
         cmocka_unit_test(far_spheres_are_hit_and_missed_as_exactly),
+        cmocka_unit_test(every_mask_becomes_lanes_and_bits_again),
+        cmocka_unit_test(every_lane_gathers_its_own_word),
     };
     return cmocka_run_group_tests(tests, open_probe, close_probe);
 }

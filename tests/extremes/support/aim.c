@@ -3,9 +3,21 @@
 #include "aim.h"
 
 #include "check.h"
+#include "image/form.h"
 #include "shapes.h"
 
 #include <stdlib.h>
+
+bool aim_moves_origin(size_t i, size_t packet_rays)
+{
+    return form_choice().family != FAMILY_PACKET || i % packet_rays == 0;
+}
+
+size_t aim_share(void)
+{
+    const char *share = getenv("CLRT_TEST_SHARE");
+    return share != NULL ? strtoul(share, NULL, 10) : 1;
+}
 
 TestRay aim_at(Vec3 origin, Vec3 target)
 {
@@ -21,8 +33,10 @@ TestRay aim_at(Vec3 origin, Vec3 target)
 
 void aim_randomly(TestRay *rays, size_t count, const Room *room, Random *random)
 {
+    Vec3 origin = {0};
     for (size_t i = 0; i < count; i++) {
-        const Vec3 origin = room_point(room, random);
+        if (aim_moves_origin(i, AIM_BUNDLE))
+            origin = room_point(room, random);
         rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
     }
 }
@@ -36,23 +50,29 @@ Vec3 aim_corner(const Triangles *triangles, size_t triangle, size_t corner)
 void aim_at_edges(TestRay *rays, size_t count, const Room *room, const Triangles *triangles,
                   Random *random)
 {
+    Vec3 origin = {0};
     for (size_t i = 0; i < count; i++) {
+        if (aim_moves_origin(i, AIM_BUNDLE))
+            origin = room_point(room, random);
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
         const uint32_t corner = random_below(random, 3);
         const Vec3 a = aim_corner(triangles, triangle, corner);
         const Vec3 b = aim_corner(triangles, triangle, (corner + 1) % 3);
         const Vec3 along = vec3_scale(vec3_sub(b, a), random_between(random, 0, 1));
-        rays[i] = aim_at(room_point(room, random), vec3_add(a, along));
+        rays[i] = aim_at(origin, vec3_add(a, along));
     }
 }
 
 void aim_at_vertices(TestRay *rays, size_t count, const Room *room, const Triangles *triangles,
                      Random *random)
 {
+    Vec3 origin = {0};
     for (size_t i = 0; i < count; i++) {
+        if (aim_moves_origin(i, AIM_BUNDLE))
+            origin = room_point(room, random);
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
         const Vec3 vertex = aim_corner(triangles, triangle, random_below(random, 3));
-        rays[i] = aim_at(room_point(room, random), vertex);
+        rays[i] = aim_at(origin, vertex);
     }
 }
 

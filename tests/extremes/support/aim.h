@@ -5,6 +5,16 @@
 #include "ray_batch.h"
 #include "room.h"
 
+// Whether ray i is to start at another origin than the one before: for packets, which are of camera
+// or shadow rays from one point, only after so many rays, else always.
+bool aim_moves_origin(size_t i, size_t packet_rays);
+
+// So many rays from one point lead everywhere and still fill packets.
+#define AIM_BUNDLE 512
+
+// One in how many rays the largest tests are to trace: CLRT_TEST_SHARE in the environment, unset 1.
+size_t aim_share(void);
+
 // A corner of a triangle.
 Vec3 aim_corner(const Triangles *triangles, size_t triangle, size_t corner);
 

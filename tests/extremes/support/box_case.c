@@ -4,6 +4,7 @@
 
 #include "accel/flat_pair.h"
 #include "check.h"
+#include "ray_order.h"
 
 #include <stdlib.h>
 
@@ -48,6 +49,12 @@ static void write_node(BvhPair *node, const Box boxes[2])
     flat_pair_write(node, &bvh);
 }
 
+static int compare_classes(const void *first, const void *second)
+{
+    const BoxCase *a = first, *b = second;
+    return (int)ray_order_class(&a->ray) - (int)ray_order_class(&b->ray);
+}
+
 // The device's answers for the cases.
 static TestHit *trace_cases(RayBatch *batch, const BoxCase *cases, size_t count)
 {
@@ -66,9 +73,10 @@ static TestHit *trace_cases(RayBatch *batch, const BoxCase *cases, size_t count)
     return hits;
 }
 
-size_t box_case_count_misses(RayBatch *batch, const BoxCase *cases, size_t count, size_t *met)
+size_t box_case_count_misses(RayBatch *batch, BoxCase *cases, size_t count, size_t *met)
 {
     size_t misses = 0;
+    qsort(cases, count, sizeof *cases, compare_classes);
     TestHit *hits = trace_cases(batch, cases, count);
     for (size_t i = 0; i < count; i++)
         for (int box = 0; box < 2; box++) {

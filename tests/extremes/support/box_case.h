@@ -15,5 +15,5 @@ typedef struct {
 bool box_case_is_met(const TestRay *ray, const Box *box);
 
 // How many boxes the device misses though they are met; adds those that are to *met.  The boxes
-// are made into nodes by the host's own code.
-size_t box_case_count_misses(RayBatch *batch, const BoxCase *cases, size_t count, size_t *met);
+// are made into nodes by the host's own code.  The cases are reordered to suit packets.
+size_t box_case_count_misses(RayBatch *batch, BoxCase *cases, size_t count, size_t *met);
