@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // make_models FOLDER: writes the models of the scenes, each a closed triangle mesh, as PLY files.
 // A model is a signed field of a few smooth shapes; field -> grid -> surface net -> relaxed and
-// checked surface -> file.  The same bytes come out on every machine with IEEE arithmetic when
-// it is built with -ffp-contract=off.
+// checked surface -> file.  The cables are written as they are.  The same bytes come out on every
+// machine with IEEE arithmetic when it is built with -ffp-contract=off.
+#include "models/cables.h"
 #include "models/closed.h"
 #include "models/grid.h"
 #include "models/ply_file.h"
@@ -21,17 +22,33 @@ static bool make_surface(Surface *surface, const Model *model, Error *error)
            closed_check(surface, model->name, error);
 }
 
-static bool make_file(const Model *model, const char *folder, Error *error)
+static bool write_file(const Surface *surface, const char *name, const char *folder, Error *error)
 {
     char path[4096];
-    const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, model->name);
+    const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, name);
     if (length < 0 || (size_t)length >= sizeof path)
         return error_set(error, "the folder's name is too long: %s", folder);
+    if (!ply_file_write(surface, path, error))
+        return false;
+    printf("%s: %zu vertices, %zu triangles\n", name, surface->vertex_count,
+           surface->quad_count * 2);
+    return true;
+}
+
+static bool make_file(const Model *model, const char *folder, Error *error)
+{
     Surface surface = {0};
-    const bool made = make_surface(&surface, model, error) && ply_file_write(&surface, path, error);
-    if (made)
-        printf("%s: %zu vertices, %zu triangles\n", model->name, surface.vertex_count,
-               surface.quad_count * 2);
+    const bool made =
+        make_surface(&surface, model, error) && write_file(&surface, model->name, folder, error);
+    surface_free(&surface);
+    return made;
+}
+
+static bool make_cables(const char *folder, Error *error)
+{
+    Surface surface = {0};
+    const bool made = cables_make(&surface, error) && closed_check(&surface, "cables", error) &&
+                      write_file(&surface, "cables", folder, error);
     surface_free(&surface);
     return made;
 }
@@ -42,12 +59,11 @@ int main(int argument_count, char **arguments)
         fputs("usage: make_models FOLDER\n", stderr);
         return 2;
     }
-    for (size_t model = 0; model < sizeof models / sizeof models[0]; model++) {
-        Error error = {0};
-        if (!make_file(models[model], arguments[1], &error)) {
-            fprintf(stderr, "make_models: %s\n", error.text);
-            return 1;
-        }
-    }
-    return 0;
+    Error error = {0};
+    bool made = make_cables(arguments[1], &error);
+    for (size_t model = 0; made && model < sizeof models / sizeof models[0]; model++)
+        made = make_file(models[model], arguments[1], &error);
+    if (!made)
+        fprintf(stderr, "make_models: %s\n", error.text);
+    return made ? 0 : 1;
 }
