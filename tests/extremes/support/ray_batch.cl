@@ -30,9 +30,12 @@ static inline TestRays test_rays(global const TestRay *rays, uint count)
     const Count place = first + LANE_Y * PACKET_WIDTH + LANE_X;
     const Count last = count - 1;
     const Record record = record_at(rays, min(place, last) * WORDS(TestRay));
-    return (TestRays){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
-                      record_word(&record, 3),     record_word(&record, 7),
-                      first,                       place < count};
+    return (TestRays){record_real3(&record, 0, 1),
+                      record_real3(&record, 4, 1),
+                      record_word(&record, 3),
+                      record_word(&record, 7),
+                      first,
+                      place < count};
 }
 
 static inline Truth same_in_first(Count value, Truth among)
@@ -166,8 +169,8 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
     test.sheared = corners_sheared(&relative, &ray.shear);
     test.edges = edges_of(&test.sheared);
     test.inside = edges_contain(&test.edges);
-    const float8 distances = block_distances(&triangles[block], packet->rays.ray, 0, &ray.shear,
-                                             &test, INFINITY);
+    const float8 distances =
+        block_distances(&triangles[block], packet->rays.ray, 0, &ray.shear, &test, INFINITY);
     return ((const float *)&distances)[place];
 }
 
@@ -198,9 +201,9 @@ static inline Count boxes_met(global const Node *nodes, const Packet *packet, ui
     for (; lanes != 0; lanes &= lanes - 1) {
         const uint lane = lowest_bit(lanes);
         float8 entry;
-        uint near = lane_bits(CLRT_PACKET
-                                  ? children_near(&nodes[lane], packet, INFINITY, &entry)
-                                  : children_met(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
+        uint near = lane_bits(
+            CLRT_PACKET ? children_near(&nodes[lane], packet, INFINITY, &entry)
+                        : children_met(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
         for (uint child = 0; child < 2 && CLRT_PACKET; child++)
             if ((lane_bits(lanes_in_child(&nodes[lane], child, packet, INFINITY)) >> lane & 1) == 0)
                 near &= ~(1u << child);
