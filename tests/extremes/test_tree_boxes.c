@@ -7,6 +7,7 @@
 #include "support/tree_scenes.h"
 
 #include "accel/box.h"
+#include "device/kernel_choice.h"
 
 // The triangle test accepts a triangle up to 34 units of rounding beside the ray where division is
 // good to 2.5 ulp, and the slabs add up to 8: a box must be larger by as many units of its largest
@@ -26,12 +27,13 @@ static double largest_coordinate(const Box *box)
     return largest;
 }
 
-static bool planes_hold(const BvhPair *node, int child, const Box *box)
+// planes leads to those of one child; the next plane is as many floats on as there are children.
+static bool planes_hold(const float *planes, size_t children, const Box *box)
 {
     const double growth = NEEDED_GROWTH * largest_coordinate(box);
-    for (int axis = 0; axis < 3; axis++)
-        if (!((double)node->planes[axis][0][child] <= (double)box->low[axis] - growth) ||
-            !((double)node->planes[axis][1][child] >= (double)box->high[axis] + growth))
+    for (size_t axis = 0; axis < 3; axis++)
+        if (!((double)planes[2 * axis * children] <= (double)box->low[axis] - growth) ||
+            !((double)planes[(2 * axis + 1) * children] >= (double)box->high[axis] + growth))
             return false;
     return true;
 }
@@ -64,25 +66,67 @@ static Box check_node(Walk *walk, uint32_t number)
         const uint32_t first = node->first[child], count = node->count[child];
         const Box box = count > 0 ? leaf_box(walk, first, count) : check_node(walk, first);
         walk->boxes++;
-        walk->violations += !planes_hold(node, child, &box);
+        walk->violations += !planes_hold(&node->planes[0][0][child], 2, &box);
         box_include(&all, &box);
     }
     return all;
+}
+
+static Box block_box(Walk *walk, uint32_t number)
+{
+    Box box = box_empty();
+    const TriangleBlock *block = &walk->flat->blocks[number];
+    for (int place = 0; place < WIDE; place++) {
+        for (int corner = 0; corner < 3 && block->id[place] != NOTHING; corner++) {
+            const float point[3] = {block->corners[corner][0][place],
+                                    block->corners[corner][1][place],
+                                    block->corners[corner][2][place]};
+            box_include_point(&box, point);
+        }
+        walk->triangles += block->id[place] != NOTHING;
+    }
+    return box;
+}
+
+// The same as check_node.
+static Box check_wide(Walk *walk, uint32_t number)
+{
+    Box all = box_empty();
+    const BvhWide *node = &walk->flat->wides[number];
+    for (uint32_t place = 0; place < node->child_count; place++) {
+        const uint32_t child = node->child[place];
+        const Box box =
+            child & WIDE_LEAF ? block_box(walk, child & ~WIDE_LEAF) : check_wide(walk, child);
+        walk->boxes++;
+        walk->violations += !planes_hold(&node->planes[0][0][place], WIDE, &box);
+        box_include(&all, &box);
+    }
+    return all;
+}
+
+static size_t check_tree(const char *name, const Scene *scene, TreeKind tree, NodeLayout layout)
+{
+    Stage stage;
+    char details[80];
+    stage_make_as(&stage, scene, tree, layout);
+    Walk walk = {.flat = &stage.flat};
+    if (layout == NODES_WIDE)
+        check_wide(&walk, 0);
+    else
+        check_node(&walk, 0);
+    assert_int_equal(walk.triangles, stage.flat.triangle_count);
+    snprintf(details, sizeof details, "scene=%s tree=%s nodes=%s", name, tree_names[tree],
+             kernel_nodes_name(layout));
+    stage_free(&stage);
+    return report_case("T-27", details, walk.boxes, walk.violations);
 }
 
 static size_t check_trees(const char *name, const Scene *scene)
 {
     size_t violations = 0;
     for (TreeKind tree = TREE_SAH; tree < TREE_NONE; tree++) {
-        Stage stage;
-        char details[64];
-        stage_make(&stage, scene, tree);
-        Walk walk = {.flat = &stage.flat};
-        check_node(&walk, 0);
-        assert_int_equal(walk.triangles, stage.flat.triangle_count);
-        snprintf(details, sizeof details, "scene=%s tree=%s", name, tree_names[tree]);
-        violations += report_case("T-27", details, walk.boxes, walk.violations);
-        stage_free(&stage);
+        violations += check_tree(name, scene, tree, NODES_PAIR);
+        violations += check_tree(name, scene, tree, NODES_WIDE);
     }
     return violations;
 }
