@@ -155,10 +155,10 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
 {
     Hit hit = {INFINITY, NOTHING, NOTHING};
     if (CLRT_PACKET) {
-        const Corners corners = {corner_from(&triangles[block], 0, place, packet),
-                                 corner_from(&triangles[block], 1, place, packet),
-                                 corner_from(&triangles[block], 2, place, packet)};
-        test_triangle(triangles, block, place, packet, &corners, packet->active, &hit);
+        const BlockPlace at = {&triangles[block], place, block * WIDE + place};
+        const Corners corners = {corner_from(&at, 0, packet), corner_from(&at, 1, packet),
+                                 corner_from(&at, 2, packet)};
+        test_triangle(&at, packet, &corners, packet->active, &hit);
         return real_of(&hit.t, 0);
     }
     const LaneRay ray = lane_ray(&packet->rays, 0);
@@ -166,11 +166,12 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
                                   block_corner_relative(&triangles[block], 1, &ray),
                                   block_corner_relative(&triangles[block], 2, &ray)};
     BlockTest test;
+    test.shear = ray.shear;
     test.sheared = corners_sheared(&relative, &ray.shear);
     test.edges = edges_of(&test.sheared);
     test.inside = edges_contain(&test.edges);
     const float8 distances =
-        block_distances(&triangles[block], packet->rays.ray, 0, &ray.shear, &test, INFINITY);
+        block_distances(&triangles[block], packet->rays.ray, 0, &test, INFINITY);
     return ((const float *)&distances)[place];
 }
 
