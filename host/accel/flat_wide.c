@@ -125,8 +125,10 @@ static int compare_numbers(const void *first, const void *second)
 static bool is_branch(const Walk *walk, const Part *part)
 {
     const Bvh *bvh = walk->collapse->source->bvh;
-    return walk->is_upper && bsearch(&part->node, bvh->upper, bvh->upper_count, sizeof part->node,
-                                     compare_numbers) == NULL;
+    if (!walk->is_upper || bvh->upper_count == 0)
+        return walk->is_upper;
+    return bsearch(&part->node, bvh->upper, bvh->upper_count, sizeof part->node, compare_numbers) ==
+           NULL;
 }
 
 // Recursion is bounded by the levels of the binary tree.
