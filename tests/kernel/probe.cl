@@ -80,8 +80,7 @@ kernel void probe_truths(global const uint *bits, global uint *results)
 }
 
 // places holds CLRT_LANES places in words for each item.
-kernel void probe_gather(global const uint *words, global const uint *places,
-                         global uint *results)
+kernel void probe_gather(global const uint *words, global const uint *places, global uint *results)
 {
     const uint item = get_global_id(0);
     Count place;
