@@ -54,18 +54,6 @@ static inline Truth lanes_in_child(global const BvhWide *node, uint child, const
     return entry <= min(min(far_x, far_y), min(far_z, reach));
 }
 
-// Puts the children whose bits are set on the stack, the nearest on top.
-static inline void wait_for_children(WideWaiting *waiting, uint bits, const float8 *entry,
-                                     uint first)
-{
-    const float *entries = (const float *)entry;
-    const uint start = waiting->count;
-    for (; bits != 0; bits &= bits - 1) {
-        const uint number = lowest_bit(bits);
-        wait_in_order(waiting, start, waiting_child(entries[number], first + number));
-    }
-}
-
 // Where a packet's search stands.  Children wait as WIDE * node + place.
 typedef struct {
     WideWaiting waiting;
@@ -80,7 +68,7 @@ static inline void expand_node(PacketWalk *walk, const SceneView *scene, const P
 {
     float8 entry;
     const int8 near = children_near(&scene->nodes[number], packet, walk->farthest, &entry);
-    wait_for_children(&walk->waiting, lane_bits(near), &entry, number * WIDE);
+    wait_for(&walk->waiting, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
 }
 
 // The lanes that go on into the child.

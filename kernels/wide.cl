@@ -5,12 +5,9 @@
 // triangle.cl's, so the answer is too.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
-#include "ray.cl"
+#include "waiting.cl"
 
 #if CLRT_WIDE_NODES
-
-// A level of the tree leaves at most WIDE - 1 children waiting.
-#define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + WIDE)
 
 // The rays of the lanes as the searches want them.
 typedef struct {
@@ -51,67 +48,6 @@ static inline void search_slabs(Search *search, Real3 o, Real3 d)
     search_slab(search, 0, slab_direction(d.x, smallest), o.x, slack);
     search_slab(search, 1, slab_direction(d.y, smallest), o.y, slack);
     search_slab(search, 2, slab_direction(d.z, smallest), o.z, slack);
-}
-
-// Children that wait: the distance at which they are entered in the high half, as the bits of a
-// float that is not negative, which order as integers do, and which child in the low one.
-typedef struct {
-    ulong child[WIDE_STACK_SIZE];
-    uint count;
-} WideWaiting;
-
-static inline float waiting_entry(ulong child)
-{
-    return as_float((uint)(child >> 32));
-}
-
-static inline ulong waiting_child(float entry, uint child)
-{
-    return (ulong)as_uint(entry) << 32 | child;
-}
-
-static inline uint lowest_bit(uint bits)
-{
-    return popcount((bits & -bits) - 1);
-}
-
-// Puts a child on the stack below those of the same node, from `start` on, that are nearer.
-static inline void wait_in_order(WideWaiting *waiting, uint start, ulong child)
-{
-    uint place = waiting->count++;
-    for (; place > start && waiting->child[place - 1] < child; place--)
-        waiting->child[place] = waiting->child[place - 1];
-    waiting->child[place] = child;
-}
-
-// Takes the child that is entered first among those that wait; false where none is before reach.
-static inline bool next_child(WideWaiting *waiting, float reach, uint *child)
-{
-    while (waiting->count > 0) {
-        const ulong next = waiting->child[--waiting->count];
-        *child = (uint)next;
-        if (!(waiting_entry(next) > reach))
-            return true;
-    }
-    return false;
-}
-
-// Returns the nearest of the children whose bits are set; the others wait.
-static inline uint enter_children(WideWaiting *waiting, const uint8 *children, uint bits,
-                                  const float8 *entry)
-{
-    const float *entries = (const float *)entry;
-    const uint *names = (const uint *)children;
-    const uint start = waiting->count;
-    uint number = lowest_bit(bits);
-    ulong nearest = waiting_child(entries[number], names[number]);
-    for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
-        number = lowest_bit(bits);
-        const ulong other = waiting_child(entries[number], names[number]);
-        wait_in_order(waiting, start, max(nearest, other));
-        nearest = min(nearest, other);
-    }
-    return (uint)nearest;
 }
 
 // Distances to a plane of each child's box: the one the lane's ray meets first, or the other.
@@ -244,7 +180,8 @@ static inline bool lane_hits(const float8 *distances, const BlockPlace *start, u
 }
 
 // Tests the triangles of a block against the lane's ray; tells whether its hit changed.
-static inline bool test_block(const BlockPlace *start, const Search *search, uint lane, Hit *hits)
+static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *search, uint lane,
+                                     Hit *hits)
 {
     global const TriangleBlock *block = start->block;
     const LaneRay ray = lane_ray(search, lane);
@@ -263,23 +200,21 @@ static inline bool test_block(const BlockPlace *start, const Search *search, uin
     return lane_hits(&distances, start, lane, hits);
 }
 
-// Asks for memory that is going to be read.  OpenCL's prefetch does nothing on PoCL.
-static inline void fetch_ahead(global const void *start, uint bytes)
+// Asks for a node, or for most of a block, that is going to be read: four lines of the cache.
+// OpenCL's prefetch does nothing on PoCL.
+static inline void fetch_ahead(const SceneView *scene, uint child)
 {
 #if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
-    for (uint byte = 0; byte < bytes; byte += 64)
-        __builtin_prefetch((const void *)((ulong)start + byte));
+    const ulong node = (ulong)(scene->nodes + child);
+    const ulong block = (ulong)(scene->triangles + (child & ~WIDE_LEAF));
+    const ulong start = (child & WIDE_LEAF) != 0 ? block : node;
+    __builtin_prefetch((const void *)start);
+    __builtin_prefetch((const void *)(start + 64));
+    __builtin_prefetch((const void *)(start + 128));
+    __builtin_prefetch((const void *)(start + 192));
 #else
-    (void)start, (void)bytes;
+    (void)scene, (void)child;
 #endif
-}
-
-static inline void fetch_child_ahead(const SceneView *scene, uint child)
-{
-    if ((child & WIDE_LEAF) == 0)
-        fetch_ahead(scene->nodes + child, sizeof(BvhWide));
-    else
-        fetch_ahead(scene->triangles + (child & ~WIDE_LEAF), sizeof(TriangleBlock));
 }
 
 // Rays that search side by side, a ray in each lane.
@@ -287,32 +222,27 @@ typedef struct {
     const Search *search;
     Hit *hits;
     uint child[CLRT_LANES]; // where each goes next
-    uint inner, leaves;     // bits of the lanes that go to a node, and to a block
+    uint leaves, ended;     // bits of the lanes that go to a block, and nowhere
     WideWaiting waiting[CLRT_LANES];
 } Walkers;
-
-static inline void walk_to(Walkers *walkers, const SceneView *scene, uint lane, uint child)
-{
-    fetch_child_ahead(scene, child);
-    walkers->child[lane] = child;
-    if (child & WIDE_LEAF)
-        walkers->leaves |= 1u << lane;
-    else
-        walkers->inner |= 1u << lane;
-}
 
 static inline void walk_on(Walkers *walkers, const SceneView *scene, uint lane)
 {
     uint child;
-    if (next_child(&walkers->waiting[lane], real_of(&walkers->hits->t, lane), &child))
-        walk_to(walkers, scene, lane, child);
+    const uint bit = 1u << lane;
+    if (!next_child(&walkers->waiting[lane], real_of(&walkers->hits->t, lane), &child)) {
+        walkers->ended |= bit;
+        return;
+    }
+    fetch_ahead(scene, child);
+    walkers->child[lane] = child;
+    walkers->leaves |= (child & WIDE_LEAF) != 0 ? bit : 0;
 }
 
 // A step of each lane that goes to a node.
 static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *tally)
 {
-    uint bits = walkers->inner;
-    walkers->inner = 0;
+    uint bits = ALL_LANES & ~(walkers->leaves | walkers->ended);
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
         global const BvhWide *node = &scene->nodes[walkers->child[lane]];
@@ -320,14 +250,11 @@ static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *t
         const uint8 children = vload8(0, node->child);
         const float reach = real_of(&walkers->hits->t, lane);
         float8 entry;
-        const uint met = lane_bits(children_met(node, walkers->search, lane, reach, &entry));
+        const int8 met = children_met(node, walkers->search, lane, reach, &entry);
         if (CLRT_STATISTICS)
             tally->box_tests += node->child_count;
-        if (met == 0)
-            walk_on(walkers, scene, lane);
-        else
-            walk_to(walkers, scene, lane,
-                    enter_children(&walkers->waiting[lane], &children, met, &entry));
+        wait_for(&walkers->waiting[lane], entry, met, children);
+        walk_on(walkers, scene, lane);
     }
 }
 
@@ -345,6 +272,8 @@ static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *
             tally->triangle_tests += WIDE;
         if (!is_shadow || !changed)
             walk_on(walkers, scene, lane);
+        else
+            walkers->ended |= 1u << lane;
     }
 }
 
@@ -356,14 +285,14 @@ static NOT_INLINE void meet_alone(const SceneView *scene, const Search *search, 
     Walkers walkers;
     walkers.search = search;
     walkers.hits = best;
-    walkers.inner = bits;
+    walkers.ended = ALL_LANES & ~bits;
     walkers.leaves = 0;
     for (uint lane = 0; lane < CLRT_LANES; lane++) {
         walkers.child[lane] = 0;
         walkers.waiting[lane].count = 0;
     }
-    while ((walkers.inner | walkers.leaves) != 0) {
-        while (walkers.inner != 0)
+    while (walkers.ended != ALL_LANES) {
+        while ((walkers.leaves | walkers.ended) != ALL_LANES)
             walk_nodes(&walkers, scene, tally);
         walk_leaves(&walkers, scene, tally);
     }
