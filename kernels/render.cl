@@ -102,21 +102,58 @@ typedef struct {
     global uint *tallies;
 } Output;
 
+#if PACKET_WIDTH == 4
+// Four pixels beside each other.
+static inline void store_row(global float *pixels, float4 red, float4 green, float4 blue)
+{
+    vstore4((float4)(red.x, green.x, blue.x, red.y), 0, pixels);
+    vstore4((float4)(green.y, blue.y, red.z, green.z), 1, pixels);
+    vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
+}
+
+// Whether the whole packet was inside the tile and is stored.
+static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
+                              global float *pixels)
+{
+    const float4 *red = (const float4 *)&color->x, *green = (const float4 *)&color->y,
+                 *blue = (const float4 *)&color->z;
+    if (corner.x + PACKET_WIDTH > frame->tile_width ||
+        corner.y + PACKET_HEIGHT > frame->tile_height)
+        return false;
+    for (uint row = 0; row < PACKET_HEIGHT; row++) {
+        const size_t place = (size_t)(corner.y + row) * frame->tile_width + corner.x;
+        store_row(pixels + 3 * place, red[row], green[row], blue[row]);
+    }
+    return true;
+}
+#else
+static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
+                              global float *pixels)
+{
+    return false;
+}
+#endif
+
+static inline void store_lane(global float *pixel, const Real3 *color, uint lane)
+{
+    pixel[0] = ((const float *)&color->x)[lane];
+    pixel[1] = ((const float *)&color->y)[lane];
+    pixel[2] = ((const float *)&color->z)[lane];
+}
+
 // Stores the colors of the lanes inside the tile, and with the first of them what all cost.
-static inline void store_packet(const FrameData *frame, uint2 corner, Real3 color,
+static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
                                 const Tally *tally, const Output *output)
 {
-    const float *red = (const float *)&color.x, *green = (const float *)&color.y,
-                *blue = (const float *)&color.z;
     const Tally none = {0};
+    if (!CLRT_STATISTICS && store_rows(frame, corner, color, output->pixels))
+        return;
     for (uint lane = 0; lane < CLRT_LANES; lane++) {
         const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
         if (column >= frame->tile_width || row >= frame->tile_height)
             continue;
         const size_t place = (size_t)row * frame->tile_width + column;
-        output->pixels[3 * place] = red[lane];
-        output->pixels[3 * place + 1] = green[lane];
-        output->pixels[3 * place + 2] = blue[lane];
+        store_lane(output->pixels + 3 * place, color, lane);
         if (CLRT_STATISTICS)
             store_tally(output->tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
     }
@@ -141,6 +178,6 @@ kernel void render_tile(const FrameData frame, global const PointLight *lights,
                                    column < frame.tile_width && row < frame.tile_height};
             Tally tally = {0};
             const Real3 color = pixel_color(&scene, &frame, &places, &tally);
-            store_packet(&frame, (uint2)(x, y), color, &tally, &output);
+            store_packet(&frame, (uint2)(x, y), &color, &tally, &output);
         }
 }
