@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Keeps two tiles in flight: while one is traced, the one before is read back into its place in the
-// picture.  Every tile uses the same padded grid with offset 0, since PoCL compiles a kernel again
-// for each local size and each new kind of grid.
+// Keeps two tiles in flight, each in a queue of its own: while one is read back into its place in
+// the picture, or waits for the last of its work-groups, the other is traced.  Every tile uses the
+// same padded grid with offset 0, since PoCL compiles a kernel again for each local size and each
+// new kind of grid.
 #include "render/draw.h"
 
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 
 // One tile in flight.
 typedef struct {
+    cl_command_queue queue; // its own, so that tiles overlap
     cl_mem pixels, tallies; // on the device
     uint (*host_tallies)[TALLY_KINDS];
     cl_event done;
@@ -50,12 +52,16 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     const RenderSettings *settings = &renderer->settings;
     const size_t count = (size_t)tile_width(settings) * tile_height(settings);
     const size_t tallies = settings->statistics ? count : 1;
+    const Device *device = renderer->device;
     cl_int status;
-    slot->pixels = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
-                                  count * 3 * sizeof(float), NULL, &status);
+    slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
+    if (!cl_succeeded(status, "create an OpenCL queue", error))
+        return false;
+    slot->pixels = clCreateBuffer(device->context, CL_MEM_WRITE_ONLY, count * 3 * sizeof(float),
+                                  NULL, &status);
     if (!cl_succeeded(status, "allocate a tile", error))
         return false;
-    slot->tallies = clCreateBuffer(renderer->device->context, CL_MEM_WRITE_ONLY,
+    slot->tallies = clCreateBuffer(device->context, CL_MEM_WRITE_ONLY,
                                    tallies * sizeof *slot->host_tallies, NULL, &status);
     if (!cl_succeeded(status, "allocate a tile's counters", error))
         return false;
@@ -63,8 +69,13 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     return slot->host_tallies != NULL;
 }
 
+// Nothing may still write into the slot when it goes.
 static void close_slot(Slot *slot)
 {
+    if (slot->queue != NULL) {
+        clFinish(slot->queue);
+        clReleaseCommandQueue(slot->queue);
+    }
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
     if (slot->pixels != NULL)
@@ -92,8 +103,7 @@ static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameDa
     const size_t group[2] = {settings->group_width, settings->group_height};
     const size_t grid[2] = {grid_side(renderer, tile_width(settings), settings->group_width),
                             grid_side(renderer, tile_height(settings), settings->group_height)};
-    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
-                                    NULL);
+    status = clEnqueueNDRangeKernel(slot->queue, kernel, 2, NULL, grid, group, 0, NULL, NULL);
     return cl_succeeded(status, "run the kernel", error);
 }
 
@@ -102,7 +112,7 @@ bool draw_warm_up(Renderer *renderer, Error *error)
     Slot slot = {0};
     const bool ok = open_slot(&slot, renderer, error) &&
                     run_kernel(renderer, &slot, &renderer->frame, error) &&
-                    cl_succeeded(clFinish(renderer->device->queue), "finish the first run", error);
+                    cl_succeeded(clFinish(slot.queue), "finish the first run", error);
     close_slot(&slot);
     return ok;
 }
@@ -114,15 +124,14 @@ static cl_int read_pixels(const Drawing *drawing, Slot *slot)
     const size_t pixel = sizeof *framebuffer->pixels;
     const size_t from[3] = {0, 0, 0}, to[3] = {slot->x * pixel, slot->y, 0};
     const size_t region[3] = {slot->width * pixel, slot->height, 1};
-    return clEnqueueReadBufferRect(drawing->renderer->device->queue, slot->pixels, CL_FALSE, from,
-                                   to, region, slot->width * pixel, 0, framebuffer->width * pixel,
-                                   0, framebuffer->pixels, 0, NULL, &slot->done);
+    return clEnqueueReadBufferRect(slot->queue, slot->pixels, CL_FALSE, from, to, region,
+                                   slot->width * pixel, 0, framebuffer->width * pixel, 0,
+                                   framebuffer->pixels, 0, NULL, &slot->done);
 }
 
 static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Error *error)
 {
     const Renderer *renderer = drawing->renderer;
-    cl_command_queue queue = renderer->device->queue;
     const size_t count = (size_t)slot->width * slot->height;
     frame.tile_x = slot->x;
     frame.tile_y = slot->y;
@@ -132,13 +141,13 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
         return false;
     cl_int status = CL_SUCCESS;
     if (renderer->settings.statistics)
-        status = clEnqueueReadBuffer(queue, slot->tallies, CL_FALSE, 0,
+        status = clEnqueueReadBuffer(slot->queue, slot->tallies, CL_FALSE, 0,
                                      count * sizeof *slot->host_tallies, slot->host_tallies, 0,
                                      NULL, NULL);
     if (status == CL_SUCCESS)
         status = read_pixels(drawing, slot);
     if (status == CL_SUCCESS)
-        status = clFlush(queue);
+        status = clFlush(slot->queue);
     return cl_succeeded(status, "read a tile back", error);
 }
 
@@ -216,8 +225,6 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
     for (int slot = 0; slot < SLOTS; slot++)
         ok = ok && open_slot(&drawing.slots[slot], renderer, error);
     ok = ok && draw_tiles(&drawing, &frame, observer, error);
-    // Nothing may still write into the slots when they go.
-    clFinish(renderer->device->queue);
     for (int slot = 0; slot < SLOTS; slot++)
         close_slot(&drawing.slots[slot]);
     return ok;
