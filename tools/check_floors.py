@@ -21,7 +21,7 @@ BELOW = {
 
 # The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.
 CORE = ["base", "scene", "accel"]
-FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson)\.h$")
+FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
 # The one file that starts threads, for all of the core.
 THREADS = ("base/parallel.c", "pthread.h")

@@ -9,17 +9,20 @@ static double srgb_curve(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
 
+void encode_channels(const float *values, size_t count, Encoding encoding, unsigned char *bytes)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double value = (double)values[i];
+        const double shown = encoding == ENCODE_SRGB ? srgb_curve(value) : value;
+        bytes[i] = (unsigned char)(shown * 255 + 0.5);
+    }
+}
+
 unsigned char *encode_bytes(const Framebuffer *framebuffer, Encoding encoding, Error *error)
 {
     const size_t count = (size_t)framebuffer->width * framebuffer->height;
     unsigned char *bytes = memory_raw(count, 3, error);
-    if (bytes == NULL)
-        return NULL;
-    for (size_t pixel = 0; pixel < count; pixel++)
-        for (int channel = 0; channel < 3; channel++) {
-            const double value = (double)framebuffer->pixels[pixel][channel];
-            const double shown = encoding == ENCODE_SRGB ? srgb_curve(value) : value;
-            bytes[3 * pixel + (size_t)channel] = (unsigned char)(shown * 255 + 0.5);
-        }
+    if (bytes != NULL)
+        encode_channels(framebuffer->pixels[0], 3 * count, encoding, bytes);
     return bytes;
 }

@@ -5,6 +5,7 @@
 #include "image/encode.h"
 #include "image/image_process.h"
 #include "image/pfm.h"
+#include "image/png_file.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -19,16 +20,16 @@
 
 typedef struct {
     const char *name;   // also the usual ending
-    const char *module; // OpenImageIO's name; NULL for our own writer
+    const char *module; // OpenImageIO's name; NULL for what is written here
     bool is_float;
 } Format;
 
 static const Format formats[] = {
-    {"pfm", NULL, true},
+    {"png", NULL, false},    {"pfm", NULL, true},
 #ifdef CLRT_WITH_OPENIMAGEIO
-    {"png", "png", false},    {"jpg", "jpeg", false},  {"jpeg", "jpeg", false},
-    {"tif", "tiff", false},   {"tiff", "tiff", false}, {"ppm", "pnm", false},
-    {"exr", "openexr", true}, {"hdr", "hdr", true},
+    {"jpg", "jpeg", false},  {"jpeg", "jpeg", false}, {"tif", "tiff", false},
+    {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"exr", "openexr", true},
+    {"hdr", "hdr", true},
 #endif
 };
 
@@ -57,7 +58,7 @@ const char *image_format_names(void)
 #ifdef CLRT_WITH_OPENIMAGEIO
     return "png, jpg, tif, ppm, exr, hdr, pfm";
 #else
-    return "pfm";
+    return "png, pfm";
 #endif
 }
 
@@ -155,12 +156,14 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
 }
 _Static_assert(sizeof(ImageText) == 2 * sizeof(char *), "texts are read as pairs of strings");
 
-static bool write_pfm(const Framebuffer *framebuffer, const char *path, Error *cause)
+static bool write_here(const Framebuffer *framebuffer, const char *path, const Format *format,
+                       const ImageSettings *settings, Error *cause)
 {
     FILE *stream = fopen(path, "wb");
     if (stream == NULL)
         return error_set(cause, "%s", strerror(errno));
-    const bool written = pfm_write(framebuffer, stream);
+    const bool written = format->is_float ? pfm_write(framebuffer, stream)
+                                          : png_file_write(framebuffer, settings, stream, cause);
     const bool closed = fclose(stream) == 0;
     return (written && closed) || error_set(cause, "%s", strerror(errno));
 }
@@ -170,7 +173,7 @@ static bool write_format(const Framebuffer *framebuffer, const char *path,
 {
     const Format *format = find_format(settings->format);
     if (format->module == NULL)
-        return write_pfm(framebuffer, path, cause);
+        return write_here(framebuffer, path, format, settings, cause);
     return write_by_module(framebuffer, path, format, settings, cause);
 }
 

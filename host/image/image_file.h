@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Framebuffer -> picture file, by OpenImageIO where clrt was built with it and as PFM everywhere.
-// OpenImageIO is a module that a process of its own opens while the picture is traced: loading it
-// takes 0.17 s and 132 MB that a run without a picture need not pay.
+// Framebuffer -> picture file: PNG by libpng, PFM by a writer of our own, and the other formats by
+// OpenImageIO where clrt was built with it.  That is a module which a process of its own opens
+// while the picture is traced: loading it takes 0.17 s and 132 MB that few runs need pay.
 #pragma once
 
 #include "image/framebuffer.h"

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
+// cli/check_png.py.
+#include "image/png_file.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdlib.h>
+
+static const ImageSettings plain = {.format = "png"};
+
+// No two pixels are alike, so that neither streams nor libpng can keep the file to themselves.
+static Framebuffer noise(uint32_t width, uint32_t height)
+{
+    Framebuffer framebuffer;
+    Error error = {0};
+    assert_true(framebuffer_make(&framebuffer, width, height, &error));
+    uint32_t state = 1;
+    for (size_t i = 0; i < (size_t)3 * width * height; i++) {
+        state = state * 1664525 + 1013904223;
+        framebuffer.pixels[0][i] = (float)(state >> 8) / 0x1p24f;
+    }
+    return framebuffer;
+}
+
+static void a_full_device_is_a_fault_with_its_reason(void **state)
+{
+    (void)state;
+    Framebuffer framebuffer = noise(256, 256);
+    FILE *full = fopen("/dev/full", "wb");
+    assert_non_null(full);
+    Error error = {0};
+    assert_false(png_file_write(&framebuffer, &plain, full, &error));
+    assert_string_equal(error.text, "No space left on device");
+    fclose(full);
+    framebuffer_free(&framebuffer);
+}
+
+static void what_libpng_refuses_is_a_fault_and_says_nothing_itself(void **state)
+{
+    (void)state;
+    // Wider than libpng allows, which shows before any pixel is read.
+    const Framebuffer wide = {NULL, 1000001, 1};
+    char *written = NULL, *said = NULL;
+    size_t size, said_size;
+    FILE *stream = open_memstream(&written, &size);
+    FILE *console = stderr;
+    stderr = open_memstream(&said, &said_size);
+    Error error = {0};
+    const bool ok = png_file_write(&wide, &plain, stream, &error);
+    fclose(stderr);
+    stderr = console;
+    fclose(stream);
+    assert_false(ok);
+    assert_string_equal(error.text, "Invalid IHDR data");
+    assert_string_equal(said, "");
+    free(written);
+    free(said);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_full_device_is_a_fault_with_its_reason),
+        cmocka_unit_test(what_libpng_refuses_is_a_fault_and_says_nothing_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
