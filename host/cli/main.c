@@ -103,14 +103,17 @@ static bool load_scene(Run *run, Error *error)
     return ok;
 }
 
-// The device decides about the kernels, and they about the layout.
+// The device and the scene decide about the kernels, and they about the layout.
 static bool await_device(Run *run, Error *error)
 {
     Starter *starter = &run->starter;
-    if (scene_triangle_count(&run->scene) < MANY_TRIANGLES)
-        starter_skip_kernel(starter);
+    const uint64_t triangles = scene_triangle_count(&run->scene);
+    if (triangles < MANY_TRIANGLES)
+        starter_decide(starter, false);
     if (!starter_wait_device(starter, error))
         return false;
+    starter_choose(starter, &run->settings, triangles);
+    starter_decide(starter, true);
     run->report.device = starter->device_seconds;
     run->report.device_name = starter->device.name;
     run->report.device_version = starter->device.version;
@@ -180,8 +183,10 @@ static bool draw(Run *run, Error *error)
     if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
         return false;
     bool ok = true;
+    double moment = clock_seconds();
     for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
         ok = draw_frame(run, &camera, error);
+    starter_note_traced(&run->starter, lap(&moment));
     run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
     run->report.complete = ok && done->tiles_done == done->tiles;
@@ -253,7 +258,7 @@ static ExitCode render(Run *run, Error *error)
     image_prepare(run->options->format);
     begin_start(run);
     if (!load_scene(run, error)) {
-        starter_skip_kernel(&run->starter);
+        starter_decide(&run->starter, false);
         return EXIT_SCENE;
     }
     if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
@@ -293,7 +298,7 @@ static ExitCode warm(Run *run, Error *error)
     const Options *options = run->options;
     const bool has_scene = options->scene_path != NULL;
     begin_start(run);
-    starter_skip_kernel(&run->starter);
+    starter_decide(&run->starter, false);
     if (has_scene && !load_scene(run, error))
         return EXIT_SCENE;
     if (!await_device(run, error))

@@ -4,13 +4,19 @@
 #include "cli/starter.h"
 
 #include "base/clock.h"
-
-// Work-items along the sides of a work-group.
-#define RAY_GROUP    8
-#define PACKET_GROUP 2
+#include "render/quick_kernel.h"
 
 // Compilers recurse deeply, and a thread's stack may be smaller than the process's.
 #define STACK_SIZE ((size_t)16 << 20)
+
+static void take_choice(Starter *starter, KernelChoice choice)
+{
+    const Options *options = starter->options;
+    const uint32_t side = kernel_group_side(&choice);
+    starter->setup.source.choice = choice;
+    starter->group[0] = options->group_width > 0 ? options->group_width : side;
+    starter->group[1] = options->group_height > 0 ? options->group_height : side;
+}
 
 static bool open_device(Starter *starter)
 {
@@ -18,22 +24,21 @@ static bool open_device(Starter *starter)
     const double start = clock_seconds();
     const bool ok = device_open(&starter->device, options->device, &starter->error);
     starter->device_seconds = clock_seconds() - start;
-    KernelChoice *choice = &starter->setup.source.choice;
-    *choice = kernel_choose(&options->kernel, starter->device.is_cpu);
-    const uint32_t side = choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
-    starter->group[0] = options->group_width > 0 ? options->group_width : side;
-    starter->group[1] = options->group_height > 0 ? options->group_height : side;
+    take_choice(starter, kernel_choose(&options->kernel, starter->device.is_cpu));
     return ok;
 }
 
-// Returns whether a kernel is wanted after all.
-static bool tell_device(Starter *starter, bool is_open)
+// Returns whether the kernel is to be made here: one that is compiled unless it is known not to be
+// wanted, and another when it is known to be.
+static bool tell_device(Starter *starter, bool is_open, bool is_compiled)
 {
     pthread_mutex_lock(&starter->mutex);
     starter->is_done = true;
     starter->is_open = is_open;
-    const bool wanted = is_open && !starter->skips_kernel;
-    pthread_cond_signal(&starter->changed);
+    pthread_cond_broadcast(&starter->changed);
+    while (is_open && !is_compiled && !starter->is_decided)
+        pthread_cond_wait(&starter->changed, &starter->mutex);
+    const bool wanted = is_open && (starter->is_wanted || !starter->is_decided);
     pthread_mutex_unlock(&starter->mutex);
     return wanted;
 }
@@ -44,7 +49,9 @@ static void *start(void *context)
     const Options *options = starter->options;
     Error unused = {0};
     const SceneTraits traits = traits_general(options->statistics);
-    if (tell_device(starter, open_device(starter)) && options->specialization != SPECIALIZE_ALWAYS)
+    const bool is_open = open_device(starter);
+    const bool is_compiled = is_open && ready_kernel_is_compiled(&starter->setup, &traits);
+    if (tell_device(starter, is_open, is_compiled) && options->specialization != SPECIALIZE_ALWAYS)
         ready_kernel_make(&starter->ready, &starter->setup, &traits, starter->group, &unused);
     return NULL;
 }
@@ -63,14 +70,43 @@ void starter_begin(Starter *starter, const Options *options, RendererSetup setup
     starter->is_running = pthread_create(&starter->thread, &attributes, start, starter) == 0;
     pthread_attr_destroy(&attributes);
     if (!starter->is_running) // then one after the other
-        tell_device(starter, open_device(starter));
+        tell_device(starter, open_device(starter), true);
 }
 
-void starter_skip_kernel(Starter *starter)
+void starter_decide(Starter *starter, bool wanted)
 {
     pthread_mutex_lock(&starter->mutex);
-    starter->skips_kernel = true;
+    if (!starter->is_decided)
+        starter->is_wanted = wanted;
+    starter->is_decided = true;
+    pthread_cond_broadcast(&starter->changed);
     pthread_mutex_unlock(&starter->mutex);
+}
+
+// Whoever asks for certain kernels gets them, and whoever counts gets the same counts every time.
+static bool leaves_kernels_open(const Options *options)
+{
+    const KernelWish *wish = &options->kernel;
+    return options->action == ACTION_RENDER && !wish->family_given && !wish->nodes_given &&
+           wish->choice.lanes == 0 && options->uses_bvh && !options->statistics &&
+           options->specialization != SPECIALIZE_ALWAYS;
+}
+
+void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles)
+{
+    KernelChoice choice;
+    const double pixels = (double)settings->width * settings->height * starter->options->frames;
+    const QuickKernelRun run = {pixels * settings->samples * settings->samples, triangles};
+    starter->is_quick = leaves_kernels_open(starter->options) &&
+                        quick_kernel_choose(&starter->setup, &run, &choice);
+    if (starter->is_quick)
+        take_choice(starter, choice);
+}
+
+void starter_note_traced(const Starter *starter, double seconds)
+{
+    if (starter->is_quick)
+        quick_kernel_note(&starter->setup, seconds);
 }
 
 bool starter_wait_device(Starter *starter, Error *error)
@@ -84,8 +120,10 @@ bool starter_wait_device(Starter *starter, Error *error)
 
 void starter_wait_kernel(Starter *starter)
 {
-    if (starter->is_running)
-        pthread_join(starter->thread, NULL);
+    if (!starter->is_running)
+        return;
+    starter_decide(starter, false);
+    pthread_join(starter->thread, NULL);
     starter->is_running = false;
 }
 

@@ -13,26 +13,36 @@ typedef struct {
     Device device;
     double device_seconds;
     uint32_t group[2]; // size of work-groups
+    bool is_quick;     // the kernels are those that are compiled sooner
     // The thread's own:
     const Options *options;
     ReadyKernel ready;
     Error error;
     pthread_t thread;
-    pthread_mutex_t mutex; // over the three below
+    pthread_mutex_t mutex; // over the four below
     pthread_cond_t changed;
-    bool is_done, is_open;   // with the device; and it went well
-    bool skips_kernel;       // it is not wanted
-    bool is_running, exists; // the caller's: the thread; the mutex and the condition
+    bool is_done, is_open;      // with the device; and it went well
+    bool is_decided, is_wanted; // the kernel
+    bool is_running, exists;    // the caller's: the thread; the mutex and the condition
 } Starter;
 
 // Starts; setup holds the cache and where the kernels' source is.
 void starter_begin(Starter *starter, const Options *options, RendererSetup setup);
 
-// Asks for no kernel, if none has been begun: the scene is read already and tells better which.
-void starter_skip_kernel(Starter *starter);
+// Says whether a kernel is wanted ahead.  Until then one is made that is compiled already, but no
+// other.  The first word counts.
+void starter_decide(Starter *starter, bool wanted);
 
 // Waits for the device; false with the reason where there is none.
 bool starter_wait_device(Starter *starter, Error *error);
+
+// Takes kernels that are compiled sooner where that pays and the options leave them open.  Once the
+// device is open and before a kernel is wanted: one that is made ahead nevertheless is compiled,
+// and then this changes nothing.
+void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles);
+
+// Tells how long tracing took, for later runs to choose by.
+void starter_note_traced(const Starter *starter, double seconds);
 
 // Waits for the kernel, which stands in setup.ready then.  Where it could not be made it is empty,
 // and the renderer will find the reason.

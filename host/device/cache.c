@@ -99,24 +99,49 @@ void cache_unlock(int lock)
         close(lock);
 }
 
-static bool mark_path(const Cache *cache, const char *key, char path[2 * CACHE_PATH_SIZE])
+static bool key_path(const Cache *cache, const char *kind, const char *key,
+                     char path[2 * CACHE_PATH_SIZE])
 {
-    snprintf(path, 2 * CACHE_PATH_SIZE, "%s/built-%s", cache->folder, key);
+    snprintf(path, 2 * CACHE_PATH_SIZE, "%s/%s-%s", cache->folder, kind, key);
     return cache->folder[0] != '\0';
 }
 
 bool cache_has_mark(const Cache *cache, const char *key)
 {
     char path[2 * CACHE_PATH_SIZE];
-    return mark_path(cache, key, path) && access(path, F_OK) == 0;
+    return key_path(cache, "built", key, path) && access(path, F_OK) == 0;
 }
 
 void cache_set_mark(const Cache *cache, const char *key)
 {
     char path[2 * CACHE_PATH_SIZE];
-    if (!mark_path(cache, key, path))
+    if (!key_path(cache, "built", key, path))
         return;
     const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     if (file >= 0)
         close(file);
+}
+
+// The sum is the size of a file without contents, in milliseconds: it takes no parsing, and no
+// other fault than being forgotten.
+double cache_lost(const Cache *cache, const char *key)
+{
+    char path[2 * CACHE_PATH_SIZE];
+    struct stat status;
+    const bool found = key_path(cache, "lost", key, path) && stat(path, &status) == 0;
+    return found ? (double)status.st_size * 1e-3 : 0;
+}
+
+void cache_add_lost(const Cache *cache, const char *key, double seconds)
+{
+    char path[2 * CACHE_PATH_SIZE];
+    if (!key_path(cache, "lost", key, path))
+        return;
+    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    if (file < 0)
+        return;
+    const off_t sum = lseek(file, 0, SEEK_END) + (off_t)(seconds * 1e3);
+    if (ftruncate(file, sum) != 0)
+        unlink(path);
+    close(file);
 }

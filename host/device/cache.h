@@ -29,3 +29,7 @@ void cache_unlock(int lock);
 // A note, kept in the folder, that a program with this key was compiled there before.
 bool cache_has_mark(const Cache *cache, const char *key);
 void cache_set_mark(const Cache *cache, const char *key);
+
+// A sum, kept in the folder, of the seconds lost for want of the program with this key.
+double cache_lost(const Cache *cache, const char *key);
+void cache_add_lost(const Cache *cache, const char *key, double seconds);

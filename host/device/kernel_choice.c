@@ -5,6 +5,9 @@
 #include <assert.h>
 #include <stdio.h>
 
+#define RAY_GROUP    8
+#define PACKET_GROUP 2
+
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
     assert(choice->family == FAMILY_RAY || choice->nodes == NODES_WIDE);
@@ -37,6 +40,11 @@ KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu)
     if (choice.family == FAMILY_PACKET)
         choice.nodes = NODES_WIDE;
     return choice;
+}
+
+uint32_t kernel_group_side(const KernelChoice *choice)
+{
+    return choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
 }
 
 const char *kernel_family_name(KernelFamily family)

@@ -30,6 +30,9 @@ bool kernel_check_wish(const KernelWish *wish, Error *error);
 // elsewhere.
 KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu);
 
+// Work-items along the sides of the work-groups that suit the kernels.
+uint32_t kernel_group_side(const KernelChoice *choice);
+
 #define KERNEL_OPTIONS_SIZE 80
 
 // The compiler options that set the switches, as a string of less than KERNEL_OPTIONS_SIZE bytes.

@@ -44,15 +44,21 @@ static bool make(ReadyKernel *ready, const RendererSetup *setup, const SceneTrai
            run_once(ready, setup, error);
 }
 
+bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits)
+{
+    char key[PROGRAM_KEY_SIZE];
+    program_key(setup->device, &setup->source, traits, key);
+    // Kernels under development change too often for marks to mean anything.
+    return setup->source.kernel_folder == NULL && cache_has_mark(setup->cache, key);
+}
+
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
                        const uint32_t group[2], Error *error)
 {
     const double start = clock_seconds();
     *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
     program_key(setup->device, &setup->source, traits, ready->key);
-    // Kernels under development change too often for marks to mean anything.
-    ready->was_compiled =
-        setup->source.kernel_folder == NULL && cache_has_mark(setup->cache, ready->key);
+    ready->was_compiled = ready_kernel_is_compiled(setup, traits);
     const int lock = cache_lock(setup->cache);
     const bool ok = make(ready, setup, traits, error);
     if (ok)

@@ -24,6 +24,9 @@ typedef struct {
     ReadyKernel *ready; // made beforehand, for the renderer to take if it is the one; or NULL
 } RendererSetup;
 
+// Whether an earlier process compiled the kernel for traits, as far as the cache knows.
+bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits);
+
 // Makes the kernel for traits, to be run in work-groups of that size.
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
                        const uint32_t group[2], Error *error);

@@ -87,15 +87,11 @@ static double expected_saving(const Device *device, const RenderSettings *settin
 static bool specialization_pays(const RendererSetup *setup, const SceneTraits *special,
                                 const RenderSettings *settings)
 {
-    char key[PROGRAM_KEY_SIZE];
     if (settings->specialization != SPECIALIZE_AUTO)
         return settings->specialization == SPECIALIZE_ALWAYS;
-    // Kernels under development change too often for marks to mean anything.
-    if (setup->source.kernel_folder != NULL)
-        return false;
-    program_key(setup->device, &setup->source, special, key);
-    return cache_has_mark(setup->cache, key) ||
-           expected_saving(setup->device, settings) > COMPILE_SECONDS;
+    return ready_kernel_is_compiled(setup, special) ||
+           (setup->source.kernel_folder == NULL &&
+            expected_saving(setup->device, settings) > COMPILE_SECONDS);
 }
 
 // Takes the kernel that stands ready, or makes one.

@@ -193,6 +193,38 @@ for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
   check "cold start $i of twelve at once succeeds" cmp plain.pfm "cold$i.pfm"
 done
 
+# Before packets are compiled, small pictures are drawn by what is compiled sooner.
+sooner() { run 0 "$scene" -s 48x32 -o soon.pfm -v "$@"; }
+drew() { grep -q "^kernels: $1, $2 nodes" err; }
+export_cache() { rm -rf "$1" && export XDG_CACHE_HOME=$work/$1 POCL_CACHE_DIR=$work/$1/pocl; }
+caches=("$XDG_CACHE_HOME" "$POCL_CACHE_DIR")
+export_cache sooner-cache
+check "a small picture is drawn cold" sooner
+check "... by single rays and pairs" drew ray pair
+check "... as ever" cmp plain.pfm soon.pfm
+for asked in "--kernel packet" "--nodes wide" "--lanes 4" --stats "--specialize always"; do
+  export_cache asked-cache
+  # shellcheck disable=SC2086
+  check "a small picture is drawn cold with $asked" sooner $asked
+  check "... by packets" drew packet wide
+done
+export_cache sooner-cache
+check "a large picture is drawn cold" run 0 "$scene" -s 1300x1300 -j 1 -o large.pfm -v
+check "... by packets" drew packet wide
+check "a small one after it" sooner
+check "... by packets too" drew packet wide
+export_cache sooner-cache
+check "small pictures are drawn" sooner
+truncate -s +1300 sooner-cache/clrt/lost-*
+check "... until single rays have cost what packets take to compile" sooner
+check "... and then by packets" drew packet wide
+check "... as ever" cmp plain.pfm soon.pfm
+export_cache sooner-cache
+check "packets are compiled ahead" run 0 --warm
+check "... and a small picture drawn" sooner
+check "... by packets" drew packet wide
+export XDG_CACHE_HOME=${caches[0]} POCL_CACHE_DIR=${caches[1]}
+
 check "PNG is written" pixels a.png
 cp a.png b.png
 check "PNG is written again" pixels a.png
@@ -212,8 +244,11 @@ check "PNG goes to standard output" run 0 "$scene" -s 48x32 -o -
 check "... the same as to a file" cmp out a.png
 check "--format decides whatever the ending" pixels odd.bin --format png
 check "... as the same PNG" cmp odd.bin a.png
-check "a folder that vanishes is exit 5" bash -c "mkdir gone; '$CLRT' '$scene' -s 3000x3000 -o gone/a.png 2>err & \
-  sleep 0.3; rmdir gone; wait \$!; [ \$? = 5 ]"
+# The scene comes late: its pipe is opened once the folder has been looked at.
+mkdir gone
+mkfifo late.scn
+check "a folder that vanishes is exit 5" bash -c "'$CLRT' late.scn -s 8x8 -o gone/a.png 2>err & \
+  exec 3>late.scn; rmdir gone; echo sphere 0 0 0 1 >&3; exec 3>&-; wait \$!; [ \$? = 5 ]"
 check "... with the reason" says "clrt: gone/a.png: cannot be written"
 check "/dev/null takes a picture" run 0 "$scene" -s 8x8 -o /dev/null --format png
 for format in png pfm; do

@@ -16,6 +16,11 @@ BUILD = ROOT / "build" / "release"
 CLRT = str(BUILD / "clrt")
 
 
+def compile_ahead():
+    """Small pictures are not drawn by the fastest kernels before those are compiled."""
+    subprocess.run([CLRT, "--warm", "-q"], check=True)
+
+
 def draw(scene, options, folder, frames=1):
     """Seconds of each of the pictures that clrt draws of a scene, one after another."""
     frames = ["--frames", str(frames)] if frames > 1 else []
