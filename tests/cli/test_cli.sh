@@ -157,8 +157,8 @@ check "... as PFM" bash -c "head -c 2 out | grep -q PF"
 "$CLRT" "$scene" -s 48x32 -o link.pfm 2>/dev/null
 check "nothing unfinished is left beside pictures" test -z "$(find . -name '*.pfm.*')"
 
-# A picture of some seconds is stopped early: what is done is written.
-"$CLRT" "$scene" -s 4000x4000 --aa=4 -o stopped.pfm --stats=stopped.json 2>err &
+# A picture of many seconds is stopped early: what is done is written.
+"$CLRT" "$scene" -s 4000x4000 --aa=12 -o stopped.pfm --stats=stopped.json 2>err &
 sleep 1.5
 kill -INT $!
 wait $!
