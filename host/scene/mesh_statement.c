@@ -123,6 +123,7 @@ static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path
     bool ok = full != NULL && file_read(&file, full, &cause);
     if (full != NULL && !ok)
         error_set(error, "%s:%u:%u: %s", tokens->name, path.line, path.column, cause.text);
+    ok = ok && scene_add_input(scene, full, error);
     if (ok) {
         scene_hash_input(scene, file.bytes, file.size);
         ok = ply_parse(mesh, file.bytes, file.size, full, error);

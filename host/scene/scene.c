@@ -5,6 +5,7 @@
 #include "base/trigonometry.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <xxhash.h>
 
 Material material_of_shader(Shader shader)
@@ -52,6 +53,7 @@ bool scene_complete(Scene *scene, Error *error)
                                         {46.2, 0, 6.2}, {-35, -187.2, 2.8}, {-80.3, 27, 1.1}};
     if (scene->viewpoints.count > 0)
         return true;
+    scene->has_course_views = true;
     for (int view = 0; view < 6; view++) {
         const double *orbit = course[view];
         if (!array_push(&scene->viewpoints, course_viewpoint(orbit[0], orbit[1], orbit[2]), error))
@@ -69,6 +71,18 @@ void scene_hash_input(Scene *scene, const void *bytes, size_t size)
     scene->hash[1] = mixed.high64;
 }
 
+bool scene_add_input(Scene *scene, const char *path, Error *error)
+{
+    const size_t size = strlen(path) + 1;
+    char *copy = memory_raw(size, 1, error);
+    if (copy == NULL || !array_push(&scene->inputs, copy, error)) {
+        free(copy);
+        return false;
+    }
+    memcpy(copy, path, size);
+    return true;
+}
+
 size_t scene_triangle_count(const Scene *scene)
 {
     size_t count = 0;
@@ -81,6 +95,9 @@ void scene_free(Scene *scene)
 {
     for (size_t object = 0; object < scene->objects.count; object++)
         mesh_free(&scene->objects.data[object].mesh);
+    for (size_t input = 0; input < scene->inputs.count; input++)
+        free(scene->inputs.data[input]);
+    free(scene->inputs.memory);
     free(scene->lights.memory);
     free(scene->spheres.memory);
     free(scene->objects.memory);

@@ -42,12 +42,14 @@ typedef struct {
     ARRAY(MeshObject) objects;
     ARRAY(Material) materials; // the first four are the course's
     ARRAY(Viewpoint) viewpoints;
-    Vec3 background; // each component in [0, 1]
-    double ambient;  // in [0, 1]
+    bool has_course_views; // the viewpoints are the course's six
+    Vec3 background;       // each component in [0, 1]
+    double ambient;        // in [0, 1]
     uint32_t width, height;
     uint32_t max_level;
-    double mesh_seconds; // of the loading spent on reading meshes
-    uint64_t hash[2];    // XXH3 of the bytes of the scene file and its meshes, in the order read
+    ARRAY(char *) inputs; // paths of the files it was read from; owned
+    double mesh_seconds;  // of the loading spent on reading meshes
+    uint64_t hash[2];     // XXH3 of the bytes of the scene file and its meshes, in the order read
 } Scene;
 
 // Fills scene with what a scene file starts from: the course's constants and four materials.
@@ -58,6 +60,9 @@ bool scene_complete(Scene *scene, Error *error);
 
 // Mixes size bytes of input into scene->hash.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
+
+// Notes that the scene was read from the file at path too.
+bool scene_add_input(Scene *scene, const char *path, Error *error);
 
 size_t scene_triangle_count(const Scene *scene);
 void scene_free(Scene *scene);

@@ -229,5 +229,9 @@ bool scn_load(Scene *scene, const char *path, Error *error)
     else
         ok = ok && scn_parse(scene, file.bytes, file.size, path, error);
     file_free(&file);
+    if (ok && !scene_add_input(scene, path, error)) {
+        scene_free(scene);
+        ok = false;
+    }
     return ok;
 }

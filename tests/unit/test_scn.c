@@ -262,6 +262,30 @@ static void the_longest_normals_can_be_rotated(void **state)
     scene_free(&scene);
 }
 
+static void a_scene_names_the_files_it_was_read_from(void **state)
+{
+    (void)state;
+    Scene scene;
+    Error error = {0};
+    assert_true(scn_load(&scene, CLRT_SOURCE_FOLDER "/scenes/simple.scn", &error));
+    assert_int_equal(scene.inputs.count, 1 + scene.objects.count);
+    assert_string_equal(scene.inputs.data[0], CLRT_SOURCE_FOLDER "/scenes/plateau.ply");
+    assert_string_equal(scene.inputs.data[scene.inputs.count - 1],
+                        CLRT_SOURCE_FOLDER "/scenes/simple.scn");
+    scene_free(&scene);
+}
+
+static void a_scene_tells_the_courses_cameras_from_its_own(void **state)
+{
+    (void)state;
+    Scene scene = parsed("");
+    assert_true(scene.has_course_views);
+    scene_free(&scene);
+    scene = parsed("camera 1 2 3 4 5 6 30");
+    assert_false(scene.has_course_views);
+    scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +307,8 @@ int main(void)
         cmocka_unit_test(a_missing_mesh_is_an_error_at_its_path),
         cmocka_unit_test(transforms_out_of_range_are_refused),
         cmocka_unit_test(the_longest_normals_can_be_rotated),
+        cmocka_unit_test(a_scene_names_the_files_it_was_read_from),
+        cmocka_unit_test(a_scene_tells_the_courses_cameras_from_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
