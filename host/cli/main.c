@@ -3,6 +3,7 @@
 // Every stage borrows the ones before it and fills a value of its own; a zeroed value is valid and
 // freeing it does nothing, so there is one way out.
 #include "accel/flat.h"
+#include "accel/levels.h"
 #include "base/clock.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -82,6 +83,7 @@ static void count_scene(Report *report, const Scene *scene, const Bvh *bvh)
     report->bvh_leaves = bvh->leaf_count;
     report->bvh_depth = bvh->depth;
     report->bvh_largest_leaf = bvh->largest_leaf;
+    levels_count(bvh, report->bvh_inner);
 }
 
 static bool load_scene(Run *run, Error *error)

@@ -125,11 +125,21 @@ static json_t *scene_json(const Report *report, const ReportTexts *texts)
                      integer(report->dropped_triangles));
 }
 
+// Down to the deepest there are.
+static json_t *inner_nodes_json(const Report *report)
+{
+    json_t *list = json_array();
+    for (uint32_t depth = 0; depth + 1 < report->bvh_depth; depth++)
+        json_array_append_new(list, integer(report->bvh_inner[depth]));
+    return list;
+}
+
 static json_t *tree_json(const Report *report)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o}", "builder", tree_name(report), "nodes",
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", tree_name(report), "nodes",
                      integer(report->bvh_nodes), "leaves", integer(report->bvh_leaves), "depth",
-                     integer(report->bvh_depth), "largest_leaf", integer(report->bvh_largest_leaf));
+                     integer(report->bvh_depth), "inner_nodes", inner_nodes_json(report),
+                     "largest_leaf", integer(report->bvh_largest_leaf));
 }
 
 static json_t *settings_json(const Report *report)

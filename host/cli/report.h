@@ -16,6 +16,7 @@ typedef struct {
     uint32_t lights, spheres, triangles;
     uint64_t dropped_triangles;
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
+    uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at every depth
     size_t upload_size;
     bool specialized;
     bool complete;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What both builders promise about any set of triangles.
 #include "accel/bvh.h"
+#include "accel/levels.h"
 
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
@@ -135,6 +136,34 @@ static void no_triangles_make_no_tree(void **state)
     bvh_free(&bvh);
 }
 
+// The depth of every node by recursion, against the walk.
+static void count_inner(const Bvh *bvh, uint32_t number, uint32_t depth,
+                        uint32_t counts[BVH_MAX_DEPTH])
+{
+    if (bvh->nodes[number].count > 0)
+        return;
+    counts[depth]++;
+    count_inner(bvh, bvh->nodes[number].first, depth + 1, counts);
+    count_inner(bvh, bvh->nodes[number].first + 1, depth + 1, counts);
+}
+
+static void levels_count_the_inner_nodes_of_every_depth(void **state)
+{
+    (void)state;
+    Triangles triangles = triangle_set((TriangleSet)0, 1000);
+    Bvh bvh = built(&triangles, &settings[0], 1);
+    uint32_t expected[BVH_MAX_DEPTH] = {0}, counts[BVH_MAX_DEPTH], sum = 0;
+    count_inner(&bvh, 0, 0, expected);
+    levels_count(&bvh, counts);
+    assert_memory_equal(counts, expected, sizeof counts);
+    for (int depth = 0; depth < BVH_MAX_DEPTH; depth++)
+        sum += counts[depth];
+    assert_int_equal(sum, bvh.node_count - bvh.leaf_count);
+    assert_true(counts[bvh.depth - 2] > 0 && counts[bvh.depth - 1] == 0);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +171,7 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_builds_the_same_tree),
         cmocka_unit_test(sah_leaves_stay_small_even_for_equal_triangles),
         cmocka_unit_test(no_triangles_make_no_tree),
+        cmocka_unit_test(levels_count_the_inner_nodes_of_every_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
