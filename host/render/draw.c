@@ -5,6 +5,8 @@
 // new kind of grid.
 #include "render/draw.h"
 
+#include "render/tile.h"
+
 #include <stdlib.h>
 
 #define SLOTS 2
@@ -15,7 +17,7 @@ typedef struct {
     cl_mem pixels, tallies; // on the device
     uint (*host_tallies)[TALLY_KINDS];
     cl_event done;
-    uint32_t x, y, width, height;
+    Tile tile;
 } Slot;
 
 typedef struct {
@@ -23,21 +25,6 @@ typedef struct {
     Framebuffer *framebuffer;
     Slot slots[SLOTS];
 } Drawing;
-
-static uint32_t smaller(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
-static uint32_t tile_width(const RenderSettings *settings)
-{
-    return smaller(settings->tile_width, settings->width);
-}
-
-static uint32_t tile_height(const RenderSettings *settings)
-{
-    return smaller(settings->tile_height, settings->height);
-}
 
 // Work-items along a side of a tile, padded to whole work-groups.
 static size_t grid_side(const Renderer *renderer, uint32_t tile_side, uint32_t group)
@@ -50,7 +37,8 @@ static size_t grid_side(const Renderer *renderer, uint32_t tile_side, uint32_t g
 static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
 {
     const RenderSettings *settings = &renderer->settings;
-    const size_t count = (size_t)tile_width(settings) * tile_height(settings);
+    const Tile largest = tile_at(settings, 0);
+    const size_t count = (size_t)largest.width * largest.height;
     const size_t tallies = settings->statistics ? count : 1;
     const Device *device = renderer->device;
     cl_int status;
@@ -101,8 +89,9 @@ static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameDa
     if (!cl_succeeded(status, "set the kernel's arguments", error))
         return false;
     const size_t group[2] = {settings->group_width, settings->group_height};
-    const size_t grid[2] = {grid_side(renderer, tile_width(settings), settings->group_width),
-                            grid_side(renderer, tile_height(settings), settings->group_height)};
+    const Tile largest = tile_at(settings, 0);
+    const size_t grid[2] = {grid_side(renderer, largest.width, settings->group_width),
+                            grid_side(renderer, largest.height, settings->group_height)};
     status = clEnqueueNDRangeKernel(slot->queue, kernel, 2, NULL, grid, group, 0, NULL, NULL);
     return cl_succeeded(status, "run the kernel", error);
 }
@@ -121,22 +110,23 @@ bool draw_warm_up(Renderer *renderer, Error *error)
 static cl_int read_pixels(const Drawing *drawing, Slot *slot)
 {
     Framebuffer *framebuffer = drawing->framebuffer;
+    const Tile *tile = &slot->tile;
     const size_t pixel = sizeof *framebuffer->pixels;
-    const size_t from[3] = {0, 0, 0}, to[3] = {slot->x * pixel, slot->y, 0};
-    const size_t region[3] = {slot->width * pixel, slot->height, 1};
+    const size_t from[3] = {0, 0, 0}, to[3] = {tile->x * pixel, tile->y, 0};
+    const size_t region[3] = {tile->width * pixel, tile->height, 1};
     return clEnqueueReadBufferRect(slot->queue, slot->pixels, CL_FALSE, from, to, region,
-                                   slot->width * pixel, 0, framebuffer->width * pixel, 0,
+                                   tile->width * pixel, 0, framebuffer->width * pixel, 0,
                                    framebuffer->pixels, 0, NULL, &slot->done);
 }
 
 static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Error *error)
 {
     const Renderer *renderer = drawing->renderer;
-    const size_t count = (size_t)slot->width * slot->height;
-    frame.tile_x = slot->x;
-    frame.tile_y = slot->y;
-    frame.tile_width = slot->width;
-    frame.tile_height = slot->height;
+    const size_t count = (size_t)slot->tile.width * slot->tile.height;
+    frame.tile_x = slot->tile.x;
+    frame.tile_y = slot->tile.y;
+    frame.tile_width = slot->tile.width;
+    frame.tile_height = slot->tile.height;
     if (!run_kernel(renderer, slot, &frame, error))
         return false;
     cl_int status = CL_SUCCESS;
@@ -160,29 +150,12 @@ static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
     clReleaseEvent(slot->done);
     slot->done = NULL;
     renderer->progress.tiles_done++;
-    const size_t count = renderer->settings.statistics ? (size_t)slot->width * slot->height : 0;
+    const size_t count =
+        renderer->settings.statistics ? (size_t)slot->tile.width * slot->tile.height : 0;
     for (size_t pixel = 0; pixel < count; pixel++)
         for (int kind = 0; kind < TALLY_KINDS; kind++)
             renderer->progress.tallies[kind] += slot->host_tallies[pixel][kind];
     return true;
-}
-
-static void place_tile(Slot *slot, const RenderSettings *settings, uint64_t tile)
-{
-    const uint32_t width = tile_width(settings), height = tile_height(settings);
-    const uint32_t columns = (settings->width + width - 1) / width;
-    slot->x = (uint32_t)(tile % columns) * width;
-    slot->y = (uint32_t)(tile / columns) * height;
-    slot->width = smaller(width, settings->width - slot->x);
-    slot->height = smaller(height, settings->height - slot->y);
-}
-
-static uint64_t tile_count(const RenderSettings *settings)
-{
-    const uint32_t width = tile_width(settings), height = tile_height(settings);
-    const uint64_t columns = (settings->width + width - 1) / width;
-    const uint64_t rows = (settings->height + height - 1) / height;
-    return columns * rows;
 }
 
 static bool observed(const RenderObserver *observer, const RenderProgress *progress)
@@ -202,7 +175,7 @@ static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObs
     while (renderer->progress.tiles_done < (wanted ? tiles : started)) {
         while (wanted && started < tiles && started < renderer->progress.tiles_done + SLOTS) {
             Slot *slot = &drawing->slots[started % SLOTS];
-            place_tile(slot, &renderer->settings, started);
+            slot->tile = tile_at(&renderer->settings, started);
             if (!start_tile(drawing, slot, *frame, error))
                 return false;
             started++;

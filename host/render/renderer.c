@@ -133,6 +133,15 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
     return ok;
 }
 
+void renderer_resize(Renderer *renderer, const RenderSettings *settings)
+{
+    renderer->settings.width = renderer->frame.width = settings->width;
+    renderer->settings.height = renderer->frame.height = settings->height;
+    renderer->settings.samples = renderer->frame.samples = settings->samples;
+    renderer->settings.tile_width = settings->tile_width;
+    renderer->settings.tile_height = settings->tile_height;
+}
+
 void renderer_close(Renderer *renderer)
 {
     for (int place = 0; place < RENDERER_ARRAYS; place++)

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Tiles at the right and lower edge are cut off.
+#include "render/tile.h"
+
+static uint32_t smaller(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+static uint64_t parts(uint32_t whole, uint32_t part)
+{
+    return ((uint64_t)whole + part - 1) / part;
+}
+
+uint64_t tile_count(const RenderSettings *settings)
+{
+    return parts(settings->width, settings->tile_width) *
+           parts(settings->height, settings->tile_height);
+}
+
+Tile tile_at(const RenderSettings *settings, uint64_t number)
+{
+    const uint64_t columns = parts(settings->width, settings->tile_width);
+    const uint32_t x = (uint32_t)(number % columns) * settings->tile_width;
+    const uint32_t y = (uint32_t)(number / columns) * settings->tile_height;
+    return (Tile){x, y, smaller(settings->tile_width, settings->width - x),
+                  smaller(settings->tile_height, settings->height - y)};
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// How a picture is cut into tiles, row after row from its upper left corner.
+#pragma once
+
+#include "render/renderer.h"
+
+typedef struct {
+    uint32_t x, y, width, height; // in pixels of the picture
+} Tile;
+
+uint64_t tile_count(const RenderSettings *settings);
+
+// The first is as large as any.
+Tile tile_at(const RenderSettings *settings, uint64_t number);
