@@ -16,7 +16,8 @@ BELOW = {
     "accel": ["base", "scene"],
     "device": ["base", "scene", "accel"],
     "render": ["base", "scene", "accel", "device", "image"],
-    "cli": ["base", "scene", "accel", "device", "image", "render"],
+    "view": ["base", "scene", "accel", "device", "image", "render"],
+    "cli": ["base", "scene", "accel", "device", "image", "render", "view"],
 }
 
 # The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.

@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/show.h"
 #include "cli/starter.h"
 #include "cli/threads.h"
 #include "image/image_file.h"
@@ -318,6 +319,15 @@ static ExitCode warm(Run *run, Error *error)
     return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }
 
+static ExitCode show(Run *run, Error *error)
+{
+    static const ExitCode codes[] = {[SHOW_DONE] = EXIT_DONE,
+                                     [SHOW_NO_WINDOW] = EXIT_USAGE,
+                                     [SHOW_NO_SCENE] = EXIT_SCENE,
+                                     [SHOW_NO_DEVICE] = EXIT_DEVICE};
+    return codes[show_scene(run->options, &run->cache, error)];
+}
+
 static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
                             Error *error)
 {
@@ -367,6 +377,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return list_devices(error);
     case ACTION_WARM:
         return perform_run(&options, warm, error);
+    case ACTION_VIEW:
+        return perform_run(&options, show, error);
     case ACTION_RENDER:
         break;
     }

@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/word.h"
+#include "cli/option_check.h"
 #include "cli/option_value.h"
 
 #include <assert.h>
@@ -172,6 +173,18 @@ static bool read_encode(Options *options, const char *value, Error *error)
     return choice >= 0;
 }
 
+static bool read_keys(Options *options, const char *value, Error *error)
+{
+    (void)error;
+    options->keys = value;
+    return true;
+}
+
+static bool read_quit_after(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "quit-after", 1000000, &options->quit_after, error);
+}
+
 static bool read_quiet(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;
@@ -239,6 +252,10 @@ static const struct {
     {"stats", 0, "[=FILE]", read_stats,
      "count rays and tests; as JSON with a FILE (- is standard output)"},
     {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
+    {"keys", 0, "KEYS", read_keys,
+     "press these keys in the window, each once the one before is shown"},
+    {"quit-after", 0, "N", read_quit_after,
+     "close the window after N frames, counted once the keys are played"},
     {"quiet", 'q', NULL, read_quiet, "say nothing but errors"},
     {"verbose", 'v', NULL, read_verbose, "say what is done and with what"},
     {"version", 0, NULL, read_version, "print the version"},
@@ -255,9 +272,10 @@ static bool argument_is_optional(size_t option)
 void options_write_help(FILE *stream)
 {
     fprintf(stream,
-            "Usage: clrt SCENE -o FILE [options]\n"
+            "Usage: clrt SCENE [options]\n"
+            "       clrt SCENE -o FILE [options]\n"
             "       clrt --warm [SCENE] [options]\n"
-            "Traces a scene (.scn, or a .ply mesh) with OpenCL and writes the picture.\n\n");
+            "Traces a scene (.scn, or a .ply mesh) with OpenCL, in a window or to a file.\n\n");
     for (size_t i = 0; i < OPTION_COUNT; i++) {
         char name[64], letter[8] = "    ";
         if (table[i].letter != 0)
@@ -313,25 +331,6 @@ static size_t option_of(int found)
     return 0;
 }
 
-static bool check_output(Options *options, Error *error)
-{
-    const char *path = options->output_path;
-    if (path == NULL)
-        return error_set(error, "this build has no window: write the picture with -o FILE");
-    if (options->format == NULL)
-        options->format =
-            strcmp(path, "-") == 0 ? image_format_named("png") : image_format_of_path(path);
-    if (options->format == NULL && strcmp(path, "-") == 0)
-        options->format = "pfm";
-    if (options->format == NULL)
-        return error_set(error, "%s: the ending names no format; this build writes %s", path,
-                         image_format_names());
-    const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
-                      strcmp(options->statistics_path, "-") == 0;
-    return !both || error_set(error, "the picture and the statistics cannot both go to standard "
-                                     "output");
-}
-
 static bool read_scene(Options *options, int count, char **words, Error *error)
 {
     if (optind >= count && options->action == ACTION_WARM)
@@ -345,7 +344,7 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
                          words[optind + 1], words[optind]);
     options->scene_path = words[optind];
     return kernel_check_wish(&options->kernel, error) &&
-           (options->action == ACTION_WARM || check_output(options, error));
+           (options->action == ACTION_WARM || options_check_purpose(options, error));
 }
 
 bool options_parse(Options *options, int count, char **words, Error *error)

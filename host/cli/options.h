@@ -13,7 +13,8 @@ typedef enum {
     ACTION_HELP,
     ACTION_VERSION,
     ACTION_LIST_DEVICES,
-    ACTION_WARM
+    ACTION_WARM,
+    ACTION_VIEW
 } Action;
 
 #define FRAMES_MAX 1000
@@ -22,7 +23,7 @@ typedef enum {
 typedef struct {
     Action action;
     const char *scene_path;  // NULL where ACTION_WARM was given none
-    const char *output_path; // "-": standard output; NULL without -o
+    const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     uint32_t samples;        // per pixel and axis
     uint32_t view;           // from 1
@@ -40,6 +41,8 @@ typedef struct {
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;
+    const char *keys;    // to play in the window, NULL for none
+    uint32_t quit_after; // frames in the window; 0: when the user quits
     bool quiet, verbose;
 } Options;
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Options that would have no effect are refused, so that none is given in vain.
+#include "cli/option_check.h"
+
+#include <string.h>
+
+#ifdef CLRT_WITH_WINDOW
+static bool check_window(Options *options, Error *error)
+{
+    options->action = ACTION_VIEW;
+    if (options->format != NULL)
+        return error_set(error, "--format is for files: give one with -o FILE");
+    if (options->frames > 1)
+        return error_set(error, "--frames is for files: give one with -o FILE");
+    if (options->statistics_path != NULL)
+        return error_set(error, "--stats=FILE is for files: give one with -o FILE");
+    return true;
+}
+#else
+static bool check_window(Options *options, Error *error)
+{
+    (void)options;
+    return error_set(error, "this build has no window: write the picture with -o FILE");
+}
+#endif
+
+static bool check_format(Options *options, Error *error)
+{
+    const char *path = options->output_path;
+    if (options->format == NULL)
+        options->format =
+            strcmp(path, "-") == 0 ? image_format_named("png") : image_format_of_path(path);
+    if (options->format == NULL && strcmp(path, "-") == 0)
+        options->format = "pfm";
+    return options->format != NULL ||
+           error_set(error, "%s: the ending names no format; this build writes %s", path,
+                     image_format_names());
+}
+
+bool options_check_purpose(Options *options, Error *error)
+{
+    const char *path = options->output_path;
+    if (path == NULL)
+        return check_window(options, error);
+    if (options->keys != NULL || options->quit_after > 0)
+        return error_set(error, "--keys and --quit-after are for the window: leave out -o");
+    const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
+                      strcmp(options->statistics_path, "-") == 0;
+    return check_format(options, error) &&
+           (!both || error_set(error, "the picture and the statistics cannot both go to standard "
+                                      "output"));
+}

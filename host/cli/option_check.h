@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// What options mean together.
+#pragma once
+
+#include "cli/options.h"
+
+// Decides whether the scene goes to a file, in which format, or to the window, and refuses options
+// that are for the other.
+bool options_check_purpose(Options *options, Error *error);

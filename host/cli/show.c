@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The one file of the command line that knows the window, which a build may be without.
+#include "cli/show.h"
+
+#ifdef CLRT_WITH_WINDOW
+#include "cli/threads.h"
+#include "view/viewer.h"
+
+#include <stdlib.h>
+
+// A closed window is to be gone at once, unless everything is to be taken down.
+#define PATIENCE (CLRT_TIDY_EXIT ? 60 : 0.05)
+
+ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
+{
+    static const ShowEnd ends[] = {[VIEWER_CLOSED] = SHOW_DONE,
+                                   [VIEWER_NO_WINDOW] = SHOW_NO_WINDOW,
+                                   [VIEWER_NO_SCENE] = SHOW_NO_SCENE,
+                                   [VIEWER_NO_DEVICE] = SHOW_NO_DEVICE};
+    const ViewerSettings settings = {.scene_path = options->scene_path,
+                                     .view = options->view,
+                                     .width = options->width,
+                                     .height = options->height,
+                                     .samples = options->samples > 1 ? options->samples : 2,
+                                     .smooth = options->samples > 1,
+                                     .uses_bvh = options->uses_bvh,
+                                     .encoding = options->encoding,
+                                     .tracer = {.device = options->device,
+                                                .kernel = options->kernel,
+                                                .specialization = options->specialization,
+                                                .builder = options->builder,
+                                                .group_width = options->group_width,
+                                                .group_height = options->group_height,
+                                                .max_level = options->max_level,
+                                                .threads = threads_allowed(options->threads),
+                                                .kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                                                .cache = cache},
+                                     .keys = options->keys,
+                                     .quit_after = options->quit_after,
+                                     .statistics = options->statistics,
+                                     .verbose = options->verbose,
+                                     .patience = PATIENCE};
+    return ends[viewer_run(&settings, error)];
+}
+#else
+ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
+{
+    (void)options, (void)cache;
+    error_set(error, "this build has no window");
+    return SHOW_NO_WINDOW;
+}
+#endif

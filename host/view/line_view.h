@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Boxes, or lines between two corners of boxes, in one color.
+#pragma once
+
+#include "accel/bvh.h"
+#include "view/lens.h"
+
+typedef struct {
+    GLuint program, corners, boxes, array;
+    bool is_diagonal;
+    uint32_t count; // of the boxes loaded
+} LineView;
+
+// Diagonal: a line from each box's low to its high corner, which need not be the larger.
+bool line_view_open(LineView *view, bool is_diagonal, Error *error);
+void line_view_close(LineView *view);
+
+void line_view_load(LineView *view, const Box *boxes, size_t count);
+void line_view_draw(const LineView *view, const Lens *lens, const float color[3]);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The stages of the pipeline that need no device.
+#include "view/model.h"
+
+#include "scene/scn.h"
+
+#include <stdlib.h>
+
+static bool load(Model *model, const char *path, uint32_t threads, Error *error)
+{
+    Error cause = {0};
+    if (!scn_load(&model->scene, path, error))
+        return false;
+    model->normalization = normalization_of(&model->scene);
+    if (!normalization_check(&model->normalization, &model->scene, &cause))
+        return error_set(error, "%s: %s", path, cause.text);
+    Crew *crew = crew_open(threads);
+    const bool ok =
+        triangles_make(&model->triangles, &model->scene, &model->normalization, crew, error);
+    crew_close(crew);
+    return ok;
+}
+
+Model *model_load(const char *path, uint32_t threads, Error *error)
+{
+    Model *model = memory_zeroed(1, sizeof *model, error);
+    if (model == NULL)
+        return NULL;
+    atomic_init(&model->holders, 1);
+    if (load(model, path, threads, error))
+        return model;
+    model_release(model);
+    return NULL;
+}
+
+bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error)
+{
+    Crew *crew = crew_open(threads);
+    const bool ok = bvh_build(&model->bvh, &model->triangles, settings, crew, error);
+    crew_close(crew);
+    return ok;
+}
+
+Model *model_hold(Model *model)
+{
+    atomic_fetch_add(&model->holders, 1);
+    return model;
+}
+
+void model_release(Model *model)
+{
+    if (model == NULL || atomic_fetch_sub(&model->holders, 1) > 1)
+        return;
+    bvh_free(&model->bvh);
+    triangles_free(&model->triangles);
+    scene_free(&model->scene);
+    free(model);
+}

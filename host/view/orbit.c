@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The constants are the course's.
+#include "view/orbit.h"
+
+#include "base/trigonometry.h"
+
+#define DEGREES_PER_PIXEL  0.25
+#define LENGTH_PER_PIXEL   0.15
+#define WHEEL_FACTOR       0.9
+#define AZIMUTH_LIMIT      89.99
+#define NEAREST            0.5
+#define FARTHEST           100.0
+#define COURSE_DISTANCE    6.5
+#define DEGREES_PER_RADIAN 57.295779513082320877
+
+// Two axes across up.  Those of z are x and y, as the course counts its angles.
+static void make_axes(Vec3 axes[3], Vec3 up)
+{
+    const Vec3 z = vec3_normalize(up);
+    const double x = fabs(z.x), y = fabs(z.y);
+    const Vec3 other = x <= fabs(z.z) || x <= y ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    axes[0] = vec3_normalize(vec3_sub(other, vec3_scale(z, vec3_dot(other, z))));
+    axes[1] = vec3_cross(z, axes[0]);
+    axes[2] = z;
+}
+
+Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
+{
+    Orbit orbit = {.pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at,
+                   .look_at = viewpoint->look_at,
+                   .up = viewpoint->up,
+                   .fov_degrees = viewpoint->fov_degrees};
+    make_axes(orbit.axes, viewpoint->up);
+    const Vec3 arm = vec3_sub(viewpoint->eye, orbit.pivot);
+    const double x = vec3_dot(arm, orbit.axes[0]), y = vec3_dot(arm, orbit.axes[1]);
+    const double z = vec3_dot(arm, orbit.axes[2]);
+    orbit.distance = sqrt(x * x + y * y + z * z);
+    orbit.azimuth = -atan2(z, sqrt(x * x + y * y)) * DEGREES_PER_RADIAN;
+    orbit.rotation = atan2(y, x) * DEGREES_PER_RADIAN;
+    orbit.unit = is_course ? 1 : orbit.distance / COURSE_DISTANCE;
+    return orbit;
+}
+
+Viewpoint orbit_viewpoint(const Orbit *orbit)
+{
+    const double level = orbit->distance * cosine_of_degrees(orbit->azimuth);
+    const double x = level * cosine_of_degrees(orbit->rotation);
+    const double y = level * sine_of_degrees(orbit->rotation);
+    const double z = -orbit->distance * sine_of_degrees(orbit->azimuth);
+    const Vec3 across = vec3_add(vec3_scale(orbit->axes[0], x), vec3_scale(orbit->axes[1], y));
+    const Vec3 arm = vec3_add(across, vec3_scale(orbit->axes[2], z));
+    return (Viewpoint){.eye = vec3_add(orbit->pivot, arm),
+                       .look_at = orbit->look_at,
+                       .up = orbit->up,
+                       .fov_degrees = orbit->fov_degrees};
+}
+
+static double limited(double value, double low, double high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+void orbit_turn(Orbit *orbit, double right, double down)
+{
+    orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
+    orbit->azimuth =
+        limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
+}
+
+static void set_distance(Orbit *orbit, double distance)
+{
+    orbit->distance = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
+}
+
+void orbit_zoom(Orbit *orbit, double down)
+{
+    set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
+}
+
+void orbit_wheel(Orbit *orbit, double notches)
+{
+    set_distance(orbit, orbit->distance * pow(WHEEL_FACTOR, notches));
+}

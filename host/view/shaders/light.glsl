@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The materials under the scene's lights, without shadows; mirrors reflect the background.
+#define LIGHTS       64
+#define SILHOUETTE   0.5 // shaders below and above are numbered
+#define BLINN_PHONG  1.5
+
+uniform vec4 lights[LIGHTS]; // place and intensity
+uniform int light_count;
+uniform vec3 background;
+uniform float ambient, gain;
+uniform bool is_srgb;
+
+struct Surface {
+    vec3 place, normal, toward_viewer;
+    vec4 diffuse;  // color and kd
+    vec4 specular; // color and ks
+    vec4 look;     // shader, unused, shininess, reflectivity
+};
+
+vec3 encoded(vec3 color)
+{
+    vec3 shown = clamp(color * gain, 0.0, 1.0);
+    vec3 curve = 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055;
+    return is_srgb ? mix(curve, 12.92 * shown, lessThanEqual(shown, vec3(0.0031308))) : shown;
+}
+
+vec3 shaded(Surface surface)
+{
+    float diffuse = 0.0, specular = 0.0;
+    for (int i = 0; i < light_count; i++) {
+        vec3 toward_light = normalize(lights[i].xyz - surface.place);
+        float cosine = dot(surface.normal, toward_light);
+        if (cosine <= 0.0)
+            continue;
+        vec3 half_vector = normalize(toward_light + surface.toward_viewer);
+        float shine = max(dot(surface.normal, half_vector), 0.0);
+        diffuse += lights[i].w * cosine;
+        specular += lights[i].w * pow(shine, surface.look.z);
+    }
+    vec3 color = (ambient + surface.diffuse.w * diffuse) * surface.diffuse.rgb;
+    if (surface.look.x > BLINN_PHONG)
+        color += surface.specular.w * specular * surface.specular.rgb;
+    return clamp(color, 0.0, 1.0);
+}
+
+vec4 seen(Surface surface)
+{
+    bool is_flat = surface.look.x < SILHOUETTE;
+    vec3 color = is_flat ? surface.diffuse.rgb : shaded(surface);
+    return vec4(encoded(mix(color, background, surface.look.w)), 1.0);
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Lines between the corners of boxes, of which a line by itself is one: from its first corner to
+// the opposite one.
+#include "lens.glsl"
+#ifdef VERTEX
+in vec3 corner;    // of the unit cube
+in vec3 low, high; // of the box
+
+void main()
+{
+    gl_Position = projected(mix(low, high, corner) - eye);
+}
+#else
+out vec4 color;
+uniform vec3 paint;
+
+void main()
+{
+    color = vec4(paint, 1.0);
+}
+#endif

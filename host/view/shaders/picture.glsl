@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// A traced picture, whose first row is the uppermost, over the whole target.
+#ifdef VERTEX
+out vec2 place;
+
+void main()
+{
+    vec2 corner = vec2(gl_VertexID % 2, gl_VertexID / 2);
+    place = vec2(corner.x, 1.0 - corner.y);
+    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
+}
+#else
+in vec2 place;
+out vec4 color;
+uniform sampler2D picture;
+
+void main()
+{
+    color = vec4(texture(picture, place).rgb, 1.0);
+}
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Spheres, met by the ray of each pixel; a cube around each says which pixels to try.
+#include "lens.glsl"
+#ifdef VERTEX
+in vec3 corner;
+in vec4 sphere; // center as seen from the eye, and radius
+in vec4 diffuse, specular;
+in vec4 look;   // with the eye's height above the sphere in the second place
+flat out vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
+
+void main()
+{
+    sphere_shown = sphere;
+    diffuse_shown = diffuse;
+    specular_shown = specular;
+    look_shown = look;
+    gl_Position = projected(sphere.xyz + 1.01 * sphere.w * corner);
+}
+#else
+#include "light.glsl"
+flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
+out vec4 color;
+
+// The nearer meeting in front of the eye, negative where there is none.  The roots are found from
+// the larger one, and the eye's height, so that large spheres keep their digits.
+float meeting(vec3 direction)
+{
+    vec3 center = sphere_shown.xyz;
+    float radius = sphere_shown.w, height = look_shown.y;
+    float middle = dot(center, direction);
+    vec3 beside = center - middle * direction;
+    float square = radius * radius - dot(beside, beside);
+    if (square < 0.0)
+        return -1.0;
+    float product = height * (height + 2.0 * radius);
+    float larger = middle > 0.0 ? middle + sqrt(square) : middle - sqrt(square);
+    float smaller = product / larger;
+    float first = min(larger, smaller), second = max(larger, smaller);
+    return first >= 0.0 ? first : second;
+}
+
+void main()
+{
+    vec2 steps = vec2(2.0 * gl_FragCoord.x - size.x, size.y - 2.0 * gl_FragCoord.y);
+    vec3 direction = normalize(forward + steps.x * right_step + steps.y * down_step);
+    float distance = meeting(direction);
+    if (distance < 0.0)
+        discard;
+    vec3 offset = distance * direction;
+    vec3 normal = (offset - sphere_shown.xyz) / sphere_shown.w;
+    gl_FragDepth = 1.0 - nearest / dot(offset, forward);
+    color = seen(Surface(eye + offset, normal, -direction, diffuse_shown, specular_shown,
+                         look_shown));
+}
+#endif

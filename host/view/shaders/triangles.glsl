@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Triangles, smooth or flat; a flat one's normal is found from how its places change.
+#include "lens.glsl"
+#ifdef VERTEX
+in vec3 position, normal;
+out vec3 place, bend;
+
+void main()
+{
+    place = position;
+    bend = normal;
+    gl_Position = projected(position - eye);
+}
+#else
+#include "light.glsl"
+in vec3 place, bend;
+out vec4 color;
+uniform vec4 diffuse, specular, look;
+uniform bool is_smooth;
+
+void main()
+{
+    vec3 toward_viewer = normalize(eye - place);
+    vec3 face = cross(dFdx(place), dFdy(place));
+    vec3 normal = dot(face, toward_viewer) < 0.0 ? -face : face;
+    if (is_smooth && dot(bend, bend) > 0.0)
+        normal = gl_FrontFacing ? bend : -bend;
+    color = seen(Surface(place, normalize(normal), toward_viewer, diffuse, specular, look));
+}
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// What each key does; view/words.c tells of them.
+#include "view/state.h"
+
+#define ARROW_PIXELS      20
+#define DEGREES_A_SECOND  20.0
+#define PIXELS_PER_DEGREE 4.0
+#define EXPOSURE_LIMIT    16
+
+static void choose_view(State *state, const StateScene *scene, uint32_t view)
+{
+    if (view < 1 || view > scene->viewpoint_count)
+        return;
+    state->view = view;
+    state->moved = false;
+    state->camera = scene->viewpoints[view - 1];
+    state->orbit = orbit_of(&state->camera, scene->is_course);
+}
+
+State state_begin(const StateScene *scene, uint32_t view, bool smooth, bool uses_bvh)
+{
+    State state = {.smooth = smooth, .uses_bvh = uses_bvh, .text = true};
+    choose_view(&state, scene, view);
+    return state;
+}
+
+static void move(State *state)
+{
+    state->camera = orbit_viewpoint(&state->orbit);
+    state->moved = true;
+}
+
+static void turn(State *state, double right, double down)
+{
+    orbit_turn(&state->orbit, right, down);
+    move(state);
+}
+
+static int limited(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+static void change_level(State *state, const StateScene *scene, int step)
+{
+    if (state->boxes)
+        state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
+}
+
+// Keys that change the state.
+static void apply_key(State *state, const StateScene *scene, int key)
+{
+    switch (key) {
+    case 'r':
+        state->traced = !state->traced;
+        break;
+    case 'a':
+        state->smooth = !state->smooth;
+        break;
+    case 'b':
+        state->uses_bvh = !state->uses_bvh;
+        break;
+    case 'B':
+        state->boxes = !state->boxes, state->level = 0;
+        break;
+    case ']':
+        change_level(state, scene, 1);
+        break;
+    case '[':
+        change_level(state, scene, -1);
+        break;
+    case 'n':
+        state->normals = !state->normals;
+        break;
+    case 'h':
+        state->help = !state->help;
+        break;
+    case 't':
+        state->text = !state->text;
+        break;
+    case 'o':
+        state->turning = !state->turning;
+        break;
+    case '+':
+    case '=':
+        state->exposure = limited(state->exposure + 1, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
+        break;
+    case '-':
+        state->exposure = limited(state->exposure - 1, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
+        break;
+    case KEY_LEFT:
+        turn(state, -ARROW_PIXELS, 0);
+        break;
+    case KEY_RIGHT:
+        turn(state, ARROW_PIXELS, 0);
+        break;
+    case KEY_UP:
+        turn(state, 0, -ARROW_PIXELS);
+        break;
+    case KEY_DOWN:
+        turn(state, 0, ARROW_PIXELS);
+        break;
+    default:
+        if (key >= '1' && key <= '9')
+            choose_view(state, scene, (uint32_t)(key - '0'));
+    }
+}
+
+static unsigned command_of(int key)
+{
+    switch (key) {
+    case 'c':
+        return COMMAND_CAMERA;
+    case 's':
+        return COMMAND_SAVE;
+    case 'R':
+        return COMMAND_RELOAD;
+    case 'q':
+    case KEY_ESCAPE:
+        return COMMAND_QUIT;
+    default:
+        return 0;
+    }
+}
+
+unsigned state_apply(State *state, const Event *event, const StateScene *scene)
+{
+    switch (event->kind) {
+    case EVENT_KEY:
+        apply_key(state, scene, event->key);
+        return command_of(event->key);
+    case EVENT_TURN:
+        turn(state, event->right, event->down);
+        return 0;
+    case EVENT_ZOOM:
+        orbit_zoom(&state->orbit, event->down);
+        break;
+    case EVENT_WHEEL:
+        orbit_wheel(&state->orbit, event->down);
+        break;
+    }
+    move(state);
+    return 0;
+}
+
+void state_advance(State *state, double seconds)
+{
+    if (state->turning)
+        turn(state, -DEGREES_A_SECOND * PIXELS_PER_DEGREE * seconds, 0);
+}
+
+void state_adopt(State *state, const StateScene *scene)
+{
+    state->level = (uint32_t)limited((int)state->level, 0, (int)scene->levels);
+    if (!state->moved || state->view > scene->viewpoint_count)
+        choose_view(state, scene, state->view <= scene->viewpoint_count ? state->view : 1);
+}
+
+double state_gain(const State *state)
+{
+    return exp2(state->exposure / 2.0);
+}

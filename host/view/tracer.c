@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// New things are opened before old ones are closed, so that a failure leaves the old ones drawing.
+#include "view/tracer.h"
+
+#include "scene/camera.h"
+
+bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
+{
+    *tracer = (Tracer){.options = options};
+    if (!device_open(&tracer->device, options->device, error))
+        return false;
+    tracer->setup = (RendererSetup){
+        .device = &tracer->device,
+        .cache = options->cache,
+        .source = {.kernel_folder = options->kernel_folder,
+                   .choice = kernel_choose(&options->kernel, tracer->device.is_cpu)}};
+    const uint32_t side = kernel_group_side(&tracer->setup.source.choice);
+    tracer->group[0] = options->group_width > 0 ? options->group_width : side;
+    tracer->group[1] = options->group_height > 0 ? options->group_height : side;
+    return true;
+}
+
+// Lets go of what draws the model.
+static void drop_model(Tracer *tracer)
+{
+    renderer_close(&tracer->counter);
+    renderer_close(&tracer->renderer);
+    flat_free(&tracer->flat);
+    model_release(tracer->model);
+    tracer->model = NULL;
+}
+
+void tracer_close(Tracer *tracer)
+{
+    drop_model(tracer);
+    if (tracer->device.context != NULL)
+        device_close(&tracer->device);
+    *tracer = (Tracer){0};
+}
+
+BvhSettings tracer_tree(const Tracer *tracer)
+{
+    return (BvhSettings){tracer->options->builder, flat_leaves(tracer->setup.source.choice.nodes)};
+}
+
+static bool flatten(FlatScene *flat, const Tracer *tracer, const Model *model, bool uses_bvh,
+                    Error *error)
+{
+    const Bvh none = {0};
+    Crew *crew = crew_open(tracer->options->threads);
+    const FlatSource source = {&model->scene,
+                               &model->triangles,
+                               uses_bvh ? &model->bvh : &none,
+                               &model->normalization,
+                               tracer->setup.source.choice.nodes,
+                               crew};
+    const bool ok = flat_make(flat, &source, error);
+    crew_close(crew);
+    return ok;
+}
+
+static uint32_t max_level(const Tracer *tracer, const Model *model)
+{
+    const int64_t wanted = tracer->options->max_level;
+    return wanted >= 0 ? (uint32_t)wanted : model->scene.max_level;
+}
+
+static bool open_renderer(Renderer *renderer, const Tracer *tracer, const FlatScene *flat,
+                          uint32_t levels, bool counts, Error *error)
+{
+    const RenderSettings settings = {.width = 1,
+                                     .height = 1,
+                                     .samples = 1,
+                                     .max_level = levels,
+                                     .tile_width = 1,
+                                     .tile_height = 1,
+                                     .group_width = tracer->group[0],
+                                     .group_height = tracer->group[1],
+                                     .statistics = counts,
+                                     .specialization = tracer->options->specialization};
+    return renderer_open(renderer, &tracer->setup, flat, &settings, error);
+}
+
+bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
+{
+    FlatScene flat = {0};
+    Renderer renderer = {0};
+    if (!flatten(&flat, tracer, model, uses_bvh, error))
+        return false;
+    if (!open_renderer(&renderer, tracer, &flat, max_level(tracer, model), false, error)) {
+        flat_free(&flat);
+        return false;
+    }
+    Model *held = model_hold(model);
+    drop_model(tracer);
+    tracer->model = held;
+    tracer->uses_bvh = uses_bvh;
+    tracer->flat = flat;
+    tracer->renderer = renderer;
+    return true;
+}
+
+RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
+{
+    RenderSettings settings = tracer->renderer.settings;
+    settings.width = pass->width;
+    settings.height = pass->height;
+    settings.samples = pass->samples;
+    settings.tile_width = settings.tile_height = pass->tile;
+    return settings;
+}
+
+static bool prepare_counter(Tracer *tracer, Error *error)
+{
+    return tracer->counter.kernel != NULL ||
+           open_renderer(&tracer->counter, tracer, &tracer->flat,
+                         tracer->renderer.settings.max_level, true, error);
+}
+
+bool tracer_draw(Tracer *tracer, const Viewpoint *camera, const Pass *pass,
+                 const RenderObserver *observer, Framebuffer *framebuffer, Error *error)
+{
+    const bool counts = pass->kind == PASS_COUNT;
+    if (counts && !prepare_counter(tracer, error))
+        return false;
+    Renderer *renderer = counts ? &tracer->counter : &tracer->renderer;
+    const RenderSettings settings = tracer_settings(tracer, pass);
+    const CameraData data =
+        camera_make(camera, &tracer->model->normalization, pass->height, pass->samples);
+    renderer_resize(renderer, &settings);
+    return renderer_draw(renderer, &data, observer, framebuffer, error);
+}
+
+const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass)
+{
+    return pass->kind == PASS_COUNT ? &tracer->counter.progress : &tracer->renderer.progress;
+}

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The loop: events and news change the state, the state makes the wish for the worker, and what is
+// new is drawn.
+#include "view/viewer_inside.h"
+
+#include "base/clock.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// The loop's longest sleep, in seconds: files are looked at in between.
+#define REST_SECONDS 0.1
+
+static uint32_t samples_of(const Viewer *viewer)
+{
+    return viewer->state.smooth ? viewer->settings.samples : 1;
+}
+
+static void print_camera(const Viewer *viewer)
+{
+    char text[WORDS_SIZE];
+    words_camera(text, sizeof text, &viewer->state);
+    fputs(text, stdout);
+    fflush(stdout);
+}
+
+static bool obey(Viewer *viewer, unsigned commands, Error *error)
+{
+    if (commands & COMMAND_CAMERA)
+        print_camera(viewer);
+    if (commands & COMMAND_SAVE)
+        viewer->wants_save = true;
+    if (commands & COMMAND_QUIT)
+        viewer->quits = true;
+    return !(commands & COMMAND_RELOAD) || viewer_renew(viewer, error);
+}
+
+static bool take_event(Viewer *viewer, const Event *event, Error *error)
+{
+    viewer->is_dirty = true;
+    viewer->notice[0] = '\0';
+    return obey(viewer, state_apply(&viewer->state, event, &viewer->scene), error);
+}
+
+static bool take_events(Viewer *viewer, Error *error)
+{
+    Event event;
+    while (window_take_event(&viewer->window, &event))
+        if (viewer->model != NULL && !take_event(viewer, &event, error))
+            return false;
+    return true;
+}
+
+// Plays a key once the one before has been shown.
+static bool play_script(Viewer *viewer, Error *error)
+{
+    if (!script_is_running(&viewer->script) || !viewer_is_settled(viewer) || viewer->is_dirty)
+        return true;
+    const Event event = {.kind = EVENT_KEY, .key = script_take_key(&viewer->script)};
+    viewer->is_dirty = true;
+    return event.key == 0 || take_event(viewer, &event, error);
+}
+
+// A traced picture moves on when the one before is whole.
+static void advance(Viewer *viewer)
+{
+    const double now = clock_seconds();
+    const bool waits = viewer->state.traced && viewer->news.reached.subject != viewer->wish.subject;
+    if (viewer->state.turning && !waits) {
+        state_advance(&viewer->state, now - viewer->advanced);
+        viewer->is_dirty = true;
+    }
+    if (!viewer->state.turning || !waits)
+        viewer->advanced = now;
+}
+
+static bool same_camera(const Viewpoint *one, const Viewpoint *other)
+{
+    return memcmp(one, other, sizeof *one) == 0;
+}
+
+static void make_wish(Viewer *viewer)
+{
+    WorkerWish *wish = &viewer->wish;
+    uint32_t width, height;
+    window_measure(&viewer->window, &width, &height);
+    if (width != wish->width || height != wish->height ||
+        !same_camera(&wish->camera, &viewer->state.camera)) {
+        wish->subject++;
+        viewer->is_dirty = true;
+    }
+    wish->camera = viewer->state.camera;
+    wish->width = width;
+    wish->height = height;
+    wish->samples = samples_of(viewer);
+    wish->is_traced = viewer->state.traced;
+    wish->uses_bvh = viewer->state.uses_bvh;
+    wish->gain = state_gain(&viewer->state);
+    worker_wish(viewer->worker, wish);
+}
+
+// How long the loop may sleep.
+static double rest(const Viewer *viewer)
+{
+    const bool plays = script_is_running(&viewer->script) && viewer_is_settled(viewer);
+    const bool turns = viewer->state.turning && !viewer->state.traced;
+    return viewer->is_dirty || plays || turns ? 0 : REST_SECONDS;
+}
+
+static bool step(Viewer *viewer, Error *error)
+{
+    window_wait(&viewer->window, rest(viewer));
+    if (!viewer_follow_worker(viewer, error) || !take_events(viewer, error) ||
+        !play_script(viewer, error))
+        return false;
+    viewer_follow_saver(viewer);
+    viewer_follow_files(viewer);
+    advance(viewer);
+    make_wish(viewer);
+    if ((viewer->is_dirty || viewer->window.is_touched) && !viewer_draw(viewer, error))
+        return false;
+    viewer_save(viewer);
+    viewer->quits = viewer->quits || window_is_closed(&viewer->window);
+    return viewer_recover(viewer, error);
+}
+
+// The scene decides about the window's size, so it is read first.
+static bool await_scene(Viewer *viewer)
+{
+    do {
+        window_wait(&viewer->window, REST_SECONDS);
+        worker_look(viewer->worker, &viewer->news);
+    } while (viewer->news.models == 0 && viewer->news.fault == FAULT_NONE);
+    return viewer->news.fault == FAULT_NONE;
+}
+
+static bool open_window(Viewer *viewer, Error *error)
+{
+    const ViewerSettings *settings = &viewer->settings;
+    Model *model = worker_model(viewer->worker);
+    const uint32_t width = settings->width > 0 ? settings->width : model->scene.width;
+    const uint32_t height = settings->width > 0 ? settings->height : model->scene.height;
+    model_release(model);
+    return window_open(&viewer->window, "clrt", width, height, error) &&
+           views_open(&viewer->views, error);
+}
+
+static ViewerEnd end_of_fault(const Viewer *viewer, Error *error)
+{
+    error_set(error, "%s", viewer->news.failure.text);
+    return viewer->news.fault == FAULT_SCENE ? VIEWER_NO_SCENE : VIEWER_NO_DEVICE;
+}
+
+static ViewerEnd show(Viewer *viewer, Error *error)
+{
+    if (!await_scene(viewer))
+        return end_of_fault(viewer, error);
+    if (!open_window(viewer, error))
+        return VIEWER_NO_WINDOW;
+    if (!viewer_adopt_model(viewer, error))
+        return VIEWER_NO_SCENE;
+    while (!viewer->quits) {
+        if (!step(viewer, error))
+            return VIEWER_NO_WINDOW;
+        if (viewer->news.fault != FAULT_NONE)
+            return end_of_fault(viewer, error);
+    }
+    return VIEWER_CLOSED;
+}
+
+// A picture being traced is given up; a driver that does not come back in time is left to the end
+// of the process, with all it may still touch.
+static void close_viewer(Viewer *viewer)
+{
+    if (viewer->window.handle != NULL)
+        window_hide(&viewer->window);
+    saver_finish(&viewer->saver);
+    if (viewer->settings.statistics)
+        pace_write(&viewer->pace, viewer->news.moving_coarse, viewer->news.moving_frames, stderr);
+    pace_free(&viewer->pace);
+    reload_free(&viewer->reload);
+    model_release(viewer->model);
+    if (viewer->window.handle != NULL)
+        views_close(&viewer->views);
+    window_close(&viewer->window);
+    if (viewer->worker != NULL && !worker_stop(viewer->worker, viewer->settings.patience))
+        return;
+    window_disconnect();
+    canvas_close(&viewer->canvas);
+    free(viewer);
+}
+
+ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
+{
+    Viewer *viewer = memory_zeroed(1, sizeof *viewer, error);
+    if (viewer == NULL || !window_connect(error)) {
+        free(viewer);
+        return VIEWER_NO_WINDOW;
+    }
+    viewer->settings = *settings;
+    viewer->cache = *settings->tracer.cache;
+    viewer->settings.tracer.cache = &viewer->cache;
+    viewer->script = (Script){settings->keys, settings->quit_after};
+    viewer->wish = (WorkerWish){.loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
+    viewer->news.busy = "";
+    canvas_open(&viewer->canvas, settings->encoding);
+    const WorkerSetup setup = {settings->scene_path, &viewer->settings.tracer, &viewer->canvas,
+                               window_wake};
+    viewer->worker = worker_start(&setup, &viewer->wish, error);
+    ViewerEnd end = VIEWER_NO_DEVICE;
+    if (viewer->worker != NULL &&
+        reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
+        end = show(viewer, error);
+    close_viewer(viewer);
+    return end;
+}

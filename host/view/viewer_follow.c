@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What others did becomes part of the viewer here, and nowhere else.
+#include "view/viewer_inside.h"
+
+#include "base/clock.h"
+
+static void describe_scene(Viewer *viewer)
+{
+    const Scene *scene = &viewer->model->scene;
+    viewer->scene =
+        (StateScene){.viewpoints = scene->viewpoints.data,
+                     .viewpoint_count = scene->viewpoints.count,
+                     .is_course = scene->has_course_views,
+                     .levels = viewer->news.has_tree ? boxes_levels(&viewer->model->bvh) : 0};
+}
+
+static bool follow_files(Viewer *viewer, Error *error)
+{
+    const bool failed = viewer->news.scene_failure.text[0] != '\0';
+    viewer->is_failure_followed = failed;
+    return reload_follow(&viewer->reload, &viewer->model->scene, viewer->settings.scene_path,
+                         failed, error);
+}
+
+bool viewer_adopt_model(Viewer *viewer, Error *error)
+{
+    const bool is_first = viewer->model == NULL;
+    const ViewerSettings *settings = &viewer->settings;
+    model_release(viewer->model);
+    viewer->model = worker_model(viewer->worker);
+    describe_scene(viewer);
+    if (is_first && settings->view > viewer->scene.viewpoint_count)
+        return error_set(error, "%s has %zu viewpoints, so there is no view %u",
+                         settings->scene_path, viewer->scene.viewpoint_count, settings->view);
+    if (is_first)
+        viewer->state =
+            state_begin(&viewer->scene, settings->view, settings->smooth, settings->uses_bvh);
+    else
+        state_adopt(&viewer->state, &viewer->scene);
+    viewer->wish.subject++;
+    return views_load(&viewer->views, viewer->model, error) && follow_files(viewer, error);
+}
+
+bool viewer_follow_worker(Viewer *viewer, Error *error)
+{
+    WorkerNews news;
+    worker_look(viewer->worker, &news);
+    if (news.number == viewer->news.number)
+        return true;
+    const bool has_model = news.models != viewer->news.models;
+    const bool has_tree = news.has_tree != viewer->news.has_tree;
+    viewer->news = news;
+    viewer->is_dirty = true;
+    if (has_model && !viewer_adopt_model(viewer, error))
+        return false;
+    if (has_tree && viewer->model != NULL) {
+        describe_scene(viewer);
+        viewer->views.has_boxes = false;
+    }
+    const bool failed = news.scene_failure.text[0] != '\0';
+    return viewer->model == NULL || failed == viewer->is_failure_followed ||
+           follow_files(viewer, error);
+}
+
+void viewer_follow_files(Viewer *viewer)
+{
+    const unsigned changed = reload_look(&viewer->reload, clock_seconds());
+    if (changed & RELOAD_SCENE)
+        viewer->wish.loads++;
+    if (changed & RELOAD_KERNELS)
+        viewer->wish.renewals++;
+}
+
+bool viewer_renew(Viewer *viewer, Error *error)
+{
+    viewer->wish.loads++;
+    viewer->wish.renewals++;
+    views_close(&viewer->views);
+    return views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
+}
+
+bool viewer_recover(Viewer *viewer, Error *error)
+{
+    if (!window_is_lost(&viewer->window))
+        return true;
+    views_close(&viewer->views);
+    window_close(&viewer->window);
+    viewer->title[0] = '\0';
+    return window_open(&viewer->window, "clrt", viewer->wish.width, viewer->wish.height, error) &&
+           views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The picture first, then the words over it, which tell what it was drawn with.
+#include "view/viewer_inside.h"
+
+#include "base/clock.h"
+
+#include <string.h>
+
+static Figures figures_of(const Viewer *viewer)
+{
+    const WorkerNews *news = &viewer->news;
+    const uint64_t *tallies = news->tallies;
+    const char *slash = strrchr(viewer->settings.scene_path, '/');
+    Figures figures = {.scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
+                       .width = viewer->wish.width,
+                       .height = viewer->wish.height,
+                       .samples = viewer->settings.samples,
+                       .divisor = news->reached.divisor,
+                       .is_finished = worker_is_finished(news, &viewer->wish),
+                       .progress = news->progress,
+                       .frame_seconds = news->frame_seconds,
+                       .has_counts = news->reached.is_counted,
+                       .rays = tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] +
+                               tallies[TALLY_REFLECTED_RAYS],
+                       .box_count = viewer->views.boxes.count,
+                       .busy = news->busy,
+                       .notice = viewer->notice,
+                       .failure = news->scene_failure.text};
+    if (figures.rays > 0)
+        figures.tests_per_ray = (double)tallies[TALLY_TRIANGLE_TESTS] / (double)figures.rays;
+    if (figures.failure[0] == '\0')
+        figures.failure = news->failure.text;
+    if (figures.failure[0] == '\0')
+        figures.failure = viewer->failure.text;
+    return figures;
+}
+
+bool viewer_is_settled(const Viewer *viewer)
+{
+    const WorkerNews *news = &viewer->news;
+    const bool still = worker_is_finished(news, &viewer->wish) &&
+                       (!viewer->state.traced || news->reached.is_counted);
+    return viewer->model != NULL && news->has_tree && news->busy[0] == '\0' &&
+           !viewer->wants_save && !viewer->saver.is_running && (viewer->state.turning || still);
+}
+
+static Frame frame_of(Viewer *viewer)
+{
+    const bool lags = viewer->state.traced && viewer->news.reached.subject > 0;
+    return (Frame){.state = &viewer->state,
+                   .model = viewer->model,
+                   .has_tree = viewer->news.has_tree,
+                   .canvas = &viewer->canvas,
+                   .camera = lags ? viewer->news.done.camera : viewer->state.camera,
+                   .width = viewer->wish.width,
+                   .height = viewer->wish.height,
+                   .encoding = viewer->settings.encoding};
+}
+
+static void draw_text(Viewer *viewer, const Figures *figures)
+{
+    char text[WORDS_SIZE];
+    if (!viewer->state.text && !viewer->state.help)
+        return;
+    words_overlay(text, sizeof text, &viewer->state, figures);
+    text_view_draw(&viewer->views.text, text, viewer->wish.width, viewer->wish.height,
+                   window_text_scale(&viewer->window));
+}
+
+static void tell_title(Viewer *viewer, const Figures *figures)
+{
+    char text[STATE_SIZE];
+    words_title(text, sizeof text, &viewer->state, figures);
+    if (strcmp(text, viewer->title) == 0)
+        return;
+    window_set_title(&viewer->window, text);
+    memcpy(viewer->title, text, sizeof text);
+}
+
+// On standard error, where it is wanted, once nothing moves any more.
+static void tell_state(Viewer *viewer, const Figures *figures)
+{
+    char text[STATE_SIZE];
+    if (!viewer->settings.verbose || viewer->state.turning || !viewer_is_settled(viewer))
+        return;
+    words_state(text, sizeof text, &viewer->state, figures);
+    if (strcmp(text, viewer->told) == 0)
+        return;
+    fprintf(stderr, "%s\n", text);
+    memcpy(viewer->told, text, sizeof text);
+}
+
+// Frames of a moving camera are timed and counted, those that show it at a new place.
+static bool is_new_frame(const Viewer *viewer)
+{
+    return !viewer->state.turning || !viewer->state.traced ||
+           viewer->news.moving_frames != viewer->moving_shown;
+}
+
+static void count_frame(Viewer *viewer, bool was_settled)
+{
+    const bool is_new = is_new_frame(viewer);
+    viewer->moving_shown = viewer->news.moving_frames;
+    if (!viewer->state.turning)
+        pace_pause(&viewer->pace);
+    else if (is_new)
+        pace_add(&viewer->pace, clock_seconds(), &viewer->failure);
+    if (was_settled && is_new && script_count_frame(&viewer->script))
+        viewer->quits = true;
+}
+
+bool viewer_draw(Viewer *viewer, Error *error)
+{
+    const Frame frame = frame_of(viewer);
+    const bool was_settled = viewer_is_settled(viewer);
+    viewer->is_dirty = viewer->window.is_touched = false;
+    if (frame.width == 0 || frame.height == 0)
+        return true;
+    if (!views_draw(&viewer->views, &frame, error))
+        return false;
+    const Figures figures = figures_of(viewer);
+    draw_text(viewer, &figures);
+    tell_title(viewer, &figures);
+    tell_state(viewer, &figures);
+    window_show(&viewer->window);
+    count_frame(viewer, was_settled);
+    return true;
+}
+
+// The floats that were traced.
+static bool copy_traced(Viewer *viewer, Framebuffer *copy, Error *error)
+{
+    pthread_mutex_lock(&viewer->canvas.mutex);
+    const Layer *layer = canvas_whole(&viewer->canvas);
+    const Framebuffer *whole = layer == NULL ? &viewer->saver.shown : &layer->framebuffer;
+    const bool ok = framebuffer_make(copy, whole->width, whole->height, error);
+    if (ok)
+        memcpy(copy->pixels, whole->pixels,
+               (size_t)whole->width * whole->height * sizeof *whole->pixels);
+    pthread_mutex_unlock(&viewer->canvas.mutex);
+    return ok;
+}
+
+static bool copy_shown(Framebuffer *copy, const Framebuffer *shown, Error *error)
+{
+    if (!framebuffer_make(copy, shown->width, shown->height, error))
+        return false;
+    memcpy(copy->pixels, shown->pixels,
+           (size_t)shown->width * shown->height * sizeof *shown->pixels);
+    return true;
+}
+
+void viewer_save(Viewer *viewer)
+{
+    Saver *saver = &viewer->saver;
+    Error *error = &viewer->failure;
+    if (!viewer->wants_save || viewer->is_dirty || saver->is_running ||
+        !worker_is_finished(&viewer->news, &viewer->wish))
+        return;
+    const Figures figures = figures_of(viewer);
+    viewer->wants_save = false;
+    saver->scene_path = viewer->settings.scene_path;
+    words_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
+    const bool ok = target_read(&viewer->views.target, &saver->shown, error) &&
+                    (viewer->state.traced ? copy_traced(viewer, &saver->traced, error)
+                                          : copy_shown(&saver->traced, &saver->shown, error));
+    if (!ok || !saver_start(saver, window_wake, error))
+        saver_finish(saver);
+}
+
+void viewer_follow_saver(Viewer *viewer)
+{
+    if (!saver_is_done(&viewer->saver))
+        return;
+    viewer->is_dirty = true;
+    viewer->failure = viewer->saver.error;
+    snprintf(viewer->notice, sizeof viewer->notice, "%s", viewer->saver.notice);
+    if (viewer->settings.verbose && viewer->notice[0] != '\0')
+        fprintf(stderr, "%s\n", viewer->notice);
+}

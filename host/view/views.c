@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Lines are hidden by what is before them in the ray-traced view too: the scene's depth is drawn
+// for them, and the traced picture over its colors.
+#include "view/views.h"
+
+#include "image/encode.h"
+#include "view/normals.h"
+
+static const float blue[3] = {0.1f, 0.3f, 1}, red[3] = {1, 0.1f, 0.05f};
+
+bool views_open(Views *views, Error *error)
+{
+    *views = (Views){0};
+    target_open(&views->target);
+    return triangle_view_open(&views->triangles, error) &&
+           sphere_view_open(&views->spheres, error) &&
+           line_view_open(&views->boxes, false, error) &&
+           line_view_open(&views->normals, true, error) && ray_view_open(&views->rays, error) &&
+           text_view_open(&views->text, error);
+}
+
+void views_close(Views *views)
+{
+    text_view_close(&views->text);
+    ray_view_close(&views->rays);
+    line_view_close(&views->normals);
+    line_view_close(&views->boxes);
+    sphere_view_close(&views->spheres);
+    triangle_view_close(&views->triangles);
+    target_close(&views->target);
+    *views = (Views){0};
+}
+
+bool views_load(Views *views, const Model *model, Error *error)
+{
+    views->has_boxes = views->has_normals = false;
+    return triangle_view_load(&views->triangles, model, error) &&
+           sphere_view_load(&views->spheres, model, error);
+}
+
+static bool load_boxes(Views *views, const Frame *frame, Error *error)
+{
+    Boxes boxes = {0};
+    const uint32_t level = frame->state->level;
+    if (views->has_boxes && views->level == level)
+        return true;
+    const bool ok = !frame->has_tree || boxes_make(&boxes, &frame->model->bvh, level, error);
+    line_view_load(&views->boxes, boxes.data, ok ? boxes.count : 0);
+    boxes_free(&boxes);
+    views->has_boxes = frame->has_tree;
+    views->level = level;
+    return ok;
+}
+
+static bool load_normals(Views *views, const Model *model, Error *error)
+{
+    Boxes lines = {0};
+    if (views->has_normals)
+        return true;
+    const bool ok = normals_make(&lines, model, error);
+    line_view_load(&views->normals, lines.data, ok ? lines.count : 0);
+    boxes_free(&lines);
+    views->has_normals = true;
+    return ok;
+}
+
+static Tone tone_of(const Frame *frame)
+{
+    return (Tone){state_gain(frame->state), frame->encoding == ENCODE_SRGB};
+}
+
+// To the background, as it is shown.
+static void clear(const Frame *frame)
+{
+    const Scene *scene = &frame->model->scene;
+    const double gain = state_gain(frame->state);
+    float color[3] = {(float)fmin(scene->background.x * gain, 1),
+                      (float)fmin(scene->background.y * gain, 1),
+                      (float)fmin(scene->background.z * gain, 1)};
+    unsigned char bytes[3];
+    encode_channels(color, 3, frame->encoding, bytes);
+    glClearColor((float)bytes[0] / 255, (float)bytes[1] / 255, (float)bytes[2] / 255, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static void draw_scene(Views *views, const Frame *frame, const Lens *lens)
+{
+    const Tone tone = tone_of(frame);
+    // Away from the eye, so that lines on a surface are before it.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1, 1);
+    triangle_view_draw(&views->triangles, frame->model, lens, &tone);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    sphere_view_draw(&views->spheres, frame->model, lens, &tone);
+}
+
+static bool draw_lines(Views *views, const Frame *frame, const Lens *lens, Error *error)
+{
+    const State *state = frame->state;
+    bool ok = true;
+    if (state->boxes) {
+        ok = load_boxes(views, frame, error);
+        line_view_draw(&views->boxes, lens, state->level == 0 ? blue : red);
+    }
+    if (state->normals) {
+        ok = load_normals(views, frame->model, error) && ok;
+        line_view_draw(&views->normals, lens, red);
+    }
+    return ok;
+}
+
+static bool has_picture(Canvas *canvas)
+{
+    pthread_mutex_lock(&canvas->mutex);
+    const bool has = canvas_whole(canvas) != NULL;
+    pthread_mutex_unlock(&canvas->mutex);
+    return has;
+}
+
+static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error)
+{
+    const State *state = frame->state;
+    const uint32_t width = frame->width * factor, height = frame->height * factor;
+    const Lens lens = lens_of(&frame->camera, &frame->model->normalization, width, height);
+    clear(frame);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_CLAMP);
+    glDepthFunc(GL_LEQUAL);
+    if (!state->traced || state->boxes || state->normals || !has_picture(frame->canvas))
+        draw_scene(views, frame, &lens);
+    glDisable(GL_DEPTH_TEST);
+    if (state->traced)
+        ray_view_draw(&views->rays, frame->canvas, width, height);
+    glEnable(GL_DEPTH_TEST);
+    const bool ok = draw_lines(views, frame, &lens, error);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_DEPTH_TEST);
+    return ok;
+}
+
+bool views_draw(Views *views, const Frame *frame, Error *error)
+{
+    const uint32_t factor = frame->state->smooth && !frame->state->traced ? 2 : 1;
+    if (!target_begin(&views->target, frame->width, frame->height, factor, error))
+        return false;
+    const bool ok = draw(views, frame, factor, error);
+    target_show(&views->target);
+    return ok;
+}

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Letters come as characters, so that every keyboard types its own; GLFW's callbacks find the
+// window by the user pointer.
+#include "view/window.h"
+
+#include <epoxy/gl.h>
+
+#include <GLFW/glfw3.h>
+
+typedef struct {
+    int major, minor, profile;
+} Version;
+
+bool window_connect(Error *error)
+{
+    const char *reason = NULL;
+    if (glfwInit())
+        return true;
+    glfwGetError(&reason);
+    return error_set(error, "no window can be opened (%s): write the picture with -o FILE",
+                     reason != NULL ? reason : "GLFW does not say why");
+}
+
+void window_disconnect(void)
+{
+    glfwTerminate();
+}
+
+static void add_event(GLFWwindow *handle, Event event)
+{
+    Window *window = glfwGetWindowUserPointer(handle);
+    window->is_touched = true;
+    if (window->event_count < WINDOW_EVENTS)
+        window->events[window->event_count++] = event;
+}
+
+static void take_character(GLFWwindow *handle, unsigned character)
+{
+    if (character < 128)
+        add_event(handle, (Event){.kind = EVENT_KEY, .key = (int)character});
+}
+
+static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
+{
+    static const int keys[][2] = {{GLFW_KEY_ESCAPE, KEY_ESCAPE},
+                                  {GLFW_KEY_LEFT, KEY_LEFT},
+                                  {GLFW_KEY_RIGHT, KEY_RIGHT},
+                                  {GLFW_KEY_UP, KEY_UP},
+                                  {GLFW_KEY_DOWN, KEY_DOWN}};
+    (void)code, (void)modifiers;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (keys[i][0] == key && action != GLFW_RELEASE)
+            add_event(handle, (Event){.kind = EVENT_KEY, .key = keys[i][1]});
+}
+
+static void take_motion(GLFWwindow *handle, double x, double y)
+{
+    Window *window = glfwGetWindowUserPointer(handle);
+    const double right = x - window->mouse_x, down = y - window->mouse_y;
+    window->mouse_x = x;
+    window->mouse_y = y;
+    if (glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+        add_event(handle, (Event){.kind = EVENT_TURN, .right = right, .down = down});
+    else if (glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS)
+        add_event(handle, (Event){.kind = EVENT_ZOOM, .right = right, .down = down});
+}
+
+static void take_scroll(GLFWwindow *handle, double right, double down)
+{
+    add_event(handle, (Event){.kind = EVENT_WHEEL, .right = right, .down = down});
+}
+
+static void take_touch(GLFWwindow *handle)
+{
+    Window *window = glfwGetWindowUserPointer(handle);
+    window->is_touched = true;
+}
+
+static void take_size(GLFWwindow *handle, int width, int height)
+{
+    (void)width, (void)height;
+    take_touch(handle);
+}
+
+static void listen(Window *window)
+{
+    glfwSetWindowUserPointer(window->handle, window);
+    glfwSetCharCallback(window->handle, take_character);
+    glfwSetKeyCallback(window->handle, take_key);
+    glfwSetCursorPosCallback(window->handle, take_motion);
+    glfwSetScrollCallback(window->handle, take_scroll);
+    glfwSetWindowRefreshCallback(window->handle, take_touch);
+    glfwSetWindowCloseCallback(window->handle, take_touch);
+    glfwSetFramebufferSizeCallback(window->handle, take_size);
+    glfwGetCursorPos(window->handle, &window->mouse_x, &window->mouse_y);
+}
+
+// Makes the size fit the screen, in the same proportion.
+static void fit_screen(uint32_t *width, uint32_t *height)
+{
+    int x, y, room_x = 0, room_y = 0;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    if (monitor != NULL)
+        glfwGetMonitorWorkarea(monitor, &x, &y, &room_x, &room_y);
+    if (room_x <= 0 || room_y <= 0)
+        return;
+    const double wide = (double)room_x / *width, high = (double)room_y / *height;
+    const double scale = wide < high ? wide : high;
+    if (scale < 1) {
+        *width = *width * scale > 1 ? (uint32_t)(*width * scale) : 1;
+        *height = *height * scale > 1 ? (uint32_t)(*height * scale) : 1;
+    }
+}
+
+static GLFWwindow *create(const Version *version, const char *title, uint32_t width,
+                          uint32_t height)
+{
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, version->major);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, version->minor);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, version->profile);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, version->profile == GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    return glfwCreateWindow((int)width, (int)height, title, NULL, NULL);
+}
+
+bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error)
+{
+    static const Version versions[] = {{3, 3, GLFW_OPENGL_CORE_PROFILE},
+                                       {3, 1, GLFW_OPENGL_ANY_PROFILE}};
+    const char *reason = NULL;
+    *window = (Window){.is_touched = true};
+    fit_screen(&width, &height);
+    for (size_t i = 0; i < sizeof versions / sizeof versions[0] && window->handle == NULL; i++)
+        window->handle = create(&versions[i], title, width, height);
+    if (window->handle == NULL) {
+        glfwGetError(&reason);
+        return error_set(error,
+                         "no window with OpenGL 3.1 can be opened (%s): write the picture "
+                         "with -o FILE",
+                         reason != NULL ? reason : "GLFW does not say why");
+    }
+    glfwMakeContextCurrent(window->handle);
+    glfwSwapInterval(1);
+    listen(window);
+    return true;
+}
+
+void window_close(Window *window)
+{
+    if (window->handle != NULL)
+        glfwDestroyWindow(window->handle);
+    *window = (Window){0};
+}
+
+void window_wait(Window *window, double seconds)
+{
+    (void)window;
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+void window_wake(void)
+{
+    glfwPostEmptyEvent();
+}
+
+bool window_take_event(Window *window, Event *event)
+{
+    if (window->event_count == 0)
+        return false;
+    *event = window->events[0];
+    window->event_count--;
+    for (int i = 0; i < window->event_count; i++)
+        window->events[i] = window->events[i + 1];
+    return true;
+}
+
+void window_measure(const Window *window, uint32_t *width, uint32_t *height)
+{
+    int pixels[2] = {0, 0};
+    glfwGetFramebufferSize(window->handle, &pixels[0], &pixels[1]);
+    const bool is_minimised = glfwGetWindowAttrib(window->handle, GLFW_ICONIFIED) == GLFW_TRUE;
+    *width = is_minimised ? 0 : (uint32_t)pixels[0];
+    *height = is_minimised ? 0 : (uint32_t)pixels[1];
+}
+
+uint32_t window_text_scale(const Window *window)
+{
+    float across, down;
+    glfwGetWindowContentScale(window->handle, &across, &down);
+    return across > 1.5f ? (uint32_t)(across + 0.5f) : 1;
+}
+
+void window_set_title(Window *window, const char *title)
+{
+    glfwSetWindowTitle(window->handle, title);
+}
+
+void window_show(Window *window)
+{
+    glfwSwapBuffers(window->handle);
+}
+
+void window_hide(Window *window)
+{
+    glfwHideWindow(window->handle);
+}
+
+bool window_is_closed(const Window *window)
+{
+    return glfwWindowShouldClose(window->handle);
+}
+
+bool window_is_lost(const Window *window)
+{
+    (void)window;
+    return epoxy_has_gl_extension("GL_ARB_robustness") &&
+           glGetGraphicsResetStatusARB() != GL_NO_ERROR;
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// One job after the other: each is chosen by comparing what is wished with what is done.
+#include "view/worker_inside.h"
+
+#include <stdlib.h>
+
+// Compilers recurse deeply, and a thread's stack may be smaller than the process's.
+#define STACK_SIZE ((size_t)16 << 20)
+
+static Pass next_pass(const Worker *worker)
+{
+    const WorkerWish *wish = &worker->wish;
+    const PlanWish plan = {.is_wanted = wish->is_traced && worker->tracer.model != NULL,
+                           .subject = wish->subject,
+                           .width = wish->width,
+                           .height = wish->height,
+                           .samples = wish->samples,
+                           .sample_seconds = worker->sample_seconds};
+    return plan_pass(&plan, &worker->news.reached);
+}
+
+// Under the lock.  False where there is nothing to do.
+static bool choose_job(Worker *worker, Job *job)
+{
+    const WorkerWish *wish = &worker->wish, *done = &worker->news.done;
+    *job = (Job){.kind = JOB_STOP, .wish = *wish};
+    if (worker->stops)
+        return true;
+    if (wish->loads != done->loads) {
+        job->kind = JOB_LOAD;
+        return true;
+    }
+    if (wish->uses_bvh != done->uses_bvh || wish->renewals != done->renewals) {
+        job->kind = JOB_TAKE;
+        return true;
+    }
+    job->pass = next_pass(worker);
+    job->kind = JOB_PASS;
+    // A picture that has to be traced is encoded anew all the same.
+    if (wish->is_traced && wish->gain != done->gain && job->pass.kind != PASS_MOVING)
+        job->kind = JOB_ENCODE;
+    return job->kind == JOB_ENCODE || job->pass.kind != PASS_NONE;
+}
+
+static Job await_job(Worker *worker)
+{
+    Job job;
+    pthread_mutex_lock(&worker->mutex);
+    while (!choose_job(worker, &job))
+        pthread_cond_wait(&worker->changed, &worker->mutex);
+    pthread_mutex_unlock(&worker->mutex);
+    return job;
+}
+
+static void *work(void *context)
+{
+    Worker *worker = context;
+    bool goes_on = jobs_begin(worker);
+    while (goes_on) {
+        const Job job = await_job(worker);
+        switch (job.kind) {
+        case JOB_STOP:
+            goes_on = false;
+            break;
+        case JOB_LOAD:
+            jobs_load(worker, &job);
+            break;
+        case JOB_TAKE:
+            jobs_take(worker, &job);
+            break;
+        case JOB_ENCODE:
+            jobs_encode(worker, &job);
+            break;
+        case JOB_PASS:
+            jobs_trace(worker, &job);
+            break;
+        }
+    }
+    tracer_close(&worker->tracer);
+    return NULL;
+}
+
+static bool start_thread(Worker *worker)
+{
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    const bool ok = pthread_create(&worker->thread, &attributes, work, worker) == 0;
+    pthread_attr_destroy(&attributes);
+    return ok;
+}
+
+static void free_worker(Worker *worker)
+{
+    model_release(worker->model);
+    pthread_cond_destroy(&worker->changed);
+    pthread_mutex_destroy(&worker->mutex);
+    free(worker);
+}
+
+Worker *worker_start(const WorkerSetup *setup, const WorkerWish *wish, Error *error)
+{
+    Worker *worker = memory_zeroed(1, sizeof *worker, error);
+    if (worker == NULL)
+        return NULL;
+    *worker = (Worker){.setup = *setup, .wish = *wish, .news = {.busy = "reading the scene"}};
+    pthread_mutex_init(&worker->mutex, NULL);
+    pthread_cond_init(&worker->changed, NULL);
+    if (start_thread(worker))
+        return worker;
+    free_worker(worker);
+    error_set(error, "no thread can be started");
+    return NULL;
+}
+
+void worker_wish(Worker *worker, const WorkerWish *wish)
+{
+    pthread_mutex_lock(&worker->mutex);
+    worker->wish = *wish;
+    pthread_cond_signal(&worker->changed);
+    pthread_mutex_unlock(&worker->mutex);
+}
+
+void worker_look(Worker *worker, WorkerNews *news)
+{
+    pthread_mutex_lock(&worker->mutex);
+    *news = worker->news;
+    pthread_mutex_unlock(&worker->mutex);
+}
+
+Model *worker_model(Worker *worker)
+{
+    pthread_mutex_lock(&worker->mutex);
+    Model *model = worker->model == NULL ? NULL : model_hold(worker->model);
+    pthread_mutex_unlock(&worker->mutex);
+    return model;
+}
+
+bool worker_is_finished(const WorkerNews *news, const WorkerWish *wish)
+{
+    const WorkerWish *done = &news->done;
+    const bool is_read = done->loads == wish->loads && done->renewals == wish->renewals &&
+                         done->uses_bvh == wish->uses_bvh;
+    const PlanReached *reached = &news->reached;
+    const bool is_traced = reached->subject == wish->subject && reached->divisor == 1 &&
+                           reached->samples == wish->samples && done->gain == wish->gain;
+    return is_read && (!wish->is_traced || is_traced);
+}
+
+bool worker_stop(Worker *worker, double seconds)
+{
+    struct timespec end;
+    pthread_mutex_lock(&worker->mutex);
+    worker->stops = true;
+    pthread_cond_signal(&worker->changed);
+    pthread_mutex_unlock(&worker->mutex);
+    clock_gettime(CLOCK_REALTIME, &end);
+    const double moment = (double)end.tv_nsec * 1e-9 + seconds;
+    end.tv_sec += (time_t)moment;
+    end.tv_nsec = (long)((moment - floor(moment)) * 1e9);
+    if (pthread_timedjoin_np(worker->thread, NULL, &end) != 0)
+        return false;
+    free_worker(worker);
+    return true;
+}

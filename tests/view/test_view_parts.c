@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// The parts of the viewer that need neither window nor device: what is traced next, boxes, keys
+// that are played, files that change, pictures in two layers.
+#include "unit/cmocka_all.h"
+#include "unit/triangle_sets.h"
+#include "view/boxes.h"
+#include "view/canvas.h"
+#include "view/plan.h"
+#include "view/script.h"
+#include "view/watch.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const PlanWish plain = {.is_wanted = true,
+                               .subject = 7,
+                               .width = 500,
+                               .height = 300,
+                               .samples = 2,
+                               .sample_seconds = 1e-9};
+
+static void what_stands_still_sharpens_step_by_step(void **state)
+{
+    (void)state;
+    PlanWish wish = plain;
+    wish.sample_seconds = 1e-6;
+    PlanReached reached = {0};
+    Pass pass = plan_pass(&wish, &reached);
+    assert_int_equal(pass.kind, PASS_MOVING);
+    assert_true(pass.divisor > 1 && pass.samples == 1);
+    assert_int_equal(pass.width, (500 + pass.divisor - 1) / pass.divisor);
+    reached = (PlanReached){7, pass.divisor, 1, false};
+    pass = plan_pass(&wish, &reached);
+    assert_true(pass.kind == PASS_FULL && pass.divisor == 1 && pass.samples == 1);
+    reached = (PlanReached){7, 1, 1, false};
+    pass = plan_pass(&wish, &reached);
+    assert_true(pass.kind == PASS_FULL && pass.samples == 2);
+    reached = (PlanReached){7, 1, 2, false};
+    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_COUNT);
+    reached.is_counted = true;
+    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
+}
+
+static void moving_pictures_take_the_time_of_a_frame(void **state)
+{
+    (void)state;
+    const PlanReached reached = {6, 1, 2, true}; // of another camera
+    PlanWish wish = plain;
+    assert_int_equal(plan_pass(&wish, &reached).divisor, 1);
+    for (double cost = 1e-9; cost < 1e-5; cost *= 1.1) {
+        wish.sample_seconds = cost;
+        const Pass pass = plan_pass(&wish, &reached);
+        assert_int_equal(pass.kind, PASS_MOVING);
+        assert_true(pass.width * pass.height * cost < PLAN_FRAME_SECONDS || pass.divisor == 16);
+    }
+}
+
+static void tiles_are_so_small_that_stopping_takes_no_time(void **state)
+{
+    (void)state;
+    const PlanReached reached = {7, 1, 1, false};
+    PlanWish wish = plain;
+    assert_int_equal(plan_pass(&wish, &reached).tile, 128);
+    for (double cost = 1e-9; cost < 4e-5; cost *= 1.1) {
+        wish.sample_seconds = cost;
+        const Pass pass = plan_pass(&wish, &reached);
+        const double seconds = pass.tile * pass.tile * cost * pass.samples * pass.samples;
+        assert_true(seconds < 0.02 || pass.tile == 8);
+    }
+}
+
+static void nothing_is_traced_unasked_or_for_no_window(void **state)
+{
+    (void)state;
+    const PlanReached reached = {0};
+    PlanWish wish = plain;
+    wish.width = 0;
+    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
+    wish = plain;
+    wish.is_wanted = false;
+    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
+}
+
+static void brute_force_is_expected_to_be_dear(void **state)
+{
+    (void)state;
+    assert_true(plan_first_guess(1000000, true) == plan_first_guess(10, true));
+    assert_true(plan_first_guess(1000000, false) > 1e-4);
+}
+
+// The boxes of a level, by a walk that knows depths.
+static uint32_t count_level(const Bvh *bvh, uint32_t number, uint32_t depth, uint32_t level)
+{
+    const BvhNode *node = &bvh->nodes[number];
+    if (node->count > 0)
+        return level == 0;
+    return (depth == level) + count_level(bvh, node->first, depth + 1, level) +
+           count_level(bvh, node->first + 1, depth + 1, level);
+}
+
+static void every_level_has_a_box_for_each_of_its_nodes(void **state)
+{
+    (void)state;
+    Bvh bvh;
+    Error error = {0};
+    uint32_t inner = 0;
+    Triangles triangles = triangle_set((TriangleSet)0, 500);
+    const BvhSettings settings = {BVH_SAH, LEAVES_SINGLE};
+    assert_true(bvh_build(&bvh, &triangles, &settings, NULL, &error));
+    for (uint32_t level = 0; level <= boxes_levels(&bvh); level++) {
+        Boxes boxes = {0};
+        assert_true(boxes_make(&boxes, &bvh, level, &error));
+        assert_int_equal(boxes.count, count_level(&bvh, 0, 1, level));
+        assert_true(boxes.count > 0);
+        inner += level > 0 ? (uint32_t)boxes.count : 0;
+        if (level == 1)
+            assert_memory_equal(&boxes.data[0], &bvh.nodes[0].box, sizeof(Box));
+        boxes_free(&boxes);
+    }
+    assert_int_equal(inner, bvh.node_count - bvh.leaf_count);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+}
+
+static void a_tree_of_nothing_or_one_leaf_has_no_inner_boxes(void **state)
+{
+    (void)state;
+    Boxes boxes = {0};
+    Error error = {0};
+    Bvh none = {0};
+    assert_int_equal(boxes_levels(&none), 0);
+    assert_true(boxes_make(&boxes, &none, 0, &error));
+    assert_int_equal(boxes.count, 0);
+    BvhNode leaf = {.count = 3};
+    const Bvh single = {.nodes = &leaf, .node_count = 1, .leaf_count = 1, .depth = 1};
+    assert_int_equal(boxes_levels(&single), 0);
+    assert_true(boxes_make(&boxes, &single, 0, &error));
+    assert_int_equal(boxes.count, 1);
+    boxes_free(&boxes);
+}
+
+static void frames_count_once_all_keys_are_played(void **state)
+{
+    (void)state;
+    Script script = {"ab", 2};
+    assert_true(script_is_running(&script));
+    assert_false(script_count_frame(&script));
+    assert_int_equal(script_take_key(&script), 'a');
+    assert_false(script_count_frame(&script));
+    assert_int_equal(script_take_key(&script), 'b');
+    assert_int_equal(script_take_key(&script), 0);
+    assert_false(script_count_frame(&script));
+    assert_true(script_count_frame(&script));
+    Script none = {NULL, 0};
+    assert_false(script_is_running(&none));
+    assert_false(script_count_frame(&none));
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void set_time(const char *path, long nanoseconds)
+{
+    const struct timespec times[2] = {{1000, nanoseconds}, {1000, nanoseconds}};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+static void changed_files_are_told_once_and_when_they_stand_still(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
+    Watch watch = {0};
+    Error error = {0};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/file", folder);
+    write_text(path, "one");
+    watch_clear(&watch);
+    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, folder, &error));
+    for (int look = 0; look < 3; look++)
+        assert_false(watch_look(&watch));
+    set_time(path, 1);
+    assert_false(watch_look(&watch)); // perhaps it is still being written
+    assert_true(watch_look(&watch));
+    assert_false(watch_look(&watch));
+    unlink(path);
+    assert_false(watch_look(&watch));
+    assert_true(watch_look(&watch));
+    write_text(path, "two");
+    assert_false(watch_look(&watch));
+    assert_true(watch_look(&watch));
+    watch_clear(&watch);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void a_folder_is_watched_for_what_is_in_it(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
+    Watch watch = {0};
+    Error error = {0};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/file", folder);
+    watch_clear(&watch);
+    assert_true(watch_add(&watch, folder, &error));
+    assert_false(watch_look(&watch));
+    write_text(path, "new");
+    assert_false(watch_look(&watch));
+    assert_true(watch_look(&watch));
+    watch_clear(&watch);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(void **state)
+{
+    (void)state;
+    Canvas canvas;
+    Error error = {0};
+    const RenderSettings settings = {.width = 4, .height = 2, .tile_width = 2, .tile_height = 2};
+    canvas_open(&canvas, ENCODE_RAW);
+    assert_null(canvas_whole(&canvas));
+    Layer *first = canvas_begin(&canvas, &settings, true, &error);
+    assert_null(canvas_unfinished(&canvas)); // it is to be shown whole
+    first->framebuffer.pixels[3][1] = 0.5f;
+    canvas_add_tiles(&canvas, first, 2, 1);
+    canvas_finish(&canvas, first);
+    assert_ptr_equal(canvas_whole(&canvas), first);
+    assert_int_equal(first->bytes[3 * 3 + 1], 128);
+    canvas_encode_again(&canvas, 4);
+    assert_int_equal(first->bytes[3 * 3 + 1], 255); // brighter than white is white
+    assert_int_equal(first->revision, 1);
+    Layer *second = canvas_begin(&canvas, &settings, false, &error);
+    assert_ptr_equal(canvas_unfinished(&canvas), second);
+    canvas_add_tiles(&canvas, second, 1, 1);
+    assert_int_equal(second->tiles_done, 1);
+    assert_ptr_equal(canvas_whole(&canvas), first);
+    canvas_drop(&canvas, second);
+    assert_null(canvas_unfinished(&canvas));
+    second = canvas_begin(&canvas, &settings, false, &error);
+    canvas_finish(&canvas, second);
+    assert_ptr_equal(canvas_whole(&canvas), second);
+    canvas_close(&canvas);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_stands_still_sharpens_step_by_step),
+        cmocka_unit_test(moving_pictures_take_the_time_of_a_frame),
+        cmocka_unit_test(tiles_are_so_small_that_stopping_takes_no_time),
+        cmocka_unit_test(nothing_is_traced_unasked_or_for_no_window),
+        cmocka_unit_test(brute_force_is_expected_to_be_dear),
+        cmocka_unit_test(every_level_has_a_box_for_each_of_its_nodes),
+        cmocka_unit_test(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes),
+        cmocka_unit_test(frames_count_once_all_keys_are_played),
+        cmocka_unit_test(changed_files_are_told_once_and_when_they_stand_still),
+        cmocka_unit_test(a_folder_is_watched_for_what_is_in_it),
+        cmocka_unit_test(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

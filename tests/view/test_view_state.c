@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// What keys and the mouse do to the state, and what the state reads like.
+#include "scene/scn.h"
+#include "unit/cmocka_all.h"
+#include "view/state.h"
+#include "view/words.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+    Scene scene;
+    StateScene facts;
+    State state;
+} Fixture;
+
+static Fixture opened(const char *text)
+{
+    Fixture fixture;
+    Error error = {0};
+    if (!scn_parse(&fixture.scene, text, strlen(text), "inline.scn", &error))
+        fail_msg("%s", error.text);
+    fixture.facts = (StateScene){fixture.scene.viewpoints.data, fixture.scene.viewpoints.count,
+                                 fixture.scene.has_course_views, 3};
+    fixture.state = state_begin(&fixture.facts, 1, false, true);
+    return fixture;
+}
+
+static unsigned press(Fixture *fixture, const char *keys)
+{
+    unsigned commands = 0;
+    for (; *keys != '\0'; keys++) {
+        const Event event = {.kind = EVENT_KEY, .key = *keys};
+        commands = state_apply(&fixture->state, &event, &fixture->facts);
+    }
+    return commands;
+}
+
+static void happen(Fixture *fixture, EventKind kind, double right, double down)
+{
+    const Event event = {.kind = kind, .right = right, .down = down};
+    assert_int_equal(state_apply(&fixture->state, &event, &fixture->facts), 0);
+}
+
+static bool near(double a, double b)
+{
+    return fabs(a - b) < 1e-9;
+}
+
+static bool same_place(Vec3 a, Vec3 b)
+{
+    return vec3_extent(vec3_sub(a, b)) < 1e-12;
+}
+
+static void the_courses_cameras_are_on_the_courses_orbits(void **state)
+{
+    (void)state;
+    static const double orbits[6][3] = {{-40, 25, 6.5}, {-27.5, -30.5, 2}, {-73.8, 37, 3.8},
+                                        {46.2, 0, 6.2}, {-35, 172.8, 2.8}, {-80.3, 27, 1.1}};
+    Fixture fixture = opened("");
+    for (int view = 0; view < 6; view++) {
+        press(&fixture, (char[]){(char)('1' + view), '\0'});
+        assert_int_equal(fixture.state.view, view + 1);
+        assert_true(near(fixture.state.orbit.azimuth, orbits[view][0]));
+        assert_true(near(fixture.state.orbit.rotation, orbits[view][1]));
+        assert_true(near(fixture.state.orbit.distance, orbits[view][2]));
+    }
+    scene_free(&fixture.scene);
+}
+
+static void a_camera_that_has_not_moved_is_the_scenes_to_the_bit(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    press(&fixture, "3");
+    assert_memory_equal(&fixture.state.camera, &fixture.scene.viewpoints.data[2],
+                        sizeof fixture.state.camera);
+    scene_free(&fixture.scene);
+}
+
+static void an_orbit_gives_back_the_camera_it_was_made_of(void **state)
+{
+    (void)state;
+    Fixture fixture =
+        opened("up 1 2 -3\ncamera 4 5 6  1 0 2  30\nup 0 -1 0\ncamera 9 1 1 0 0 0 50");
+    for (size_t view = 0; view < 2; view++) {
+        const Viewpoint *camera = &fixture.scene.viewpoints.data[view];
+        const Orbit orbit = orbit_of(camera, false);
+        const Viewpoint back = orbit_viewpoint(&orbit);
+        assert_true(same_place(back.eye, camera->eye) && same_place(back.up, camera->up));
+        assert_true(same_place(back.look_at, camera->look_at));
+        assert_true(back.fov_degrees == camera->fov_degrees);
+    }
+    scene_free(&fixture.scene);
+}
+
+static void dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    happen(&fixture, EVENT_TURN, 40, -20);
+    assert_true(near(fixture.state.orbit.rotation, 15) && near(fixture.state.orbit.azimuth, -35));
+    assert_true(fixture.state.moved);
+    happen(&fixture, EVENT_TURN, 0, 1000);
+    assert_true(near(fixture.state.orbit.azimuth, -89.99));
+    happen(&fixture, EVENT_TURN, 0, -5000);
+    assert_true(near(fixture.state.orbit.azimuth, 89.99));
+    scene_free(&fixture.scene);
+}
+
+static void zooming_keeps_to_the_courses_distances(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    happen(&fixture, EVENT_ZOOM, 0, 10);
+    assert_true(near(fixture.state.orbit.distance, 8));
+    happen(&fixture, EVENT_ZOOM, 0, -1000);
+    assert_true(near(fixture.state.orbit.distance, 0.5));
+    happen(&fixture, EVENT_ZOOM, 0, 10000);
+    assert_true(near(fixture.state.orbit.distance, 100));
+    happen(&fixture, EVENT_WHEEL, 0, 1);
+    assert_true(near(fixture.state.orbit.distance, 90));
+    scene_free(&fixture.scene);
+}
+
+static void scenes_of_any_size_zoom_alike(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("camera 6500 0 0  0 0 0  45");
+    happen(&fixture, EVENT_ZOOM, 0, 10);
+    assert_true(near(fixture.state.orbit.distance, 8000));
+    happen(&fixture, EVENT_ZOOM, 0, -1000);
+    assert_true(near(fixture.state.orbit.distance, 500));
+    scene_free(&fixture.scene);
+}
+
+static void every_switch_has_a_key_that_turns_it_back(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    press(&fixture, "rabBnho");
+    const State on = fixture.state;
+    assert_true(on.traced && on.smooth && !on.uses_bvh && on.boxes && on.normals && on.help);
+    assert_true(on.turning && on.text);
+    press(&fixture, "rabBnhot");
+    const State off = fixture.state;
+    assert_false(off.traced || off.smooth || !off.uses_bvh || off.boxes || off.normals);
+    assert_false(off.help || off.turning || off.text);
+    scene_free(&fixture.scene);
+}
+
+static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    press(&fixture, "]]");
+    assert_int_equal(fixture.state.level, 0); // no boxes are shown
+    press(&fixture, "B]]");
+    assert_int_equal(fixture.state.level, 2);
+    press(&fixture, "]]]]");
+    assert_int_equal(fixture.state.level, 3);
+    press(&fixture, "[");
+    assert_int_equal(fixture.state.level, 2);
+    press(&fixture, "[[[[");
+    assert_int_equal(fixture.state.level, 0);
+    press(&fixture, "]BB");
+    assert_int_equal(fixture.state.level, 0); // shown anew, they are the leaves
+    scene_free(&fixture.scene);
+}
+
+static void exposure_goes_by_half_stops(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    assert_true(state_gain(&fixture.state) == 1);
+    press(&fixture, "++");
+    assert_true(state_gain(&fixture.state) == 2);
+    press(&fixture, "------");
+    assert_true(state_gain(&fixture.state) == 0.25);
+    press(&fixture, "====");
+    assert_true(state_gain(&fixture.state) == 1);
+    scene_free(&fixture.scene);
+}
+
+static void commands_are_given_and_change_nothing(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    const State before = fixture.state;
+    assert_int_equal(press(&fixture, "c"), COMMAND_CAMERA);
+    assert_int_equal(press(&fixture, "s"), COMMAND_SAVE);
+    assert_int_equal(press(&fixture, "R"), COMMAND_RELOAD);
+    assert_int_equal(press(&fixture, "q"), COMMAND_QUIT);
+    assert_int_equal(press(&fixture, "\033"), COMMAND_QUIT);
+    assert_int_equal(press(&fixture, "zZ7"), 0);
+    assert_memory_equal(&before, &fixture.state, sizeof before);
+    scene_free(&fixture.scene);
+}
+
+static void turning_moves_the_camera_with_time_alone(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    state_advance(&fixture.state, 1);
+    assert_false(fixture.state.moved);
+    press(&fixture, "o");
+    state_advance(&fixture.state, 1);
+    assert_true(near(fixture.state.orbit.rotation, 45));
+    scene_free(&fixture.scene);
+}
+
+static void a_scene_read_again_moves_only_a_camera_at_its_place(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("camera 5 0 0 0 0 0 45");
+    Fixture changed = opened("camera 7 0 0 0 0 0 45");
+    state_adopt(&fixture.state, &changed.facts);
+    assert_true(fixture.state.camera.eye.x == 7);
+    happen(&fixture, EVENT_TURN, 4, 0);
+    const Viewpoint moved = fixture.state.camera;
+    Fixture again = opened("camera 9 0 0 0 0 0 45");
+    again.facts.levels = 1;
+    press(&fixture, "B]]]");
+    state_adopt(&fixture.state, &again.facts);
+    assert_memory_equal(&moved, &fixture.state.camera, sizeof moved);
+    assert_int_equal(fixture.state.level, 1);
+    scene_free(&fixture.scene);
+    scene_free(&changed.scene);
+    scene_free(&again.scene);
+}
+
+static void the_printed_camera_is_read_back_to_the_bit(void **state)
+{
+    (void)state;
+    char text[WORDS_SIZE];
+    Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
+    happen(&fixture, EVENT_TURN, 17, 31);
+    words_camera(text, sizeof text, &fixture.state);
+    assert_memory_equal(text, "azimuth ", 8);
+    Fixture back = opened(strchr(text, '\n'));
+    assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
+    scene_free(&fixture.scene);
+    scene_free(&back.scene);
+}
+
+static void the_title_tells_view_and_progress(void **state)
+{
+    (void)state;
+    char text[256];
+    Fixture fixture = opened("");
+    Figures figures = {.scene_name = "a.scn", .busy = "", .notice = "", .failure = ""};
+    words_title(text, sizeof text, &fixture.state, &figures);
+    assert_string_equal(text, "a.scn - OpenGL - clrt");
+    press(&fixture, "r");
+    figures.progress = 0.375;
+    words_title(text, sizeof text, &fixture.state, &figures);
+    assert_string_equal(text, "a.scn - ray traced - clrt - 38 %");
+    figures.is_finished = true;
+    words_title(text, sizeof text, &fixture.state, &figures);
+    assert_string_equal(text, "a.scn - ray traced - clrt");
+    scene_free(&fixture.scene);
+}
+
+static void the_overlay_tells_figures_failures_and_help(void **state)
+{
+    (void)state;
+    char text[WORDS_SIZE];
+    Fixture fixture = opened("");
+    Figures figures = {.samples = 2,
+                       .divisor = 2,
+                       .frame_seconds = 0.0123,
+                       .has_counts = true,
+                       .rays = 1000,
+                       .tests_per_ray = 2.5,
+                       .busy = "",
+                       .notice = "saved",
+                       .failure = "a.scn:1: bad"};
+    press(&fixture, "rah");
+    words_overlay(text, sizeof text, &fixture.state, &figures);
+    assert_non_null(strstr(text, "ray traced, view 1, AA 2x2, BVH on, azimuth -40.00"));
+    assert_non_null(strstr(text, "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests a ray"));
+    assert_non_null(strstr(text, "\nsaved\na.scn:1: bad\n"));
+    assert_non_null(strstr(text, words_help()));
+    char small[16];
+    words_overlay(small, sizeof small, &fixture.state, &figures);
+    assert_string_equal(small, "ray traced, vie"); // what does not fit is cut off
+    scene_free(&fixture.scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_courses_cameras_are_on_the_courses_orbits),
+        cmocka_unit_test(a_camera_that_has_not_moved_is_the_scenes_to_the_bit),
+        cmocka_unit_test(an_orbit_gives_back_the_camera_it_was_made_of),
+        cmocka_unit_test(dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole),
+        cmocka_unit_test(zooming_keeps_to_the_courses_distances),
+        cmocka_unit_test(scenes_of_any_size_zoom_alike),
+        cmocka_unit_test(every_switch_has_a_key_that_turns_it_back),
+        cmocka_unit_test(levels_go_from_the_leaves_to_the_deepest_inner_nodes),
+        cmocka_unit_test(exposure_goes_by_half_stops),
+        cmocka_unit_test(commands_are_given_and_change_nothing),
+        cmocka_unit_test(turning_moves_the_camera_with_time_alone),
+        cmocka_unit_test(a_scene_read_again_moves_only_a_camera_at_its_place),
+        cmocka_unit_test(the_printed_camera_is_read_back_to_the_bit),
+        cmocka_unit_test(the_title_tells_view_and_progress),
+        cmocka_unit_test(the_overlay_tells_figures_failures_and_help),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
