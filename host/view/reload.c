@@ -19,16 +19,17 @@ static bool add_folder(Reload *reload, const char *path, Error *error)
 bool reload_follow(Reload *reload, const Scene *scene, const char *path, bool has_failed,
                    Error *error)
 {
-    watch_clear(&reload->scene);
+    watch_begin(&reload->scene);
     bool ok = watch_add(&reload->scene, path, error);
     for (size_t i = 0; ok && scene != NULL && i < scene->inputs.count; i++)
         ok = watch_add(&reload->scene, scene->inputs.data[i], error);
-    return ok && (!has_failed || add_folder(reload, path, error));
+    ok = ok && (!has_failed || add_folder(reload, path, error));
+    watch_end(&reload->scene);
+    return ok;
 }
 
 bool reload_follow_kernels(Reload *reload, const char *folder, Error *error)
 {
-    watch_clear(&reload->kernels);
     return folder == NULL || watch_add(&reload->kernels, folder, error);
 }
 
@@ -43,6 +44,6 @@ unsigned reload_look(Reload *reload, double now)
 
 void reload_free(Reload *reload)
 {
-    watch_clear(&reload->scene);
-    watch_clear(&reload->kernels);
+    watch_free(&reload->scene);
+    watch_free(&reload->kernels);
 }

@@ -206,10 +206,12 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {settings->scene_path, &viewer->settings.tracer, &viewer->canvas,
                                window_wake};
-    viewer->worker = worker_start(&setup, &viewer->wish, error);
     ViewerEnd end = VIEWER_NO_DEVICE;
-    if (viewer->worker != NULL &&
+    // What changes while it is read the first time has changed.
+    if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&
         reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
+        viewer->worker = worker_start(&setup, &viewer->wish, error);
+    if (viewer->worker != NULL)
         end = show(viewer, error);
     close_viewer(viewer);
     return end;

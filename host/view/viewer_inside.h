@@ -38,6 +38,7 @@ typedef struct {
     Error failure;         // of the window's own doings
     char notice[SAVER_TEXT_SIZE];
     char told[STATE_SIZE], title[STATE_SIZE]; // the latest state told, and the window's title
+    char told_failure[STATE_SIZE];
     bool is_dirty, quits;
 } Viewer;
 

@@ -90,6 +90,18 @@ static void tell_state(Viewer *viewer, const Figures *figures)
     memcpy(viewer->told, text, sizeof text);
 }
 
+// A failure, when it is new; the overlay goes on showing it.
+static void tell_failure(Viewer *viewer, const Figures *figures)
+{
+    char text[STATE_SIZE];
+    snprintf(text, sizeof text, "%s", figures->failure);
+    if (strcmp(text, viewer->told_failure) == 0)
+        return;
+    if (text[0] != '\0')
+        fprintf(stderr, "clrt: %s\n", text);
+    memcpy(viewer->told_failure, text, sizeof text);
+}
+
 // Frames of a moving camera are timed and counted, those that show it at a new place.
 static bool is_new_frame(const Viewer *viewer)
 {
@@ -121,8 +133,9 @@ bool viewer_draw(Viewer *viewer, Error *error)
     const Figures figures = figures_of(viewer);
     draw_text(viewer, &figures);
     tell_title(viewer, &figures);
-    tell_state(viewer, &figures);
     window_show(&viewer->window);
+    tell_state(viewer, &figures);
+    tell_failure(viewer, &figures);
     count_frame(viewer, was_settled);
     return true;
 }

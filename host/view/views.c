@@ -6,7 +6,7 @@
 #include "image/encode.h"
 #include "view/normals.h"
 
-static const float blue[3] = {0.1f, 0.3f, 1}, red[3] = {1, 0.1f, 0.05f};
+static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 
 bool views_open(Views *views, Error *error)
 {
@@ -87,7 +87,8 @@ static void draw_scene(Views *views, const Frame *frame, const Lens *lens)
 {
     const Tone tone = tone_of(frame);
     // Away from the eye, so that lines on a surface are before it.
-    glEnable(GL_POLYGON_OFFSET_FILL);
+    if (frame->state->boxes || frame->state->normals)
+        glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);
     triangle_view_draw(&views->triangles, frame->model, lens, &tone);
     glDisable(GL_POLYGON_OFFSET_FILL);

@@ -10,26 +10,6 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
-void watch_clear(Watch *watch)
-{
-    for (size_t i = 0; i < watch->paths.count; i++)
-        free(watch->paths.data[i]);
-    free(watch->paths.memory);
-    *watch = (Watch){.is_first = true};
-}
-
-bool watch_add(Watch *watch, const char *path, Error *error)
-{
-    const size_t size = strlen(path) + 1;
-    char *copy = memory_raw(size, 1, error);
-    if (copy == NULL || !array_push(&watch->paths, copy, error)) {
-        free(copy);
-        return false;
-    }
-    memcpy(copy, path, size);
-    return true;
-}
-
 // A file that is not there looks like nothing, which is a look too.
 static uint64_t look_of(const struct stat *status)
 {
@@ -62,20 +42,73 @@ static uint64_t look_at(const char *path)
     return S_ISDIR(status.st_mode) ? look_inside(path) : look_of(&status);
 }
 
+void watch_begin(Watch *watch)
+{
+    for (size_t i = 0; i < watch->files.count; i++)
+        watch->files.data[i].is_stale = true;
+}
+
+static Watched *find_file(Watch *watch, const char *path)
+{
+    for (size_t i = 0; i < watch->files.count; i++)
+        if (strcmp(watch->files.data[i].path, path) == 0)
+            return &watch->files.data[i];
+    return NULL;
+}
+
+bool watch_add(Watch *watch, const char *path, Error *error)
+{
+    Watched *known = find_file(watch, path);
+    if (known != NULL) {
+        known->is_stale = false;
+        return true;
+    }
+    const size_t size = strlen(path) + 1;
+    const Watched file = {.path = memory_raw(size, 1, error), .accepted = look_at(path)};
+    if (file.path == NULL || !array_push(&watch->files, file, error)) {
+        free(file.path);
+        return false;
+    }
+    memcpy(file.path, path, size);
+    return true;
+}
+
+void watch_end(Watch *watch)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < watch->files.count; i++) {
+        if (watch->files.data[i].is_stale)
+            free(watch->files.data[i].path);
+        else
+            watch->files.data[kept++] = watch->files.data[i];
+    }
+    watch->files.count = kept;
+}
+
 bool watch_look(Watch *watch)
 {
-    uint64_t now = 0;
-    for (size_t i = 0; i < watch->paths.count; i++) {
-        const uint64_t pair[] = {now, look_at(watch->paths.data[i])};
-        now = XXH3_64bits(pair, sizeof pair);
+    uint64_t all = 0;
+    bool differs = false;
+    for (size_t i = 0; i < watch->files.count; i++) {
+        Watched *file = &watch->files.data[i];
+        file->seen = look_at(file->path);
+        const uint64_t pair[] = {all, file->seen};
+        all = XXH3_64bits(pair, sizeof pair);
+        differs = differs || file->seen != file->accepted;
     }
-    if (watch->is_first)
-        watch->accepted = now;
-    watch->is_first = false;
-    const bool stood_still = now == watch->seen;
-    watch->seen = now;
-    if (!stood_still || now == watch->accepted)
+    const bool stood_still = all == watch->seen;
+    watch->seen = all;
+    if (!stood_still || !differs)
         return false;
-    watch->accepted = now;
+    for (size_t i = 0; i < watch->files.count; i++)
+        watch->files.data[i].accepted = watch->files.data[i].seen;
     return true;
+}
+
+void watch_free(Watch *watch)
+{
+    watch_begin(watch);
+    watch_end(watch);
+    free(watch->files.memory);
+    *watch = (Watch){0};
 }

@@ -8,15 +8,25 @@
 #include <stdint.h>
 
 typedef struct {
-    ARRAY(char *) paths;     // of files, and of folders for what is in them; owned
-    uint64_t accepted, seen; // how they looked when they were last told of, and last time
-    bool is_first;           // they have not been looked at
+    char *path;        // of a file, or of a folder for what is in it; owned
+    uint64_t accepted; // how it looked when it was last told of
+    uint64_t seen;     // and last time
+    bool is_stale;
+} Watched;
+
+typedef struct {
+    ARRAY(Watched) files;
+    uint64_t seen; // how all of them looked last time
 } Watch;
 
-// Empties the watch and then adds to it.  Its files are as they should be when it first looks.
-void watch_clear(Watch *watch);
+// Says what is to be watched from now on: between the two, all that is still wanted is added.  What
+// was watched before is compared with what was last told of it, so that no change is lost.
+void watch_begin(Watch *watch);
 bool watch_add(Watch *watch, const char *path, Error *error);
+void watch_end(Watch *watch);
 
-// Looks at the files; true once where they have changed since the time before and then stood
-// still, so that none is read while it is written.
+// Looks at the files; true once where they have changed and then stood still from one look to the
+// next, so that none is read while it is written.
 bool watch_look(Watch *watch);
+
+void watch_free(Watch *watch);

@@ -183,7 +183,6 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/file", folder);
     write_text(path, "one");
-    watch_clear(&watch);
     assert_true(watch_add(&watch, path, &error) && watch_add(&watch, folder, &error));
     for (int look = 0; look < 3; look++)
         assert_false(watch_look(&watch));
@@ -197,7 +196,29 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     write_text(path, "two");
     assert_false(watch_look(&watch));
     assert_true(watch_look(&watch));
-    watch_clear(&watch);
+    watch_free(&watch);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void watching_other_files_too_loses_no_change(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
+    Watch watch = {0};
+    Error error = {0};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/file", folder);
+    write_text(path, "one");
+    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, "gone", &error));
+    set_time(path, 1);
+    watch_begin(&watch);
+    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, "other", &error));
+    watch_end(&watch);
+    assert_int_equal(watch.files.count, 2);
+    assert_false(watch_look(&watch));
+    assert_true(watch_look(&watch));
+    watch_free(&watch);
     unlink(path);
     rmdir(folder);
 }
@@ -210,13 +231,12 @@ static void a_folder_is_watched_for_what_is_in_it(void **state)
     Error error = {0};
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/file", folder);
-    watch_clear(&watch);
     assert_true(watch_add(&watch, folder, &error));
     assert_false(watch_look(&watch));
     write_text(path, "new");
     assert_false(watch_look(&watch));
     assert_true(watch_look(&watch));
-    watch_clear(&watch);
+    watch_free(&watch);
     unlink(path);
     rmdir(folder);
 }
@@ -264,6 +284,7 @@ int main(void)
         cmocka_unit_test(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes),
         cmocka_unit_test(frames_count_once_all_keys_are_played),
         cmocka_unit_test(changed_files_are_told_once_and_when_they_stand_still),
+        cmocka_unit_test(watching_other_files_too_loses_no_change),
         cmocka_unit_test(a_folder_is_watched_for_what_is_in_it),
         cmocka_unit_test(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place),
     };

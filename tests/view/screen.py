@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: MIT
+"""A display of the tests' own, what it shows, and clrt's window on it, driven by real events."""
+
+import array
+import mmap
+import os
+import pathlib
+import queue
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
+PATIENCE = 60  # seconds that anything may take: kernels may have to be compiled
+
+
+def pass_over(reason):
+    print(f"passed over: {reason}")
+    sys.exit(0)
+
+
+def require_tools():
+    for tool in ("Xvfb", "xdotool"):
+        if shutil.which(tool) is None:
+            pass_over(f"{tool} is not installed")
+
+
+class Screen:
+    """An X server that keeps what it shows in a file."""
+
+    def __init__(self, width=1024, height=768):
+        require_tools()
+        self.folder = tempfile.TemporaryDirectory()
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-fbdir", self.folder.name, "-nolisten", "tcp", "-noreset",
+             "-screen", "0", f"{width}x{height}x24"],
+            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.name = ":" + number.readline().strip()
+        with open(f"{self.folder.name}/Xvfb_screen0", "rb") as file:
+            self.memory = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)
+        header = struct.unpack(">25I", self.memory[:100])
+        self.stride, colors = header[12], header[19]
+        self.start = header[0] + 12 * colors
+
+    def environment(self):
+        return {**os.environ, "DISPLAY": self.name, "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def read(self, width, height):
+        """The upper left corner's pixels as bytes: blue, green, red and one unused."""
+        rows = (self.start + row * self.stride for row in range(height))
+        return b"".join(self.memory[row:row + 4 * width] for row in rows)
+
+    def do(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment(), check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def close(self):
+        self.memory.close()
+        self.server.terminate()
+        self.server.wait()
+        self.folder.cleanup()
+
+
+class Window:
+    """clrt showing a scene.  -v makes it tell its state once nothing moves any more."""
+
+    def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
+        self.screen, self.size = screen, size
+        command = [os.environ["CLRT"], str(scene), "-v", "-s", f"{size[0]}x{size[1]}", *options]
+        self.process = subprocess.Popen(command, env=screen.environment(), cwd=folder, text=True,
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE)
+        self.lines = queue.Queue()
+        self.told = []
+        threading.Thread(target=self._listen, daemon=True).start()
+        screen.do("mousemove", size[0] // 2, size[1] // 2)
+
+    def _listen(self):
+        for line in self.process.stderr:
+            self.lines.put(line.rstrip("\n"))
+        self.lines.put(None)
+
+    def wait(self, *parts):
+        """The next line told that holds all the parts."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                line = self.lines.get(timeout=max(end - time.monotonic(), 0.001))
+            except queue.Empty:
+                line = None
+            if line is None:
+                raise AssertionError(f"no line with {parts} after {self.told[-3:]}")
+            self.told.append(line)
+            if all(part in line for part in parts):
+                return line
+
+    def press(self, key, *parts):
+        """Presses a key and waits for a state with these parts."""
+        self.screen.do("key", key)
+        return self.wait(*parts) if parts else None
+
+    def drag(self, button, right, down):
+        x, y = self.size[0] // 2, self.size[1] // 2
+        self.screen.do("mousemove", x, y, "mousedown", button, "mousemove", x + right, y + down,
+                       "mouseup", button)
+
+    def read(self):
+        """What the window shows once it stands still."""
+        shown = None
+        while True:
+            before, shown = shown, self.screen.read(*self.size)
+            if before == shown:
+                return shown
+            time.sleep(0.05)
+
+    def until(self, condition, what):
+        """What the window shows once that meets the condition."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            shown = self.screen.read(*self.size)
+            if condition(shown):
+                return shown
+            time.sleep(0.02)
+        raise AssertionError(f"the window never {what}")
+
+    def close(self, code=0):
+        self.screen.do("key", "q")
+        self.end(code)
+
+    def end(self, code=0):
+        found = self.process.wait(PATIENCE)
+        assert found == code, f"exit {found} instead of {code}: {self.told[-3:]}"
+
+
+def render(scene, *options, size=(320, 240)):
+    """What -o writes, as bytes of blue, green and red, rounded as files of 8 bits are."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = f"{folder}/picture.pfm"
+        subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", f"{size[0]}x{size[1]}",
+                        "-o", path, *options], check=True)
+        return planes_of_pfm(pathlib.Path(path).read_bytes(), size)
+
+
+def planes_of_pfm(content, size):
+    values = array.array("f", content[-12 * size[0] * size[1]:])
+    bytes_up = bytes(int(value * 255 + 0.5) for value in values)
+    width = 3 * size[0]
+    rows = [bytes_up[row * width:(row + 1) * width] for row in range(size[1])]
+    down = b"".join(reversed(rows))
+    return down[2::3], down[1::3], down[0::3]
+
+
+def planes_of(shown):
+    """The same of what a window shows."""
+    return shown[0::4], shown[1::4], shown[2::4]
+
+
+def count_pixels(shown, wanted):
+    """How many pixels (red, green, blue) are wanted ones."""
+    blue, green, red = planes_of(shown)
+    return sum(1 for color in zip(red, green, blue) if wanted(*color))
+
+
+def is_red(red, green, blue):
+    return red == 255 and green == 26 and blue == 13
+
+
+def is_blue(red, green, blue):
+    return red == 26 and green == 77 and blue == 255
+
+
+def run_tests(tests, screen):
+    """Runs the functions, whose names say what must hold; those named on the command line alone,
+    where there are any."""
+    failures = 0
+    named = [test for test in tests if test.__name__ in sys.argv[1:]]
+    for test in named or tests:
+        start = time.monotonic()
+        try:
+            test(screen)
+            print(f"{time.monotonic() - start:6.2f} s  {test.__name__}", flush=True)
+        except AssertionError as fault:
+            failures += 1
+            print(f"FAILED   {test.__name__}: {fault}", flush=True)
+    screen.close()
+    sys.exit(1 if failures else 0)

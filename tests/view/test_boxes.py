@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The boxes of a level are as many as the tree has nodes there: told by the window, counted in its
+picture, and written as statistics.  Usage: CLRT=path/to/clrt test_boxes.py"""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+from screen import COURSE, ROOT, Screen, Window, is_blue, is_red, planes_of, run_tests
+
+SIDE = 4  # clusters a side of the scene made here
+
+
+def statistics(scene, *options):
+    done = subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "8x8", "-o", "/dev/null",
+                           "--format", "pfm", "--stats=-", *options], check=True,
+                          capture_output=True, text=True)
+    return json.loads(done.stdout)["bvh"]
+
+
+def check_counts(screen, scene, *options):
+    """Level by level, played as keys."""
+    tree = statistics(scene, *options)
+    inner = tree["inner_nodes"]
+    window = Window(screen, scene, "--keys", "B" + "]" * len(inner), "--quit-after", "1", *options)
+    window.wait(f"boxes of leaves: {tree['leaves']},")
+    for level, count in enumerate(inner, start=1):
+        window.wait(f"boxes at level {level}: {count},")
+    window.end()
+    assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"
+    return inner, tree["leaves"]
+
+
+def counts_agree_with_statistics(screen):
+    scenes = [(ROOT / "scenes" / "simple.scn", ["--bvh", "midpoint"]),
+              (ROOT / "scenes" / "simple.scn", ["--nodes", "pair"])]
+    if COURSE.is_dir():
+        scenes += [(COURSE / "scenes" / "cow.scn", []), (COURSE / "scenes" / "buddha.scn", [])]
+    else:
+        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+    for scene, options in scenes:
+        inner, leaves = check_counts(screen, scene, *options)
+        print(f"         {scene.stem} {options}: {leaves} leaves, inner nodes {inner}")
+
+
+def write_clusters(folder):
+    """Small groups of triangles with gaps between them, in a plane seen from above."""
+    corners, faces = [], []
+    for cluster in range(SIDE * SIDE):
+        # Gaps of several sizes: else nothing tells in which order to divide.
+        x, y = (place + 0.05 * place * place for place in divmod(cluster, SIDE))
+        for part in range(6):
+            first = len(corners)
+            corners += [(x + 0.1 * part, y, 0), (x + 0.1 * part + 0.03, y, 0),
+                        (x + 0.1 * part, y + 0.5, 0)]
+            faces.append((first, first + 1, first + 2))
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(corners)}", "property float x",
+             "property float y", "property float z", f"element face {len(faces)}",
+             "property list uchar int vertex_indices", "end_header"]
+    lines += [f"{x} {y} {z}" for x, y, z in corners] + [f"3 {a} {b} {c}" for a, b, c in faces]
+    (folder / "clusters.ply").write_text("\n".join(lines) + "\n")
+    (folder / "clusters.scn").write_text("background 1 1 1\nmaterial 1\nply_file clusters.ply\n"
+                                         "up 0 1 0\ncamera 2 2 6  2 2 0  45\n")
+    return folder / "clusters.scn"
+
+
+def count_shapes(shown, size, wanted):
+    """Connected groups of wanted pixels, corners touching included."""
+    blue, green, red = planes_of(shown)
+    left = {place for place, color in enumerate(zip(red, green, blue)) if wanted(*color)}
+    steps = [right + down * size[0] for right in (-1, 0, 1) for down in (-1, 0, 1)]
+    shapes = 0
+    while left:
+        shapes += 1
+        waiting = [left.pop()]
+        while waiting:
+            place = waiting.pop()
+            for step in steps:
+                if place + step in left:
+                    left.remove(place + step)
+                    waiting.append(place + step)
+    return shapes
+
+
+def as_many_boxes_are_seen_as_are_told(screen):
+    size = (600, 600)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = write_clusters(pathlib.Path(folder))
+        for options in ([], ["--bvh", "midpoint"]):
+            tree = statistics(scene, *options)
+            window = Window(screen, scene, *options, size=size)
+            window.wait("OpenGL, view 1")
+            window.press("t", "text off")
+            window.press("B", f"boxes of leaves: {tree['leaves']},")
+            seen = count_shapes(window.read(), size, is_blue)
+            assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"
+            for level, count in enumerate(tree["inner_nodes"], start=1):
+                window.press("bracketright", f"boxes at level {level}: {count},")
+                seen = count_shapes(window.read(), size, is_red)
+                assert seen == count, f"level {level}: {seen} boxes are seen, {count} are there"
+            window.press("bracketright")
+            window.close()
+            print(f"         {options}: {tree['leaves']} leaves, inner {tree['inner_nodes']} seen")
+
+
+if __name__ == "__main__":
+    run_tests([counts_agree_with_statistics, as_many_boxes_are_seen_as_are_told], Screen())

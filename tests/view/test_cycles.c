@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Opens and closes the viewer again and again in one process, whose memory, files and threads must
+// not grow.  In builds with AddressSanitizer every byte is asked for at the end.
+#include "device/cache.h"
+#include "unit/cmocka_all.h"
+#include "view/viewer.h"
+
+#include <dirent.h>
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define CYCLES     200
+#define WARMING_UP 20 // cycles after which drivers have all they keep
+
+// What PoCL keeps of every kernel it makes; a picture of the windows here takes twice as much.
+#define BYTES_A_CYCLE 32768
+
+static Cache cache;
+
+// Drivers stay loaded, so that the sanitizer can tell whose a block is.
+int dlclose(void *handle)
+{
+    (void)handle;
+    return 0;
+}
+
+static void show_once(const char *keys)
+{
+    Error error = {0};
+    const ViewerSettings settings = {.scene_path = CLRT_SOURCE_FOLDER "/scenes/simple.scn",
+                                     .view = 1,
+                                     .width = 64,
+                                     .height = 64,
+                                     .samples = 2,
+                                     .uses_bvh = true,
+                                     .tracer = {.threads = 2, .max_level = -1, .cache = &cache},
+                                     .keys = keys,
+                                     .quit_after = 1,
+                                     .patience = 60};
+    if (viewer_run(&settings, &error) != VIEWER_CLOSED)
+        fail_msg("%s", error.text);
+}
+
+static int count_entries(const char *folder)
+{
+    int count = 0;
+    DIR *entries = opendir(folder);
+    assert_non_null(entries);
+    while (readdir(entries) != NULL)
+        count++;
+    closedir(entries);
+    return count;
+}
+
+typedef struct {
+    size_t bytes;
+    int files, threads;
+} Usage;
+
+static Usage measure(void)
+{
+    const struct mallinfo2 memory = mallinfo2();
+    return (Usage){memory.uordblks + memory.hblkhd, count_entries("/proc/self/fd"),
+                   count_entries("/proc/self/task")};
+}
+
+static void two_hundred_windows_leave_nothing_behind(void **state)
+{
+    (void)state;
+    Usage before = {0};
+    for (int cycle = 0; cycle < CYCLES; cycle++) {
+        show_once(cycle % 2 == 0 ? "" : "rB");
+        if (cycle == WARMING_UP)
+            before = measure();
+    }
+    const Usage after = measure();
+    const double growth = (double)after.bytes - (double)before.bytes;
+    print_message("%.0f bytes a cycle, %d files, %d threads\n", growth / (CYCLES - 1 - WARMING_UP),
+                  after.files, after.threads);
+    assert_int_equal(after.files, before.files);
+    assert_int_equal(after.threads, before.threads);
+    assert_true(growth / (CYCLES - 1 - WARMING_UP) < BYTES_A_CYCLE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_hundred_windows_leave_nothing_behind),
+    };
+    cache_open(&cache);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

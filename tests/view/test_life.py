@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Large scenes open, move and close; a window closed while it traces is gone at once; pictures for
+files never touch a display.  Usage: CLRT=path/to/clrt test_life.py"""
+
+import os
+import pathlib
+import socket
+import subprocess
+import tempfile
+import time
+
+from screen import ROOT, Screen, Window, planes_of, render, run_tests
+
+LARGE = ROOT / "scenes" / "models" / "coral.ply"
+GONE_SECONDS = 0.1
+
+
+def write_large(folder):
+    scene = folder / "large.scn"
+    scene.write_text(f"material 1\nlight 9 -4 10 0.7\nsides two\nmesh {LARGE.resolve()}\n"
+                     "camera 2 -3 1.5  0 0 0.4  30\n")
+    return scene
+
+
+def a_million_triangles_open_orbit_and_close(screen):
+    if not LARGE.exists():
+        print("passed over: scenes/models/coral.ply has not been made")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        scene = write_large(pathlib.Path(folder))
+        window = Window(screen, scene, size=(400, 300))
+        start = time.monotonic()
+        window.wait("OpenGL, view 1")
+        print(f"         opened after {time.monotonic() - start:.2f} s")
+        window.press("t", "text off")
+        for mode in ("OpenGL", "ray traced"):
+            before = window.read()
+            window.drag(1, 30, 10)
+            window.wait(mode, "moved")
+            assert window.read() != before, f"{mode}: nothing moves"
+            window.press("1", mode, "view 1,")
+            window.press("r")
+            window.wait("view 1,")
+        window.press("r", "ray traced")
+        expected = render(scene, size=(400, 300))
+        window.until(lambda shown: planes_of(shown) == expected, "shows what -o writes")
+        window.close()
+
+
+def close_while_it_traces(screen, scene, *options):
+    """Seconds from the key to the end of the process."""
+    window = Window(screen, scene, *options, size=(500, 400))
+    window.wait("OpenGL, view 1")
+    window.press("r")
+    time.sleep(1.5)
+    assert not any("ray traced" in line for line in list(window.lines.queue)), "it is finished"
+    screen.do("key", "q")
+    start = time.monotonic()
+    window.end()
+    return time.monotonic() - start
+
+
+def a_window_closed_while_it_traces_is_gone_at_once(screen):
+    with tempfile.TemporaryDirectory() as folder:
+        cases = [(ROOT / "scenes" / "reflections.scn", ["--aa=64"])]
+        if LARGE.exists():
+            cases.append((write_large(pathlib.Path(folder)), ["--no-bvh"]))
+        for scene, options in cases:
+            seconds = close_while_it_traces(screen, scene, *options)
+            print(f"         {scene.stem} {options}: gone after {1e3 * seconds:.0f} ms")
+            assert seconds < GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
+
+
+def camera_moves_while_a_picture_is_traced(screen):
+    """The first pictures of a moved camera come long before the picture would be finished."""
+    window = Window(screen, ROOT / "scenes" / "reflections.scn", "--aa=64", size=(500, 400))
+    window.wait("OpenGL, view 1")
+    window.press("t", "text off")
+    window.press("r")
+    before = window.until(lambda shown: len(set(shown[1::4])) > 100, "shows a picture")
+    for step in range(5):
+        start = time.monotonic()
+        window.drag(1, 20, 3)
+        before = window.until(lambda shown, last=before: shown != last, "follows the mouse")
+        seconds = time.monotonic() - start
+        assert seconds < 1, f"drag {step} is seen after {seconds:.2f} s"
+    screen.do("key", "q")
+    window.end()
+
+
+def a_minimised_and_a_tiny_window_go_on(screen):
+    window = Window(screen, ROOT / "scenes" / "reflections.scn")
+    window.wait("OpenGL, view 1")
+    window.press("t", "text off")
+    window.press("r", "ray traced")
+    before = window.read()
+    screen.do("search", "--name", "clrt", "windowunmap", "--sync")
+    screen.do("search", "--name", "clrt", "windowmap", "--sync")
+    window.until(lambda shown: shown == before, "comes back")
+    window.size = (7, 3)
+    screen.do("search", "--name", "clrt", "windowsize", *window.size)
+    window.wait("7x3")
+    screen.do("mousemove", 1, 1)
+    window.close()
+
+
+def o_never_touches_the_display(_):
+    """A display that nobody serves, but counts who comes."""
+    with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_INET) as door:
+        door.bind(("127.0.0.1", 0))
+        door.listen()
+        door.setblocking(False)
+        port = door.getsockname()[1]
+        if port < 6000:
+            print("passed over: no port that a display could have")
+            return
+        there = {**os.environ, "DISPLAY": f"127.0.0.1:{port - 6000}"}
+        words = [os.environ["CLRT"], str(ROOT / "scenes" / "simple.scn"), "-s", "8x8"]
+        subprocess.run([*words, "-q", "-o", f"{folder}/a.pfm"], env=there, check=True)
+        try:
+            door.accept()
+            raise AssertionError("-o knocks at the display")
+        except BlockingIOError:
+            pass
+        with subprocess.Popen(words, env=there, stderr=subprocess.DEVNULL) as window:
+            door.settimeout(20)
+            try:
+                door.accept()[0].close()  # the window does, so the count can be trusted
+            except TimeoutError as silence:
+                raise AssertionError("a window does not come to this display") from silence
+            finally:
+                window.kill()
+
+
+if __name__ == "__main__":
+    run_tests([a_million_triangles_open_orbit_and_close,
+               a_window_closed_while_it_traces_is_gone_at_once,
+               camera_moves_while_a_picture_is_traced, a_minimised_and_a_tiny_window_go_on,
+               o_never_touches_the_display], Screen())

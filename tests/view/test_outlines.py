@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""OpenGL and rays see the same outlines: where the two views of a scene whose objects each have a
+color of their own differ, an edge is at most two pixels away.  For every course scene and view, and
+clrt's own.  Usage: CLRT=path/to/clrt test_outlines.py"""
+
+import pathlib
+import tempfile
+
+from screen import COURSE, ROOT, Screen, Window, run_tests
+
+SIZE = (512, 512)
+NAMES = ("silhouette", "matte", "blinn_phong", "reflections", "simple", "cow", "buddha")
+OWN = ("simple", "reflections", "creature")
+FARTHEST = 2  # pixels from an edge
+ALL_ONES = int.from_bytes(b"\1" * (SIZE[0] * SIZE[1]), "little")
+
+
+def colored(path):
+    """The scene's text with a color for each object, which neither light nor mirrors change."""
+    lines, objects = ["background 0 0 0"], 0
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if not words or words[0] in ("material", "define", "background"):
+            continue
+        if words[0] in ("sphere", "ply_file", "mesh"):
+            objects += 1
+            red = (objects * 37 % 251 + 4) / 255
+            lines.append(f"define own{objects} silhouette diffuse {red:.9f} 0 0")
+            lines.append(f"material own{objects}")
+        if words[0] in ("ply_file", "mesh"):
+            words[1] = str((path.parent / words[1]).resolve())
+        lines.append(" ".join(words))
+    return "\n".join(lines) + "\n"
+
+
+def flags(number):
+    """1 in each byte that is not 0, as one number again."""
+    content = number.to_bytes(SIZE[0] * SIZE[1], "little")
+    return int.from_bytes(content.translate(b"\0" + b"\1" * 255), "little")
+
+
+def moved(number, right, down):
+    """The picture shifted by so many pixels; what comes in at the sides does no harm."""
+    places = 8 * (right + down * SIZE[0])
+    return (number << places if places >= 0 else number >> -places) & ALL_ONES
+
+
+def edges_of(labels):
+    """Pixels whose right or lower neighbor belongs to another object."""
+    return flags(labels ^ (labels >> 8)) | flags(labels ^ (labels >> 8 * SIZE[0]))
+
+
+def near(edges):
+    grown = 0
+    for right in range(-FARTHEST, FARTHEST + 1):
+        for down in range(-FARTHEST, FARTHEST + 1):
+            grown |= moved(edges, right, down)
+    return grown
+
+
+def compare(name, view, drawn, traced):
+    """Returns how many pixels differ; none of them may be far from an edge."""
+    drawn, traced = (int.from_bytes(shown[2::4], "little") for shown in (drawn, traced))
+    assert traced != 0 or view == "4", f"{name}, view {view}: nothing is seen"
+    apart = flags(drawn ^ traced)
+    far = apart & ~near(edges_of(traced))
+    assert far == 0, f"{name}, view {view}: {far.bit_count()} pixels far from any edge differ"
+    return apart.bit_count()
+
+
+def count_views(text):
+    return text.count("\ncamera ") or 6
+
+
+def agree(screen, path):
+    text = colored(path)
+    apart = []
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / path.name
+        scene.write_text(text)
+        window = Window(screen, scene, size=SIZE)
+        window.wait("OpenGL, view 1")
+        window.press("t", "text off")
+        for view in "123456"[:count_views(text)]:
+            if view != "1":
+                window.press(view, "OpenGL", f"view {view},")
+            drawn = window.read()
+            window.press("r", "ray traced")
+            traced = window.read()
+            window.press("r", "OpenGL")
+            apart.append(compare(path.stem, view, drawn, traced))
+        window.close()
+    print(f"         {path.stem}: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
+
+
+def outlines_agree_in_the_courses_scenes(screen):
+    if not COURSE.is_dir():
+        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+        return
+    for name in NAMES:
+        agree(screen, COURSE / "scenes" / f"{name}.scn")
+
+
+def outlines_agree_in_own_scenes(screen):
+    for name in OWN:
+        path = ROOT / "scenes" / f"{name}.scn"
+        if name == "creature" and not (ROOT / "scenes" / "models" / "creature.ply").exists():
+            print("passed over: scenes/models/creature.ply has not been made")
+            continue
+        agree(screen, path)
+
+
+if __name__ == "__main__":
+    run_tests([outlines_agree_in_the_courses_scenes, outlines_agree_in_own_scenes], Screen())

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The ray-traced window shows exactly the pixels that -o writes for the same camera.
+Usage: CLRT=path/to/clrt test_pixels.py"""
+
+import pathlib
+import struct
+import subprocess
+import tempfile
+import os
+import zlib
+
+from screen import COURSE, ROOT, Screen, Window, planes_of, render, run_tests
+
+SIZE = (512, 512)
+
+
+def expect_same(window, scene, *options):
+    expected = render(scene, *options, size=window.size)
+    window.until(lambda shown: planes_of(shown) == expected, f"shows what -o {options} writes")
+
+
+def opened(screen, scene, *options, **more):
+    window = Window(screen, scene, *options, **more)
+    window.wait("OpenGL, view 1")
+    window.press("t", "text off")
+    window.press("r", "ray traced", "AA off")
+    return window
+
+
+def every_view_of_the_courses_scenes_is_the_same(screen):
+    if not COURSE.is_dir():
+        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+        return
+    for name in ("blinn_phong", "reflections", "cow", "buddha"):
+        scene = COURSE / "scenes" / f"{name}.scn"
+        window = opened(screen, scene, size=SIZE)
+        for view in "123456":
+            window.press(view)
+            expect_same(window, scene, "--view", view)
+        window.close()
+
+
+def anti_aliased_pictures_are_the_same(screen):
+    scene = ROOT / "scenes" / "reflections.scn"
+    window = opened(screen, scene)
+    window.press("a", "AA 2x2")
+    expect_same(window, scene, "--aa")
+    window.close()
+
+
+def pictures_of_any_size_are_the_same(screen):
+    scene = ROOT / "scenes" / "reflections.scn"
+    window = opened(screen, scene, size=(301, 207))
+    expect_same(window, scene)
+    window.size = (407, 333)
+    screen.do("search", "--name", "clrt", "windowsize", *window.size)
+    window.wait("407x333")
+    expect_same(window, scene)
+    window.close()
+
+
+def a_moved_camera_prints_what_draws_the_same_picture(screen):
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "own.scn"
+        scene.write_text("material 3\nsphere 0 0 0.5 1\nsphere 1 1 0.5 0.6\nlight 9 -4 10 0.7\n")
+        window = opened(screen, scene)
+        window.drag(1, 33, -21)
+        window.wait("moved", "rotation 16.75")
+        window.press("c")
+        window.process.stdout.readline()
+        camera = window.process.stdout.readline()
+        printed = pathlib.Path(folder) / "printed.scn"
+        printed.write_text(scene.read_text() + camera)
+        expect_same(window, printed)
+        window.close()
+
+
+def options_that_change_the_picture_do_so_here(screen):
+    scene = ROOT / "scenes" / "reflections.scn"
+    for options in (["--max-level", "1"], ["--encode", "srgb"]):
+        plain = render(scene)
+        window = opened(screen, scene, *options)
+        window.until(lambda shown: planes_of(shown) != plain, f"is changed by {options}")
+        if "--max-level" in options:
+            expect_same(window, scene, *options)
+        window.close()
+
+
+def unfiltered(kind, row, above, step=3):
+    """A PNG's row without its filter."""
+    out = bytearray(row)
+    for i, value in enumerate(row):
+        left = out[i - step] if i >= step else 0
+        corner = above[i - step] if i >= step else 0
+        up = above[i]
+        guess = left + up - corner
+        paeth = min((abs(guess - near), order, near)
+                    for order, near in enumerate((left, up, corner)))[2]
+        out[i] = (value + (0, left, up, (left + up) // 2, paeth)[kind]) & 255
+    return bytes(out)
+
+
+def planes_of_png(content, size):
+    data, place = b"", 8
+    while place < len(content):
+        length, kind = struct.unpack(">I4s", content[place:place + 8])
+        data += content[place + 8:place + 8 + length] if kind == b"IDAT" else b""
+        place += 12 + length
+    raw, stride = zlib.decompress(data), 3 * size[0] + 1
+    rows, above = [], bytes(stride - 1)
+    for start in range(0, stride * size[1], stride):
+        above = unfiltered(raw[start], raw[start + 1:start + stride], above)
+        rows.append(above)
+    pixels = b"".join(rows)
+    return pixels[2::3], pixels[1::3], pixels[0::3]
+
+
+def common_end(one, other):
+    length = 0
+    while length < min(len(one), len(other)) and one[-1 - length] == other[-1 - length]:
+        length += 1
+    return length
+
+
+def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
+    scene, size = ROOT / "scenes" / "reflections.scn", (160, 120)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        window = opened(screen, scene, size=size, folder=folder)
+        window.press("s", "saved")
+        window.close()
+        if not (folder / "reflections-1.png").exists():
+            print("passed over: this build writes no PNG")
+            return
+        png = (folder / "reflections-1.png").read_bytes()
+        assert planes_of_png(png, size) == render(scene, size=size), "the PNG differs"
+        for ending in ("exr", "pfm"):
+            saved = folder / f"reflections-1.{ending}"
+            if saved.exists():
+                subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "160x120", "-o",
+                                str(folder / f"a.{ending}")], check=True)
+                # The texts at the start tell of different settings, the pixels behind are equal.
+                written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
+                same = common_end(written, found)
+                assert same > 0.9 * len(written), f"the .{ending} differs: {same} bytes are equal"
+
+
+if __name__ == "__main__":
+    run_tests([every_view_of_the_courses_scenes_is_the_same, anti_aliased_pictures_are_the_same,
+               pictures_of_any_size_are_the_same, a_moved_camera_prints_what_draws_the_same_picture,
+               options_that_change_the_picture_do_so_here,
+               saved_pictures_are_what_is_seen_and_what_was_traced], Screen())

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Scene, meshes and kernels are watched: what changes is shown anew, and what is wrong is said over
+the last good picture.  Usage: CLRT=path/to/clrt test_reload.py"""
+
+import os
+import pathlib
+import shutil
+import tempfile
+
+from screen import ROOT, Screen, Window, planes_of, render, run_tests
+
+
+def in_folder(test):
+    """Runs the test with a folder that is gone afterwards."""
+    def run(screen):
+        with tempfile.TemporaryDirectory() as name:
+            test(screen, pathlib.Path(name))
+    run.__name__ = test.__name__
+    return run
+
+
+def opened(screen, scene):
+    window = Window(screen, scene)
+    window.wait("OpenGL, view 1")
+    window.press("t", "text off")
+    window.press("r", "ray traced")
+    return window
+
+
+def expect(window, scene, what):
+    picture = render(scene)
+    window.until(lambda shown: planes_of(shown) == picture, what)
+
+
+def make_scene(folder):
+    shutil.copy(ROOT / "scenes" / "cone.ply", folder / "mesh.ply")
+    scene = folder / "one.scn"
+    scene.write_text("light 9 -4 10 0.7\nmaterial 1\nply_file mesh.ply\nsphere 0 0 0 1\n")
+    return scene
+
+
+@in_folder
+def a_changed_scene_is_shown_in_both_views(screen, folder):
+    scene = make_scene(folder)
+    window = opened(screen, scene)
+    expect(window, scene, "shows the first scene")
+    scene.write_text(scene.read_text() + "sphere 1 1 1 0.5\n")
+    expect(window, scene, "shows the second scene")
+    window.press("r", "OpenGL")
+    drawn = window.read()
+    scene.write_text(scene.read_text() + "sphere -1 -1 1 0.5\n")
+    window.until(lambda shown: shown != drawn, "shows the third scene by OpenGL")
+    window.close()
+
+
+@in_folder
+def a_scene_that_an_editor_replaces_is_shown(screen, folder):
+    scene = make_scene(folder)
+    window = opened(screen, scene)
+    other = folder / "other.scn"
+    other.write_text(scene.read_text() + "sphere 1 1 1 0.5\n")
+    other.rename(scene)
+    expect(window, scene, "shows the scene put in its place")
+    window.close()
+
+
+@in_folder
+def a_changed_mesh_is_shown(screen, folder):
+    scene = make_scene(folder)
+    window = opened(screen, scene)
+    shutil.copy(ROOT / "scenes" / "tetrahedron.ply", folder / "mesh.ply")
+    expect(window, scene, "shows the other mesh")
+    window.close()
+
+
+@in_folder
+def a_fault_is_told_over_the_last_good_picture(screen, folder):
+    scene = make_scene(folder)
+    window = opened(screen, scene)
+    before = window.read()
+    text = scene.read_text()
+    window.press("t", "text on")
+    line = window.read()
+    scene.write_text("spheer 0 0 0 1\n" + text)
+    window.wait("one.scn:1:1: unknown statement, perhaps 'sphere'")
+    told = window.until(lambda shown: shown != line, "tells of the fault")
+    below = 4 * 320 * 100
+    assert told[below:] == before[below:], "the picture is gone"
+    window.press("t", "text off")
+    assert window.read() == before, "the last good picture is gone"
+    window.drag(1, 20, 0)
+    window.wait("moved")
+    assert window.read() != before, "the camera does not move any more"
+    window.press("1", "view 1,")
+    scene.write_text(text + "sphere 1 1 1 0.5\n")
+    expect(window, scene, "shows the mended scene")
+    window.close()
+
+
+@in_folder
+def a_mesh_that_was_missing_is_found_when_it_comes(screen, folder):
+    scene = make_scene(folder)
+    window = opened(screen, scene)
+    window.press("t", "text on")
+    line = window.read()
+    scene.write_text(scene.read_text() + "ply_file late.ply\n")
+    window.wait("late.ply: cannot be opened")
+    window.until(lambda shown: shown != line, "tells that a mesh is missing")
+    window.press("t", "text off")
+    shutil.copy(ROOT / "scenes" / "tetrahedron.ply", folder / "late.ply")
+    expect(window, scene, "shows the mesh that came late")
+    window.close()
+
+
+@in_folder
+def changed_kernels_trace_the_next_picture(screen, folder):
+    kernels = folder / "kernels"
+    shutil.copytree(ROOT / "kernels", kernels)
+    scene = make_scene(folder)
+    os.environ["CLRT_KERNEL_DIR"] = str(kernels)
+    try:
+        window = opened(screen, scene)
+        before = window.read()
+        shade = kernels / "render.cl"
+        text = shade.read_text()
+        window.press("t", "text on")
+        line = window.read()
+        shade.write_text(text + "this is no kernel\n")
+        window.wait("clrt: the kernels")
+        window.until(lambda shown: shown != line, "tells that the kernels do not compile")
+        window.press("t", "text off")
+        assert window.read() == before, "the last good picture is gone"
+        dark = text.replace("rint(clamp(color, 0.0f, 1.0f)", "rint(clamp(0.5f * color, 0.0f, 1.0f)")
+        assert dark != text
+        shade.write_text(dark)
+        window.until(lambda shown: sum(shown[1::4]) < 0.6 * sum(before[1::4]), "is darker")
+        window.close()
+    finally:
+        del os.environ["CLRT_KERNEL_DIR"]
+
+
+if __name__ == "__main__":
+    run_tests([a_changed_scene_is_shown_in_both_views, a_scene_that_an_editor_replaces_is_shown,
+               a_changed_mesh_is_shown, a_fault_is_told_over_the_last_good_picture,
+               a_mesh_that_was_missing_is_found_when_it_comes,
+               changed_kernels_trace_the_next_picture], Screen())
