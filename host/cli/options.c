@@ -6,6 +6,7 @@
 #include "base/word.h"
 #include "cli/option_check.h"
 #include "cli/option_value.h"
+#include "cli/show.h"
 
 #include <assert.h>
 #include <getopt.h>
@@ -250,7 +251,7 @@ static const struct {
     {"warm", 0, NULL, read_warm,
      "compile the kernels ahead, and those for SCENE where one is named; draw nothing"},
     {"stats", 0, "[=FILE]", read_stats,
-     "count rays and tests; as JSON with a FILE (- is standard output)"},
+     "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
     {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
     {"keys", 0, "KEYS", read_keys,
      "press these keys in the window, each once the one before is shown"},
@@ -286,6 +287,7 @@ void options_write_help(FILE *stream)
                  table[i].argument == NULL ? "" : table[i].argument);
         fprintf(stream, "  %s%-20s %s\n", letter, name, table[i].help);
     }
+    show_write_keys(stream);
     fprintf(stream, "\nExit status: 0 done, 2 usage, 3 scene or mesh, 4 device, 5 output, "
                     "128 + signal when stopped.\n");
 }

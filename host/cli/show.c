@@ -5,11 +5,23 @@
 #ifdef CLRT_WITH_WINDOW
 #include "cli/threads.h"
 #include "view/viewer.h"
+#include "view/words.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 // A closed window is to be gone at once, unless everything is to be taken down.
 #define PATIENCE (CLRT_TIDY_EXIT ? 60 : 0.05)
+
+void show_write_keys(FILE *stream)
+{
+    fprintf(stream, "\nIn the window:\n");
+    for (const char *line = words_help(); line[0] != '\0';) {
+        const int length = (int)strcspn(line, "\n");
+        fprintf(stream, "  %.*s\n", length, line);
+        line += length + (line[length] == '\n');
+    }
+}
 
 ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
 {
@@ -43,6 +55,11 @@ ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
     return ends[viewer_run(&settings, error)];
 }
 #else
+void show_write_keys(FILE *stream)
+{
+    (void)stream;
+}
+
 ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
 {
     (void)options, (void)cache;

@@ -5,7 +5,7 @@
 #include "base/clock.h"
 
 // Between news of tiles, in seconds.
-#define WAKE_STEP 0.015
+#define WAKE_STEP 0.03
 
 // A pass that is being traced.
 typedef struct {

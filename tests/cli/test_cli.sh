@@ -46,8 +46,28 @@ differ() { ! cmp -s "$1" "$2"; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
 
 check "no arguments explain the usage" refuses 2 "no scene is named; clrt --help shows the usage"
-check "without -o there is no window and it says so" \
-  refuses 2 "this build has no window: write the picture with -o FILE" "$scene"
+if [ "${WINDOW:-}" = ON ]; then
+  no_window() {
+    env -u WAYLAND_DISPLAY DISPLAY=:12345 "$CLRT" "$scene" >out 2>err
+    [ $? = 2 ]
+  }
+  check "without a display there is no window" no_window
+  check "... and it says so" says "^clrt: no window can be opened (.*): write the picture with -o FILE$"
+  check "a format is for files" refuses 2 "--format is for files: give one with -o FILE" --format png "$scene"
+  check "repeated pictures are for files" \
+    refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
+  check "statistics in files are for files" \
+    refuses 2 "--stats=FILE is for files: give one with -o FILE" --stats=a.json "$scene"
+else
+  check "without -o there is no window and it says so" \
+    refuses 2 "this build has no window: write the picture with -o FILE" "$scene"
+fi
+check "keys are for the window" \
+  refuses 2 "--keys and --quit-after are for the window: leave out -o" --keys q "$scene" -o a.pfm
+check "frames to quit after are for the window" \
+  refuses 2 "--keys and --quit-after are for the window: leave out -o" --quit-after 1 "$scene" -o a.pfm
+check "frames to quit after are counted from 1" \
+  refuses 2 "--quit-after wants an integer between 1 and 1000000, not '0'" --quit-after 0 "$scene"
 check "an unknown option gets the nearest one" \
   refuses 2 "unknown option '--sise', perhaps --size" --sise 4x4 "$scene" -o a.pfm
 check "an unknown letter is named" refuses 2 "unknown option '-z'; clrt --help lists them" -z
@@ -83,6 +103,7 @@ check "... and says what to install" says "install pocl-opencl-icd"
 
 check "help is printed on standard output" run 0 --help
 check "... with every option" grep -q -- "--list-devices" out
+[ "${WINDOW:-}" != ON ] || check "... and every key of the window" grep -q "^  q, Esc  quit$" out
 check "the version is printed" run 0 --version
 check "... as name and number" grep -Eqx "clrt [0-9]+\.[0-9]+\.[0-9]+" out
 check "devices are listed" run 0 --list-devices
