@@ -358,8 +358,8 @@ bool options_parse(Options *options, int count, char **words, Error *error)
                          .frames = 1,
                          .max_level = -1,
                          .uses_bvh = true,
-                         .tile_width = 128,
-                         .tile_height = 128};
+                         .tile_width = OPTIONS_TILE,
+                         .tile_height = OPTIONS_TILE};
     fill_getopt(longs, shorts);
     opterr = 0;
     optind = 0;

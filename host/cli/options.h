@@ -19,6 +19,9 @@ typedef enum {
 
 #define FRAMES_MAX 1000
 
+// Sides of tiles unless they are given; a window chooses its own.
+#define OPTIONS_TILE 128
+
 // Strings point into the command line.
 typedef struct {
     Action action;

@@ -61,16 +61,17 @@ static bool play_script(Viewer *viewer, Error *error)
     return event.key == 0 || take_event(viewer, &event, error);
 }
 
-// A traced picture moves on when the one before is whole.
+// A traced picture moves on when the one before is whole, and none while one is to be saved.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
-    const bool waits = viewer->state.traced && viewer->news.reached.subject != viewer->wish.subject;
-    if (viewer->state.turning && !waits) {
+    const bool is_behind =
+        viewer->state.traced && viewer->news.reached.subject != viewer->wish.subject;
+    if (viewer->state.turning && !viewer->wants_save && !is_behind) {
         state_advance(&viewer->state, now - viewer->advanced);
         viewer->is_dirty = true;
     }
-    if (!viewer->state.turning || !waits)
+    if (!viewer->state.turning || viewer->wants_save || !is_behind)
         viewer->advanced = now;
 }
 

@@ -54,6 +54,7 @@ if [ "${WINDOW:-}" = ON ]; then
   check "without a display there is no window" no_window
   check "... and it says so" says "^clrt: no window can be opened (.*): write the picture with -o FILE$"
   check "a format is for files" refuses 2 "--format is for files: give one with -o FILE" --format png "$scene"
+  check "tiles are for files" refuses 2 "--tile is for files: give one with -o FILE" --tile 8x8 "$scene"
   check "repeated pictures are for files" \
     refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
   check "statistics in files are for files" \

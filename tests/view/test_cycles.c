@@ -4,6 +4,7 @@
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
 #include "view/viewer.h"
+#include "view/window.h"
 
 #include <dirent.h>
 #include <malloc.h>
@@ -40,6 +41,37 @@ static void show_once(const char *keys)
                                      .patience = 60};
     if (viewer_run(&settings, &error) != VIEWER_CLOSED)
         fail_msg("%s", error.text);
+}
+
+// The linker puts these before the window's own.
+static int losses, openings;
+bool __real_window_is_lost(const Window *window);
+bool __wrap_window_is_lost(const Window *window);
+bool __real_window_open(Window *window, const char *title, uint32_t width, uint32_t height,
+                        Error *error);
+bool __wrap_window_open(Window *window, const char *title, uint32_t width, uint32_t height,
+                        Error *error);
+
+bool __wrap_window_is_lost(const Window *window)
+{
+    return losses-- > 0 || __real_window_is_lost(window);
+}
+
+bool __wrap_window_open(Window *window, const char *title, uint32_t width, uint32_t height,
+                        Error *error)
+{
+    openings++;
+    return __real_window_open(window, title, width, height, error);
+}
+
+static void a_lost_context_is_made_anew(void **state)
+{
+    (void)state;
+    openings = 0;
+    losses = 2;
+    show_once("rBn");
+    assert_int_equal(openings, 3);
+    assert_true(losses < 0);
 }
 
 static int count_entries(const char *folder)
@@ -86,6 +118,7 @@ static void two_hundred_windows_leave_nothing_behind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lost_context_is_made_anew),
         cmocka_unit_test(two_hundred_windows_leave_nothing_behind),
     };
     cache_open(&cache);

@@ -187,6 +187,16 @@ def s_saves_the_picture(screen):
     assert endings in ({".png", ".exr"}, {".png", ".pfm"}, {".pfm"}), endings
 
 
+def s_holds_a_turning_camera_still(screen):
+    with tempfile.TemporaryDirectory() as folder:
+        window = opened(screen, folder=folder)
+        window.press("r", "ray traced")
+        window.press("o")
+        window.press("s", "saved reflections-1.")
+        window.press("o", "moved")
+        window.close()
+
+
 def r_in_capitals_reads_everything_again(screen):
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "one.scn"
@@ -249,7 +259,7 @@ if __name__ == "__main__":
                boxes_are_blue_at_the_leaves_and_red_above, n_shows_normals_in_red,
                plus_and_minus_change_the_exposure, h_and_t_show_and_hide_text,
                o_turns_the_camera_by_itself, the_mouse_turns_and_zooms, c_prints_the_camera,
-               s_saves_the_picture, r_in_capitals_reads_everything_again, q_and_escape_quit,
+               s_saves_the_picture, s_holds_a_turning_camera_still, r_in_capitals_reads_everything_again, q_and_escape_quit,
                keys_are_played_in_order_and_frames_counted, stats_tell_the_times_of_frames,
                options_choose_what_the_window_opens_with, without_a_display_it_says_so],
               Screen())
