@@ -47,63 +47,58 @@ static void change_level(State *state, const StateScene *scene, int step)
         state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
 }
 
-// Keys that change the state.
-static void apply_key(State *state, const StateScene *scene, int key)
+// What a key turns on and off, NULL where it does not.
+static bool *switch_of(State *state, int key)
 {
     switch (key) {
     case 'r':
-        state->traced = !state->traced;
-        break;
+        return &state->traced;
     case 'a':
-        state->smooth = !state->smooth;
-        break;
+        return &state->smooth;
     case 'b':
-        state->uses_bvh = !state->uses_bvh;
-        break;
+        return &state->uses_bvh;
     case 'B':
-        state->boxes = !state->boxes, state->level = 0;
-        break;
-    case ']':
-        change_level(state, scene, 1);
-        break;
-    case '[':
-        change_level(state, scene, -1);
-        break;
+        return &state->boxes;
     case 'n':
-        state->normals = !state->normals;
-        break;
+        return &state->normals;
     case 'h':
-        state->help = !state->help;
-        break;
+        return &state->help;
     case 't':
-        state->text = !state->text;
-        break;
+        return &state->text;
     case 'o':
-        state->turning = !state->turning;
-        break;
-    case '+':
-    case '=':
-        state->exposure = limited(state->exposure + 1, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
-        break;
-    case '-':
-        state->exposure = limited(state->exposure - 1, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
-        break;
-    case KEY_LEFT:
-        turn(state, -ARROW_PIXELS, 0);
-        break;
-    case KEY_RIGHT:
-        turn(state, ARROW_PIXELS, 0);
-        break;
-    case KEY_UP:
-        turn(state, 0, -ARROW_PIXELS);
-        break;
-    case KEY_DOWN:
-        turn(state, 0, ARROW_PIXELS);
-        break;
+        return &state->turning;
     default:
-        if (key >= '1' && key <= '9')
-            choose_view(state, scene, (uint32_t)(key - '0'));
+        return NULL;
     }
+}
+
+static void expose(State *state, int step)
+{
+    state->exposure = limited(state->exposure + step, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
+}
+
+static void apply_arrow(State *state, int key)
+{
+    const int right = (key == KEY_RIGHT) - (key == KEY_LEFT);
+    const int down = (key == KEY_DOWN) - (key == KEY_UP);
+    if (right != 0 || down != 0)
+        turn(state, ARROW_PIXELS * right, ARROW_PIXELS * down);
+}
+
+static void apply_key(State *state, const StateScene *scene, int key)
+{
+    bool *turned = switch_of(state, key);
+    if (turned != NULL)
+        *turned = !*turned;
+    if (key == 'B')
+        state->level = 0;
+    if (key == ']' || key == '[')
+        change_level(state, scene, key == ']' ? 1 : -1);
+    if (key == '+' || key == '=' || key == '-')
+        expose(state, key == '-' ? -1 : 1);
+    if (key >= '1' && key <= '9')
+        choose_view(state, scene, (uint32_t)(key - '0'));
+    apply_arrow(state, key);
 }
 
 static unsigned command_of(int key)
