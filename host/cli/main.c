@@ -21,14 +21,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-typedef enum {
-    EXIT_DONE = 0,
-    EXIT_USAGE = 2,
-    EXIT_SCENE = 3,
-    EXIT_DEVICE = 4,
-    EXIT_OUTPUT = 5
-} ExitCode;
-
 // With so many, a tree takes longer to build than a compiled kernel to be loaded.
 #define MANY_TRIANGLES 20000
 
@@ -321,11 +313,7 @@ static ExitCode warm(Run *run, Error *error)
 
 static ExitCode show(Run *run, Error *error)
 {
-    static const ExitCode codes[] = {[SHOW_DONE] = EXIT_DONE,
-                                     [SHOW_NO_WINDOW] = EXIT_USAGE,
-                                     [SHOW_NO_SCENE] = EXIT_SCENE,
-                                     [SHOW_NO_DEVICE] = EXIT_DEVICE};
-    return codes[show_scene(run->options, &run->cache, error)];
+    return show_scene(run->options, &run->cache, error);
 }
 
 static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),

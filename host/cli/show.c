@@ -23,12 +23,12 @@ void show_write_keys(FILE *stream)
     }
 }
 
-ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
+ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
 {
-    static const ShowEnd ends[] = {[VIEWER_CLOSED] = SHOW_DONE,
-                                   [VIEWER_NO_WINDOW] = SHOW_NO_WINDOW,
-                                   [VIEWER_NO_SCENE] = SHOW_NO_SCENE,
-                                   [VIEWER_NO_DEVICE] = SHOW_NO_DEVICE};
+    static const ExitCode codes[] = {[VIEWER_CLOSED] = EXIT_DONE,
+                                     [VIEWER_NO_WINDOW] = EXIT_USAGE,
+                                     [VIEWER_NO_SCENE] = EXIT_SCENE,
+                                     [VIEWER_NO_DEVICE] = EXIT_DEVICE};
     const ViewerSettings settings = {.scene_path = options->scene_path,
                                      .view = options->view,
                                      .width = options->width,
@@ -52,7 +52,7 @@ ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
                                      .statistics = options->statistics,
                                      .verbose = options->verbose,
                                      .patience = PATIENCE};
-    return ends[viewer_run(&settings, error)];
+    return codes[viewer_run(&settings, error)];
 }
 #else
 void show_write_keys(FILE *stream)
@@ -60,10 +60,10 @@ void show_write_keys(FILE *stream)
     (void)stream;
 }
 
-ShowEnd show_scene(const Options *options, const Cache *cache, Error *error)
+ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
 {
     (void)options, (void)cache;
     error_set(error, "this build has no window");
-    return SHOW_NO_WINDOW;
+    return EXIT_USAGE;
 }
 #endif

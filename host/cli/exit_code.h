@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// What the process tells whoever started it; 128 + signal when stopped.
+#pragma once
+
+typedef enum {
+    EXIT_DONE = 0,
+    EXIT_USAGE = 2,
+    EXIT_SCENE = 3,
+    EXIT_DEVICE = 4,
+    EXIT_OUTPUT = 5
+} ExitCode;
