@@ -4,6 +4,7 @@
 #include "support/check.h"
 #include "support/picture.h"
 #include "support/random.h"
+#include "support/report.h"
 #include "support/varied_scene.h"
 
 #include <stdlib.h>

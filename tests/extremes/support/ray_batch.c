@@ -96,7 +96,7 @@ static void build_locked(RayBatch *batch, const ProgramSource *source)
     require(ok, &error);
 }
 
-void ray_batch_open(RayBatch *batch, const char *kernel_folder)
+void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options)
 {
     Error error = {0};
     File file = {0};
@@ -112,6 +112,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder)
     ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
     const ProgramSource source = {
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
+        .extra_options = options,
         .appended = file.bytes,
         .choice = batch->choice};
     build_locked(batch, &source);
@@ -147,7 +148,7 @@ void ray_batch_close(RayBatch *batch)
 int ray_batch_setup(void **state)
 {
     static RayBatch batch;
-    ray_batch_open(&batch, NULL);
+    ray_batch_open(&batch, NULL, NULL);
     *state = &batch;
     return 0;
 }

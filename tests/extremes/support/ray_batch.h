@@ -44,8 +44,9 @@ typedef struct {
 } RayBatch;
 
 // Takes the kernels from a folder; where it is NULL, from the environment variable CLRT_KERNEL_DIR,
-// or those that are built in.  The device is the one that CLRT_DEVICE names, unset the best.
-void ray_batch_open(RayBatch *batch, const char *kernel_folder);
+// or those that are built in; options are the compiler's, NULL for none.  The device is the one
+// that CLRT_DEVICE names, unset the best.
+void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options);
 void ray_batch_close(RayBatch *batch);
 
 // The same as fixtures of a group of tests, which find the batch in *state.
