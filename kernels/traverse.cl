@@ -38,14 +38,29 @@ static inline void meet_spheres(const SceneView *scene, const FrameData *frame, 
     }
 }
 
+// Whether a search for triangles may follow the ray: it starts within 2^60 of the frame, and its
+// direction is neither shorter than 2^-60 nor longer than 2^60.  Others meet nothing.  With an
+// infinity or a NaN a ray would be inside every box, that of a missing child among them, and the
+// search would never end.
+static inline Truth is_searchable(const Ray *ray)
+{
+    const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);
+    const Real reach = o.x + o.y + o.z, size = d.x + d.y + d.z;
+    return ray->active && reach < 0x1p60f && size > 0x1p-60f && size < 0x1p60f;
+}
+
 static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
                               Tally *tally)
 {
     Hit best = {INFINITY, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
-    if (CLRT_TRIANGLES && frame->triangle_count > 0)
-        meet_triangles(scene, frame, ray, &best, tally);
+    if (!CLRT_TRIANGLES || frame->triangle_count == 0)
+        return best;
+    Ray searching = *ray;
+    searching.active = is_searchable(ray);
+    if (any_lane(searching.active))
+        meet_triangles(scene, frame, &searching, &best, tally);
     return best;
 }
 
@@ -58,7 +73,7 @@ static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, c
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
     Ray rest = *ray;
-    rest.active = ray->active && best.id == NOTHING;
+    rest.active = is_searchable(ray) && best.id == NOTHING;
     if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
         return best.id != NOTHING;
     best.t = 1.0f + 0x1p-10f;

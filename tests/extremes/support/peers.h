@@ -15,9 +15,8 @@ typedef struct {
 
 // Counts the rays whose hits are wrong.
 typedef struct {
-    size_t (*count_wrong)(const void *context, const TestRay *rays, const TestHit *hits,
-                          size_t count);
-    const void *context;
+    size_t (*count_wrong)(void *context, const TestRay *rays, const TestHit *hits, size_t count);
+    void *context; // count_wrong may keep its own notes there
 } Judgment;
 
 typedef struct {

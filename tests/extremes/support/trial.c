@@ -56,8 +56,7 @@ size_t trial_judge(const Trial *trial, const char *details, const TestRay *rays,
     return trial_judge_within(trial, details, rays, count, judgment, 0);
 }
 
-static size_t count_misses(const void *context, const TestRay *rays, const TestHit *hits,
-                           size_t count)
+static size_t count_misses(void *context, const TestRay *rays, const TestHit *hits, size_t count)
 {
     size_t misses = 0;
     (void)context;
