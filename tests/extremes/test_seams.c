@@ -2,6 +2,7 @@
 // Rays through the seams of open shapes: a target well inside the outline must be met.
 #include "support/aim.h"
 #include "support/check.h"
+#include "support/rotation.h"
 #include "support/shapes.h"
 #include "support/tier.h"
 #include "support/trial.h"
@@ -9,29 +10,6 @@
 #include <stdlib.h>
 
 #define ROTATED_RAYS 1024
-
-// The rotation that a random quaternion stands for (Shoemake, "Uniform random rotations", 1992).
-static void random_rotation(Random *random, Vec3 axes[3])
-{
-    double q[4], squared;
-    do {
-        squared = 0;
-        for (int i = 0; i < 4; i++) {
-            q[i] = random_between(random, -1, 1);
-            squared += q[i] * q[i];
-        }
-    } while (squared > 1 || squared < 0.01);
-    const double s = 2 / squared, w = q[0], x = q[1], y = q[2], z = q[3];
-    axes[0] = vec3(1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y));
-    axes[1] = vec3(s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x));
-    axes[2] = vec3(s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y));
-}
-
-static Vec3 combined(const Vec3 axes[3], Vec3 weights)
-{
-    return vec3_add(vec3_scale(axes[0], weights.x),
-                    vec3_add(vec3_scale(axes[1], weights.y), vec3_scale(axes[2], weights.z)));
-}
 
 // Rays from one side of the unit quad that axes 0 and 1 span to points of its diagonal.
 static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3], Random *random)
@@ -43,8 +21,8 @@ static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3
             from = random_in_cube(random, 2);
             from.z = random_between(random, 0.5, 3);
         }
-        const Vec3 target = combined(axes, vec3(place, place, 0));
-        rays[i] = aim_at(normalize_point(&stage->normalization, combined(axes, from)),
+        const Vec3 target = rotated(axes, vec3(place, place, 0));
+        rays[i] = aim_at(normalize_point(&stage->normalization, rotated(axes, from)),
                          normalize_point(&stage->normalization, target));
     }
 }
@@ -78,7 +56,7 @@ static void no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05(void **state
         Vec3 rotation[3], axes[3];
         random_rotation(&random, rotation);
         for (int axis = 0; axis < 3; axis++)
-            axes[axis] = combined(rotation, turned[axis]);
+            axes[axis] = rotated(rotation, turned[axis]);
         const Fails more = misses_through_diagonal(*state, axes, &random);
         fails_add(&misses, &more);
     }
