@@ -15,10 +15,10 @@
 static Scene three_scales(void)
 {
     Scene scene = shape_scene(shape_sphere(GLOBE_RINGS, vec3(0, 0, 0)));
-    shape_add(&scene, shape_triangle(vec3(-1e6, 1e6, -1e6), vec3(1e6, 1e6, -1e6), vec3(0, 1e6, 1e6)),
-              1);
-    shape_add(&scene, shape_triangle(vec3(-1e-6, -1e6, -1e-6), vec3(1e-6, -1e6, 0),
-                                     vec3(0, -1e6, 1e-6)),
+    shape_add(&scene,
+              shape_triangle(vec3(-1e6, 1e6, -1e6), vec3(1e6, 1e6, -1e6), vec3(0, 1e6, 1e6)), 1);
+    shape_add(&scene,
+              shape_triangle(vec3(-1e-6, -1e6, -1e-6), vec3(1e-6, -1e6, 0), vec3(0, -1e6, 1e-6)),
               1);
     const double s = 1e-6, y = -2.5;
     shape_add(&scene, shape_triangle(vec3(-s, y, -s), vec3(s, y, -s), vec3(0, y, s)), 1);

@@ -90,8 +90,8 @@ static size_t judge_segments(RayBatch *batch, const char *name, const Stage *sta
     free(nearest);
     free(any);
     char details[64];
-    snprintf(details, sizeof details, "scene=%s segments=%s blocked=%zu", name,
-             segment_names[kind], blocked);
+    snprintf(details, sizeof details, "scene=%s segments=%s blocked=%zu", name, segment_names[kind],
+             blocked);
     assert_in_range(judged, count / 4, count);
     return report_case("T-26", details, judged, wrong);
 }

@@ -158,7 +158,8 @@ static void far_spheres_are_met_and_missed_as_exactly_t32(void **state)
         aim_around(rays, count, at_distance(distance), 1, &random);
         const Differences found = trace(*state, &sphere, rays, count);
         snprintf(details, sizeof details, "distance=%g sides", distance);
-        past += report(&(Case){"T-32", details, count, found.sides, limit_at(distance, count), {0}});
+        past +=
+            report(&(Case){"T-32", details, count, found.sides, limit_at(distance, count), {0}});
         snprintf(details, sizeof details, "distance=%g largest_error=%.2g", distance,
                  found.largest_error);
         past += report_case("T-32", details, count, found.inexact + found.invalid);
@@ -225,8 +226,8 @@ static void an_eye_inside_a_sphere_sees_its_far_wall_t34(void **state)
 }
 
 // Pythagorean triples: (a, b) lies on the circle of radius c around the origin.
-static const int triples[][3] = {{3, 4, 5},    {5, 12, 13}, {8, 15, 17},   {7, 24, 25},
-                                 {20, 21, 29}, {9, 40, 41}, {12, 35, 37},  {28, 45, 53},
+static const int triples[][3] = {{3, 4, 5},    {5, 12, 13},  {8, 15, 17},     {7, 24, 25},
+                                 {20, 21, 29}, {9, 40, 41},  {12, 35, 37},    {28, 45, 53},
                                  {16, 63, 65}, {33, 56, 65}, {119, 120, 169}, {696, 697, 985}};
 #define TRIPLES  (sizeof triples / sizeof *triples)
 #define TANGENTS 64 // a triple's rays of each kind
