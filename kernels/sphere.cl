@@ -201,7 +201,9 @@ static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;
     const Real t = 2.0f * b / dot_product(d, d);
-    return t > 0x1p-17f * sphere->radius.high ? t : INFINITY;
+    const Real3 size = magnitudes(origin);
+    const Real error = 0x1p-22f * (size.x + size.y + size.z);
+    return t > max(0x1p-17f * sphere->radius.high, error) ? t : INFINITY;
 }
 
 #endif
