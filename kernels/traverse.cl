@@ -65,11 +65,12 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
 }
 
 // Whether anything stands between the light and the shaded point of a shadow ray.  Triangles are
-// looked for a little past the point: which side of it they are on is decided exactly there.
+// looked for a little past the point: which side of it they are on is decided exactly there.  What
+// the light lies on, to within the error of a distance, does not stand between.
 static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {
-    Hit best = {1.0f, NOTHING, NOTHING};
+    Hit best = {1.0f - 0x1p-20f, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
     Ray rest = *ray;

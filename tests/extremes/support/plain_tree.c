@@ -58,9 +58,8 @@ static Box make_node(Making *making, Part part)
     Box box = make_node(making, first);
     const Box other = make_node(making, second);
     box_include(&box, &other);
-    bvh->nodes[part.node] =
-        (BvhNode){box, children, 0,
-                  bvh->nodes[children].leaf_count + bvh->nodes[children + 1].leaf_count};
+    bvh->nodes[part.node] = (BvhNode){
+        box, children, 0, bvh->nodes[children].leaf_count + bvh->nodes[children + 1].leaf_count};
     return box;
 }
 

@@ -173,8 +173,8 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
     assert_int_equal(flat->layout, batch->choice.nodes);
     release_scene(batch);
     batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
-    batch->looks = make_buffer(batch, flat->looks,
-                               flat->looks == NULL ? 0 : flat->triangle_count * sizeof(TriangleLook));
+    batch->looks = make_buffer(
+        batch, flat->looks, flat->looks == NULL ? 0 : flat->triangle_count * sizeof(TriangleLook));
     batch->normals = make_buffer(batch, flat->normals, flat->normals_count * sizeof(CornerNormals));
     if (flat->layout == NODES_WIDE) {
         batch->nodes = make_buffer(batch, flat->wides, flat->node_count * sizeof(BvhWide));

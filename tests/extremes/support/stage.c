@@ -6,7 +6,7 @@
 #include "image/form.h"
 #include "plain_tree.h"
 
-const char *const tree_names[TREE_ALL_KINDS] = {"sah",     "midpoint", "none",    "leaves_1",
+const char *const tree_names[TREE_ALL_KINDS] = {"sah",      "midpoint", "none",     "leaves_1",
                                                 "leaves_2", "leaves_4", "leaves_8", "deepest"};
 
 static bool build_tree(Bvh *bvh, const Triangles *triangles, TreeKind tree, NodeLayout layout,
@@ -31,11 +31,10 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
     *stage = (Stage){.normalization = normalization_of(scene)};
     const FlatSource source = {scene, &stage->triangles, &stage->bvh, &stage->normalization, layout,
                                NULL};
-    const bool ok =
-        normalization_check(&stage->normalization, scene, &error) &&
-        triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
-        build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&
-        flat_make(&stage->flat, &source, &error);
+    const bool ok = normalization_check(&stage->normalization, scene, &error) &&
+                    triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
+                    build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&
+                    flat_make(&stage->flat, &source, &error);
     require(ok, &error);
 }
 
