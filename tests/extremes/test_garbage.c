@@ -77,6 +77,8 @@ static Fails judge_mesh(RayBatch *batch, Mesh mesh, Random *random)
         rays[i] = aim_at(origin, random_in_cube(random, 0.5));
     }
     trial_open(&trial, "T-64", batch, &stage);
+    // Embree 3.13.5 ends in a segmentation fault.
+    peers_close(&trial.peers);
     const Fails fails =
         trial_fails(&trial, rays, RAYS, &(Judgment){exact_count_wrong, &stage.triangles});
     trial_close(&trial);
