@@ -38,15 +38,15 @@ static inline void meet_spheres(const SceneView *scene, const FrameData *frame, 
     }
 }
 
-// Whether a search for triangles may follow the ray: it starts within 2^60 of the frame, and its
-// direction is neither shorter than 2^-60 nor longer than 2^60.  Others meet nothing.  With an
+// Whether a search for triangles may follow the ray: it starts within 2^46 of the frame, and its
+// direction is neither shorter than 2^-80 nor longer than 2^80.  Others meet nothing.  With an
 // infinity or a NaN a ray would be inside every box, that of a missing child among them, and the
 // search would never end.
 static inline Truth is_searchable(const Ray *ray)
 {
     const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);
     const Real reach = o.x + o.y + o.z, size = d.x + d.y + d.z;
-    return ray->active && reach < 0x1p60f && size > 0x1p-60f && size < 0x1p60f;
+    return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
 }
 
 static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,

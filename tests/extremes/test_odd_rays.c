@@ -126,7 +126,7 @@ static void rays_of_no_direction_or_no_number_meet_nothing_and_end_t23(void **st
 }
 
 // Wrong is another triangle than the exact one, or a distance that is no number; nothing is right:
-// from beyond 2^60 of the frame no ray is followed.
+// from beyond 2^46 of the frame no ray is followed.
 static size_t count_invalid(void *triangles, const TestRay *rays, const TestHit *hits, size_t count)
 {
     size_t wrong = 0;
