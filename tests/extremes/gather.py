@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Runs the extremes with ctest and gathers their lines into RESULTS.md.
 
-Usage: tests/extremes/gather.py BUILD_FOLDER [--tiers 0,1,2] [--from LOG]...
-Without --from the tiers are run; with it, the verbose output of earlier runs is read.
+Usage: tests/extremes/gather.py BUILD_FOLDER [--tiers 2,1,0] [--from TIER:LOG]...
+Without --from the tiers are run; with it, the verbose output of earlier runs is read.  Tier 0
+counts only for the tests that no other tier has.
 Exits as ctest does: with 0 where every test passed.
 """
 import argparse
@@ -65,12 +66,15 @@ class Results:
         self.cases = collections.OrderedDict()
         self.passed_over = {}
 
-    def read(self, output):
+    def read(self, tier, output):
+        known = {test for test, _ in self.cases} if tier == 0 else set()
         for line in output.splitlines():
             match = LINE.match(line)
             if not match:
                 continue
             test, form, rest = match.groups()
+            if test in known:
+                continue
             if rest.startswith("passed over: "):
                 self.passed_over[test] = rest[len("passed over: "):]
                 continue
@@ -166,16 +170,18 @@ empty cell means not run there. A test holds where no case has more failures tha
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build")
-    parser.add_argument("--tiers", default="0,1,2")
+    parser.add_argument("--tiers", default="2,1,0")
     parser.add_argument("--from", dest="logs", action="append", default=[])
     options = parser.parse_args()
     results, status = Results(), 0
-    for log in options.logs:
+    for source in sorted(options.logs, reverse=True):
+        tier, log = source.split(":", 1)
         with open(log, encoding="utf-8", errors="replace") as file:
-            results.read(file.read())
-    for tier in [] if options.logs else map(int, options.tiers.split(",")):
+            results.read(int(tier), file.read())
+    tiers = [] if options.logs else sorted(map(int, options.tiers.split(",")), reverse=True)
+    for tier in tiers:
         output, code = run_tier(options.build, tier)
-        results.read(output)
+        results.read(tier, output)
         status = status or code
     write(results, os.path.join(FOLDER, "RESULTS.md"))
     return status

@@ -171,8 +171,8 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
             const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
             const Truth inward = dot_product(chosen, surface.face) < 0.0f;
             const Real3 direction = choose3(inward, negative3(chosen), chosen);
-            const Ray next = {surface.point, direction, surface.id, RAY_REFLECTED, surface.point,
-                              met};
+            const Ray next = {surface.point, direction,     surface.id,
+                              RAY_REFLECTED, surface.point, met};
             second = nearest_hit(&scene, &frame, &next, &tally);
             const Ray shadow = ray_from_light(sum3(surface.point, direction), &surface, met);
             const Truth dark = is_blocked(&scene, &frame, &shadow, &tally);
