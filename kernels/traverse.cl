@@ -38,27 +38,43 @@ static inline void meet_spheres(const SceneView *scene, const FrameData *frame, 
     }
 }
 
+// Whether a search for triangles may follow the ray: it starts within 2^46 of the frame, and its
+// direction is neither shorter than 2^-80 nor longer than 2^80.  Others meet nothing.  With an
+// infinity or a NaN a ray would be inside every box, that of a missing child among them, and the
+// search would never end.
+static inline Truth is_searchable(const Ray *ray)
+{
+    const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);
+    const Real reach = o.x + o.y + o.z, size = d.x + d.y + d.z;
+    return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
+}
+
 static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
                               Tally *tally)
 {
     Hit best = {INFINITY, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
-    if (CLRT_TRIANGLES && frame->triangle_count > 0)
-        meet_triangles(scene, frame, ray, &best, tally);
+    if (!CLRT_TRIANGLES || frame->triangle_count == 0)
+        return best;
+    Ray searching = *ray;
+    searching.active = is_searchable(ray);
+    if (any_lane(searching.active))
+        meet_triangles(scene, frame, &searching, &best, tally);
     return best;
 }
 
 // Whether anything stands between the light and the shaded point of a shadow ray.  Triangles are
-// looked for a little past the point: which side of it they are on is decided exactly there.
+// looked for a little past the point: which side of it they are on is decided exactly there.  What
+// the light lies on, to within the error of a distance, does not stand between.
 static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {
-    Hit best = {1.0f, NOTHING, NOTHING};
+    Hit best = {1.0f - 0x1p-20f, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
     Ray rest = *ray;
-    rest.active = ray->active && best.id == NOTHING;
+    rest.active = is_searchable(ray) && best.id == NOTHING;
     if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
         return best.id != NOTHING;
     best.t = 1.0f + 0x1p-10f;

@@ -105,12 +105,13 @@ typedef struct {
 // not.  The side that its surface point lies on decides, beyond doubt, or the neighbors of every
 // point would mirror and shadow it; t near the surface is mere rounding.  From its inner side,
 // which only two-sided triangles show, a convex neighbor lies on the right side as well, and the
-// depth has to be clear too.
+// depth has to be clear too.  A light that lies on a triangle as far as t can tell is not shadowed
+// by it.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error)
 {
     const Truth inner = ray->is_shadow ? ray->front : !ray->front;
-    const Truth ahead = ray->is_shadow ? t > 0.0f : t > -error;
+    const Truth ahead = t > (ray->is_shadow ? error : -error);
     const Truth clear = (ray->is_shadow ? 1.0f - t : t) > error;
     const Real height = height_over(corners, ray->point);
     const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;

@@ -4,24 +4,30 @@
 #include "support/check.h"
 #include "support/shapes.h"
 #include "support/sphere_case.h"
+#include "support/tier.h"
 
 #include <stdlib.h>
 
-#define RAYS 100000
+static size_t rays_a_case(void)
+{
+    return tier_size(10000, 100000);
+}
 
 static void rays_at_edges_never_leave_a_closed_sphere_t02(void **state)
 {
-    RayBatch *batch = *state;
     size_t misses = 0;
-    TestRay *rays = aim_make_rays(RAYS);
+    const size_t count = rays_a_case();
+    TestRay *rays = aim_make_rays(count);
     for (int exponent = 0; exponent < SPHERE_EXPONENTS; exponent++) {
         char details[32];
         SphereCase sphere;
         Random random = {(uint64_t)(2000 + exponent)};
-        sphere_case_make(&sphere, batch, exponent);
-        aim_at_edges(rays, RAYS, &sphere.room, &sphere.stage.triangles, &random);
+        if (!sphere_case_is_wanted(exponent))
+            continue;
+        sphere_case_make(&sphere, "T-02", *state, exponent);
+        aim_at_edges(rays, count, &sphere.room, &sphere.stage.triangles, &random);
         snprintf(details, sizeof details, "k=%d", exponent);
-        misses += report_case("T-02", details, RAYS, aim_count_misses(batch, rays, RAYS));
+        misses += trial_misses(&sphere.trial, details, rays, count);
         sphere_case_free(&sphere);
     }
     free(rays);
@@ -30,21 +36,23 @@ static void rays_at_edges_never_leave_a_closed_sphere_t02(void **state)
 
 static void rays_at_vertices_never_leave_a_closed_sphere_t03(void **state)
 {
-    RayBatch *batch = *state;
     size_t misses = 0;
-    TestRay *rays = aim_make_rays(RAYS);
+    const size_t count = rays_a_case();
+    TestRay *rays = aim_make_rays(count);
     for (int exponent = 0; exponent < SPHERE_EXPONENTS; exponent++) {
         char details[64];
         SphereCase sphere;
         Random random = {(uint64_t)(3000 + exponent)};
-        sphere_case_make(&sphere, batch, exponent);
+        if (!sphere_case_is_wanted(exponent))
+            continue;
+        sphere_case_make(&sphere, "T-03", *state, exponent);
         const Triangles *triangles = &sphere.stage.triangles;
-        aim_at_vertices(rays, RAYS, &sphere.room, triangles, &random);
+        aim_at_vertices(rays, count, &sphere.room, triangles, &random);
         snprintf(details, sizeof details, "k=%d aim=rounded", exponent);
-        misses += report_case("T-03", details, RAYS, aim_count_misses(batch, rays, RAYS));
-        aim_exactly_at_vertices(rays, RAYS, &sphere.room, triangles, &random);
+        misses += trial_misses(&sphere.trial, details, rays, count);
+        aim_exactly_at_vertices(rays, count, &sphere.room, triangles, &random);
         snprintf(details, sizeof details, "k=%d aim=exact", exponent);
-        misses += report_case("T-03", details, RAYS, aim_count_misses(batch, rays, RAYS));
+        misses += trial_misses(&sphere.trial, details, rays, count);
         sphere_case_free(&sphere);
     }
     free(rays);
@@ -58,30 +66,33 @@ static const char *const aim_names[AIM_KINDS] = {"random", "edges", "vertices"};
 static void aim(Aim kind, TestRay *rays, const Room *room, const Triangles *triangles,
                 Random *random)
 {
+    const size_t count = rays_a_case();
     if (kind == AIM_RANDOM)
-        aim_randomly(rays, RAYS, room, random);
+        aim_randomly(rays, count, room, random);
     else if (kind == AIM_EDGES)
-        aim_at_edges(rays, RAYS, room, triangles, random);
+        aim_at_edges(rays, count, room, triangles, random);
     else
-        aim_at_vertices(rays, RAYS, room, triangles, random);
+        aim_at_vertices(rays, count, room, triangles, random);
 }
 
 static size_t misses_in_bumpy_sphere(RayBatch *batch, int exponent, TestRay *rays)
 {
     Stage stage;
+    Trial trial;
     size_t misses = 0;
     Random random = {(uint64_t)(4000 + exponent)};
     const Vec3 center = shape_center(exponent);
     Scene scene = shape_scene(shape_bumpy(&random, center));
     stage_make(&stage, &scene, TREE_SAH);
     const Room room = room_inside(&stage, center, 1);
-    ray_batch_upload(batch, &stage.flat);
+    trial_open(&trial, "T-04", batch, &stage);
     for (Aim kind = 0; kind < AIM_KINDS; kind++) {
         char details[64];
         aim(kind, rays, &room, &stage.triangles, &random);
         snprintf(details, sizeof details, "k=%d aim=%s", exponent, aim_names[kind]);
-        misses += report_case("T-04", details, RAYS, aim_count_misses(batch, rays, RAYS));
+        misses += trial_misses(&trial, details, rays, rays_a_case());
     }
+    trial_close(&trial);
     stage_free(&stage);
     scene_free(&scene);
     return misses;
@@ -90,8 +101,8 @@ static size_t misses_in_bumpy_sphere(RayBatch *batch, int exponent, TestRay *ray
 static void no_ray_leaves_a_closed_bumpy_sphere_t04(void **state)
 {
     size_t misses = 0;
-    TestRay *rays = aim_make_rays(RAYS);
-    for (int exponent = 0; exponent <= 20; exponent += 5)
+    TestRay *rays = aim_make_rays(rays_a_case());
+    for (int exponent = 0; exponent <= 20; exponent += tier() == 0 ? 10 : 5)
         misses += misses_in_bumpy_sphere(*state, exponent, rays);
     free(rays);
     assert_int_equal(misses, 0);

@@ -5,6 +5,7 @@
 #include "support/box_case.h"
 #include "support/check.h"
 #include "support/shapes.h"
+#include "support/trial.h"
 
 #include <stdlib.h>
 
@@ -86,12 +87,12 @@ static void rays_of_special_values_miss_no_box_they_meet_t21(void **state)
 static void directions_of_special_values_leave_no_closed_shape_t21(void **state)
 {
     Stage stage;
+    Trial trial;
     Random random = {21};
     size_t misses = 0, count = 0;
     Scene scene = shape_scene(shape_cube(1, 5));
     TestRay *rays = aim_make_rays(DIRECTIONS * INNER_RAYS);
     stage_make(&stage, &scene, TREE_SAH);
-    ray_batch_upload(*state, &stage.flat);
     const Room room = room_inside(&stage, vec3(0, 0, 0), 1);
     for (size_t direction = 0; direction < DIRECTIONS; direction++)
         for (int i = 0; i < INNER_RAYS; i++) {
@@ -102,7 +103,9 @@ static void directions_of_special_values_leave_no_closed_shape_t21(void **state)
             rays[count].origin[2] = (float)origin.z;
             count += largest_component(rays[count].direction) >= SHORTEST_DIRECTION;
         }
-    misses = report_case("T-21", "shape=cube", count, aim_count_misses(*state, rays, count));
+    trial_open(&trial, "T-21", *state, &stage);
+    misses = trial_misses(&trial, "shape=cube", rays, count);
+    trial_close(&trial);
     free(rays);
     stage_free(&stage);
     scene_free(&scene);

@@ -5,6 +5,8 @@
 #include "support/check.h"
 #include "support/picture.h"
 #include "support/shapes.h"
+#include "support/tier.h"
+#include "support/trial.h"
 
 #include "scene/ply.h"
 
@@ -127,29 +129,30 @@ static Mesh through_file(const Mesh *mesh)
     return read;
 }
 
-#define RAYS 300000
-
 // Misses of rays at the edges and vertices of a sphere of that many rings which float has crushed
 // and the file reader has cleaned.
 static size_t misses_of_crushed_sphere(RayBatch *batch, int exponent, uint32_t rings)
 {
     Stage stage;
+    Trial trial;
     char details[64];
+    const size_t half = tier_size(10000, 150000);
     Random random = {(uint64_t)(1100 + exponent)};
     const Vec3 center = shape_center(exponent);
     Mesh sphere = shape_sphere(rings, center);
     Scene scene = shape_scene(through_file(&sphere));
     const size_t dropped = scene.objects.data[0].mesh.dropped_count;
-    TestRay *rays = aim_make_rays(RAYS);
+    TestRay *rays = aim_make_rays(2 * half);
     mesh_free(&sphere);
     stage_make(&stage, &scene, TREE_SAH);
-    ray_batch_upload(batch, &stage.flat);
+    trial_open(&trial, "T-11", batch, &stage);
     const Room room = room_inside(&stage, center, 1);
-    aim_at_edges(rays, RAYS / 2, &room, &stage.triangles, &random);
-    aim_at_vertices(rays + RAYS / 2, RAYS / 2, &room, &stage.triangles, &random);
+    aim_at_edges(rays, half, &room, &stage.triangles, &random);
+    aim_at_vertices(rays + half, half, &room, &stage.triangles, &random);
     snprintf(details, sizeof details, "k=%d rings=%u dropped=%zu", exponent, rings, dropped);
-    const size_t misses = report_case("T-11", details, RAYS, aim_count_misses(batch, rays, RAYS));
+    const size_t misses = trial_misses(&trial, details, rays, 2 * half);
     free(rays);
+    trial_close(&trial);
     stage_free(&stage);
     scene_free(&scene);
     return misses;
@@ -160,7 +163,7 @@ static void dropping_triangles_opens_no_seam_t11(void **state)
     (void)state;
     RayBatch batch;
     size_t misses = 0;
-    ray_batch_open(&batch, NULL);
+    ray_batch_open(&batch, NULL, NULL);
     for (int exponent = 19; exponent <= 23; exponent++)
         misses += misses_of_crushed_sphere(&batch, exponent, 20);
     for (int exponent = 19; exponent <= 21; exponent++)

@@ -3,6 +3,7 @@
 // right answer, to the bit.
 #include "support/aim.h"
 #include "support/check.h"
+#include "support/report.h"
 #include "support/shapes.h"
 
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 // Scenes of hardly anything, drawn by every tree and program and judged by the host in fp64.
 #include "support/check.h"
 #include "support/picture.h"
+#include "support/report.h"
 #include "support/shapes.h"
 #include "support/witness.h"
 

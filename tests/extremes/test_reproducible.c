@@ -4,6 +4,8 @@
 #include "support/check.h"
 #include "support/picture.h"
 #include "support/random.h"
+#include "support/report.h"
+#include "support/tier.h"
 #include "support/varied_scene.h"
 
 #include <stdlib.h>
@@ -73,6 +75,38 @@ static void the_same_picture_is_drawn_twice_t48(void **state)
     const PictureSettings settings = usual_settings();
     const size_t differences = differences_with(*state, &settings);
     report_case("T-48", "run=second", SIZE * SIZE, differences);
+    assert_int_equal(differences, 0);
+}
+
+// The varied picture's hash, on whatever device and target draws it: CMakeLists.txt chooses these.
+#define PICTURE_ON_RECORD "adfd250573358847f8bb33e70d1d2642"
+
+static void the_picture_is_the_one_on_record_t48(void **state)
+{
+    Framebuffer picture;
+    char details[64], hash[FRAMEBUFFER_HASH_SIZE];
+    const char *target = getenv("CLRT_TEST_TARGET");
+    const PictureSettings settings = usual_settings();
+    draw_varied(&picture, *state, &settings);
+    framebuffer_hash(&picture, hash);
+    framebuffer_free(&picture);
+    snprintf(details, sizeof details, "target=%s", target != NULL ? target : "usual");
+    report_case("T-48", details, SIZE * SIZE, strcmp(hash, PICTURE_ON_RECORD) != 0);
+    assert_string_equal(hash, PICTURE_ON_RECORD);
+}
+
+static void work_groups_of_1_to_1024_items_draw_the_same_picture_t48(void **state)
+{
+    size_t differences = 0;
+    for (uint32_t items = 1; items <= 1024 && tier() > 0; items *= 2) {
+        char details[32];
+        PictureSettings settings = usual_settings();
+        settings.render.group_width = items;
+        settings.render.group_height = 1;
+        snprintf(details, sizeof details, "group=%ux1", items);
+        differences +=
+            report_case("T-48", details, SIZE * SIZE, differences_with(*state, &settings));
+    }
     assert_int_equal(differences, 0);
 }
 
@@ -211,6 +245,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flushing_denormals_to_zero_changes_no_picture_t47),
         cmocka_unit_test(the_same_picture_is_drawn_twice_t48),
+        cmocka_unit_test(the_picture_is_the_one_on_record_t48),
+        cmocka_unit_test(work_groups_of_1_to_1024_items_draw_the_same_picture_t48),
         cmocka_unit_test(unoptimized_kernels_draw_the_same_picture_t48),
         cmocka_unit_test(specialized_kernels_draw_the_same_picture_t48),
         cmocka_unit_test(work_groups_of_any_shape_draw_the_same_picture_t48),

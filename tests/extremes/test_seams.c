@@ -2,35 +2,14 @@
 // Rays through the seams of open shapes: a target well inside the outline must be met.
 #include "support/aim.h"
 #include "support/check.h"
+#include "support/rotation.h"
 #include "support/shapes.h"
+#include "support/tier.h"
+#include "support/trial.h"
 
 #include <stdlib.h>
 
-#define ROTATIONS    1000
 #define ROTATED_RAYS 1024
-
-// The rotation that a random quaternion stands for (Shoemake, "Uniform random rotations", 1992).
-static void random_rotation(Random *random, Vec3 axes[3])
-{
-    double q[4], squared;
-    do {
-        squared = 0;
-        for (int i = 0; i < 4; i++) {
-            q[i] = random_between(random, -1, 1);
-            squared += q[i] * q[i];
-        }
-    } while (squared > 1 || squared < 0.01);
-    const double s = 2 / squared, w = q[0], x = q[1], y = q[2], z = q[3];
-    axes[0] = vec3(1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y));
-    axes[1] = vec3(s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x));
-    axes[2] = vec3(s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y));
-}
-
-static Vec3 combined(const Vec3 axes[3], Vec3 weights)
-{
-    return vec3_add(vec3_scale(axes[0], weights.x),
-                    vec3_add(vec3_scale(axes[1], weights.y), vec3_scale(axes[2], weights.z)));
-}
 
 // Rays from one side of the unit quad that axes 0 and 1 span to points of its diagonal.
 static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3], Random *random)
@@ -42,21 +21,23 @@ static void aim_at_diagonal(TestRay *rays, const Stage *stage, const Vec3 axes[3
             from = random_in_cube(random, 2);
             from.z = random_between(random, 0.5, 3);
         }
-        const Vec3 target = combined(axes, vec3(place, place, 0));
-        rays[i] = aim_at(normalize_point(&stage->normalization, combined(axes, from)),
+        const Vec3 target = rotated(axes, vec3(place, place, 0));
+        rays[i] = aim_at(normalize_point(&stage->normalization, rotated(axes, from)),
                          normalize_point(&stage->normalization, target));
     }
 }
 
-static size_t misses_through_diagonal(RayBatch *batch, const Vec3 axes[3], Random *random)
+static Fails misses_through_diagonal(RayBatch *batch, const Vec3 axes[3], Random *random)
 {
     Stage stage;
+    Trial trial;
     TestRay rays[ROTATED_RAYS];
     Scene scene = shape_scene(shape_plane(vec3(0, 0, 0), axes[0], axes[1], 1));
     stage_make(&stage, &scene, TREE_SAH);
     aim_at_diagonal(rays, &stage, axes, random);
-    ray_batch_upload(batch, &stage.flat);
-    const size_t misses = aim_count_misses(batch, rays, ROTATED_RAYS);
+    trial_open(&trial, "T-05", batch, &stage);
+    const Fails misses = trial_fails(&trial, rays, ROTATED_RAYS, &judgment_misses);
+    trial_close(&trial);
     stage_free(&stage);
     scene_free(&scene);
     return misses;
@@ -68,19 +49,21 @@ static void no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05(void **state
     // A turn by 90 degrees around (1, 1, 1) first.
     const double a = 1.0 / 3, b = sqrt(a);
     const Vec3 turned[3] = {{a, a + b, a - b}, {a - b, a, a + b}, {a + b, a - b, a}};
-    size_t misses = misses_through_diagonal(*state, turned, &random);
-    for (int i = 1; i < ROTATIONS; i++) {
+    const size_t rotations = tier_size(100, 1000);
+    char details[32];
+    Fails misses = misses_through_diagonal(*state, turned, &random);
+    for (size_t i = 1; i < rotations; i++) {
         Vec3 rotation[3], axes[3];
         random_rotation(&random, rotation);
         for (int axis = 0; axis < 3; axis++)
-            axes[axis] = combined(rotation, turned[axis]);
-        misses += misses_through_diagonal(*state, axes, &random);
+            axes[axis] = rotated(rotation, turned[axis]);
+        const Fails more = misses_through_diagonal(*state, axes, &random);
+        fails_add(&misses, &more);
     }
-    report_case("T-05", "rotations=1000", (size_t)ROTATIONS * ROTATED_RAYS, misses);
-    assert_int_equal(misses, 0);
+    snprintf(details, sizeof details, "rotations=%zu", rotations);
+    assert_int_equal(report_fails("T-05", details, rotations * ROTATED_RAYS, &misses), 0);
 }
 
-#define PAIRS     8
 #define PAIR_RAYS 50000
 
 // Two triangles a b c and b a d that share the edge a b, with c and d on either side of it.
@@ -98,9 +81,10 @@ static Scene random_pair(Random *random)
     return scene;
 }
 
-static size_t misses_through_pair(RayBatch *batch, Random *random, TestRay *rays)
+static Fails misses_through_pair(RayBatch *batch, Random *random, TestRay *rays)
 {
     Stage stage;
+    Trial trial;
     Scene scene = random_pair(random);
     stage_make(&stage, &scene, TREE_SAH);
     const Vec3 a = aim_corner(&stage.triangles, 0, 0);
@@ -112,8 +96,9 @@ static size_t misses_through_pair(RayBatch *batch, Random *random, TestRay *rays
             from = vec3_add(random_in_cube(random, 1), vec3(0, 0, 3));
         rays[i] = aim_at(normalize_point(&stage.normalization, from), vec3_add(a, along));
     }
-    ray_batch_upload(batch, &stage.flat);
-    const size_t misses = aim_count_misses(batch, rays, PAIR_RAYS);
+    trial_open(&trial, "T-06", batch, &stage);
+    const Fails misses = trial_fails(&trial, rays, PAIR_RAYS, &judgment_misses);
+    trial_close(&trial);
     stage_free(&stage);
     scene_free(&scene);
     return misses;
@@ -122,26 +107,28 @@ static size_t misses_through_pair(RayBatch *batch, Random *random, TestRay *rays
 static size_t misses_through_pairs(RayBatch *batch, const char *details)
 {
     Random random = {6};
-    size_t misses = 0;
+    Fails misses = {0};
     TestRay *rays = aim_make_rays(PAIR_RAYS);
-    for (int pair = 0; pair < PAIRS; pair++)
-        misses += misses_through_pair(batch, &random, rays);
+    const size_t pairs = tier_size(2, 8);
+    for (size_t pair = 0; pair < pairs; pair++) {
+        const Fails more = misses_through_pair(batch, &random, rays);
+        fails_add(&misses, &more);
+    }
     free(rays);
-    return report_case("T-06", details, (size_t)PAIRS * PAIR_RAYS, misses);
+    return report_fails("T-06", details, pairs * PAIR_RAYS, &misses);
 }
 
 static void no_ray_slips_between_two_triangles_whether_contracted_or_not_t06(void **state)
 {
     RayBatch contracted;
     size_t misses = misses_through_pairs(*state, "contraction=off");
-    ray_batch_open(&contracted, CONTRACTED_KERNELS);
+    ray_batch_open(&contracted, CONTRACTED_KERNELS, NULL);
     misses += misses_through_pairs(&contracted, "contraction=on");
     ray_batch_close(&contracted);
     assert_int_equal(misses, 0);
 }
 
-#define PLANE_X    148376.0
-#define PLANE_RAYS 250000
+#define PLANE_X 148376.0
 
 typedef enum { PLANE_POINTS, PLANE_EDGES, PLANE_VERTICES } PlaneTarget;
 
@@ -157,20 +144,25 @@ static Vec3 plane_target(PlaneTarget kind, Random *random)
     return target;
 }
 
-static size_t misses_of_plane(RayBatch *batch, const Stage *stage, double distance,
+// The farther the rays come from, the smaller their angles with each other.
+static size_t misses_of_plane(const Trial *trial, const Stage *stage, double distance,
                               PlaneTarget kind)
 {
+    static const char *const names[] = {"points", "edges", "vertices"};
+    char details[64];
     Random random = {(uint64_t)(8000 + kind)};
-    TestRay *rays = aim_make_rays(PLANE_RAYS);
+    const size_t count = tier_size(20000, 250000);
+    TestRay *rays = aim_make_rays(count);
     Vec3 from = {0};
-    for (size_t i = 0; i < PLANE_RAYS; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (aim_moves_origin(i, 64))
             from = vec3_sub(random_in_cube(&random, 2), vec3(distance - PLANE_X, 0, 0));
         const Vec3 target = plane_target(kind, &random);
         rays[i] = aim_at(normalize_point(&stage->normalization, from),
                          normalize_point(&stage->normalization, target));
     }
-    const size_t misses = aim_count_misses(batch, rays, PLANE_RAYS);
+    snprintf(details, sizeof details, "aim=%s distance=%g", names[kind], distance);
+    const size_t misses = trial_misses(trial, details, rays, count);
     free(rays);
     return misses;
 }
@@ -178,19 +170,17 @@ static size_t misses_of_plane(RayBatch *batch, const Stage *stage, double distan
 static void no_ray_passes_a_plane_far_from_the_origin_t08(void **state)
 {
     Stage stage;
+    Trial trial;
+    size_t misses = 0;
     Scene scene =
         shape_scene(shape_plane(vec3(PLANE_X, -6, -6), vec3(0, 12, 0), vec3(0, 0, 12), 200));
     stage_make(&stage, &scene, TREE_SAH);
-    ray_batch_upload(*state, &stage.flat);
-    const double near = 2.5, far = PLANE_X;
-    size_t misses = report_case("T-08", "aim=points from=near", PLANE_RAYS,
-                                misses_of_plane(*state, &stage, near, PLANE_POINTS));
-    misses += report_case("T-08", "aim=edges from=near", PLANE_RAYS,
-                          misses_of_plane(*state, &stage, near, PLANE_EDGES));
-    misses += report_case("T-08", "aim=vertices from=near", PLANE_RAYS,
-                          misses_of_plane(*state, &stage, near, PLANE_VERTICES));
-    misses += report_case("T-08", "aim=edges from=far", PLANE_RAYS,
-                          misses_of_plane(*state, &stage, far, PLANE_EDGES));
+    trial_open(&trial, "T-08", *state, &stage);
+    misses += misses_of_plane(&trial, &stage, 2.5, PLANE_POINTS);
+    misses += misses_of_plane(&trial, &stage, 2.5, PLANE_EDGES);
+    misses += misses_of_plane(&trial, &stage, 2.5, PLANE_VERTICES);
+    misses += misses_of_plane(&trial, &stage, PLANE_X, PLANE_EDGES);
+    trial_close(&trial);
     stage_free(&stage);
     scene_free(&scene);
     assert_int_equal(misses, 0);

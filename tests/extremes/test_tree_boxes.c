@@ -2,6 +2,7 @@
 // The boxes of the device's nodes hold all that lies below them, with the room to spare that
 // culling needs.
 #include "support/check.h"
+#include "support/report.h"
 #include "support/shapes.h"
 #include "support/stage.h"
 #include "support/tree_scenes.h"

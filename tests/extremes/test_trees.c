@@ -2,12 +2,17 @@
 // Every tree finds what testing all primitives finds, bit by bit.
 #include "support/aim.h"
 #include "support/check.h"
+#include "support/report.h"
+#include "support/tier.h"
 #include "support/tree_scenes.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define RAYS 100000
+static size_t rays_a_case(void)
+{
+    return tier_size(10000, 100000);
+}
 
 static Vec3 random_corner(const Triangles *triangles, Random *random)
 {
@@ -39,8 +44,9 @@ static TestRay along_an_axis(Vec3 through, Random *random)
 // themselves, and along the axes.
 static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
 {
+    const size_t count = rays_a_case();
     Vec3 near = {0}, far = {0};
-    for (size_t i = 0; i < RAYS; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (aim_moves_origin(i, AIM_BUNDLE)) {
             near = random_in_cube(random, 2);
             far = random_in_cube(random, 1000);
@@ -65,9 +71,10 @@ static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
 // met at distances that rounding can make zero or less; or shadow rays to such points.
 static void make_surface_rays(TestRay *rays, const Stage *stage, bool are_shadows, Random *random)
 {
+    const size_t count = rays_a_case();
     Vec3 light = {0};
     const Triangles *triangles = &stage->triangles;
-    for (size_t i = 0; i < RAYS; i++) {
+    for (size_t i = 0; i < count; i++) {
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
         const Vec3 a = aim_corner(triangles, triangle, 0), b = aim_corner(triangles, triangle, 1);
         const Vec3 c = aim_corner(triangles, triangle, 2);
@@ -96,9 +103,10 @@ typedef struct {
 static Comparison comparison_make(BatchTask task)
 {
     Error error = {0};
-    const Comparison comparison = {task, aim_make_rays(RAYS),
-                                   memory_raw(RAYS, sizeof(TestHit), &error),
-                                   memory_raw(RAYS, sizeof(TestHit), &error)};
+    const size_t count = rays_a_case();
+    const Comparison comparison = {task, aim_make_rays(count),
+                                   memory_raw(count, sizeof(TestHit), &error),
+                                   memory_raw(count, sizeof(TestHit), &error)};
     require(comparison.expected != NULL && comparison.found != NULL, &error);
     return comparison;
 }
@@ -117,24 +125,25 @@ static void trace_scene(const Comparison *comparison, RayBatch *batch, size_t nu
     TestHit *hits = tree == TREE_NONE ? comparison->expected : comparison->found;
     stage_make(&stage, &scene, tree);
     ray_batch_upload(batch, &stage.flat);
-    ray_batch_trace(batch, comparison->task, comparison->rays, RAYS, hits);
+    ray_batch_trace(batch, comparison->task, comparison->rays, rays_a_case(), hits);
     stage_free(&stage);
     scene_free(&scene);
 }
 
 static size_t differences_of(const Comparison *comparison, RayBatch *batch, size_t number)
 {
+    const size_t count = rays_a_case();
     size_t differences = 0;
     trace_scene(comparison, batch, number, TREE_NONE);
     for (TreeKind tree = TREE_SAH; tree < TREE_NONE; tree++) {
         char details[64];
         size_t wrong = 0;
         trace_scene(comparison, batch, number, tree);
-        for (size_t i = 0; i < RAYS; i++)
+        for (size_t i = 0; i < count; i++)
             wrong += memcmp(&comparison->found[i], &comparison->expected[i], sizeof(TestHit)) != 0;
         snprintf(details, sizeof details, "scene=%s tree=%s task=%s", tree_scenes[number].name,
                  tree_names[tree], comparison->task == BATCH_NEAREST ? "nearest" : "blocked");
-        differences += report_case("T-25", details, RAYS, wrong);
+        differences += report_case("T-25", details, count, wrong);
     }
     return differences;
 }
@@ -155,15 +164,16 @@ static void make_scene_rays(TestRay *rays, size_t number, BatchTask task, bool f
 
 static size_t compare_hits(RayBatch *batch, bool from_surfaces)
 {
+    const size_t count = rays_a_case();
     size_t differences = 0;
     Comparison comparison = comparison_make(BATCH_NEAREST);
     for (size_t number = 0; number < TREE_SCENES; number++) {
         size_t hits = 0;
         make_scene_rays(comparison.rays, number, comparison.task, from_surfaces);
         differences += differences_of(&comparison, batch, number);
-        for (size_t i = 0; i < RAYS; i++)
+        for (size_t i = 0; i < count; i++)
             hits += comparison.expected[i].id != NOTHING;
-        assert_true(hits >= RAYS / 20 || from_surfaces);
+        assert_true(hits >= count / 20 || from_surfaces);
     }
     comparison_free(&comparison);
     return differences;
@@ -189,17 +199,18 @@ static void make_shadow_ray(TestRay *ray, bool doubled)
 
 static size_t compare_shadows(RayBatch *batch, bool from_surfaces)
 {
+    const size_t count = rays_a_case();
     size_t differences = 0;
     Comparison comparison = comparison_make(BATCH_BLOCKED);
     for (size_t number = 0; number < TREE_SCENES; number++) {
         size_t blocked = 0;
         make_scene_rays(comparison.rays, number, comparison.task, from_surfaces);
-        for (size_t i = 0; i < RAYS && !from_surfaces; i++)
+        for (size_t i = 0; i < count && !from_surfaces; i++)
             make_shadow_ray(&comparison.rays[i], i % 16 < 8);
         differences += differences_of(&comparison, batch, number);
-        for (size_t i = 0; i < RAYS; i++)
+        for (size_t i = 0; i < count; i++)
             blocked += comparison.expected[i].id;
-        assert_true(blocked >= RAYS / 100 || from_surfaces);
+        assert_true(blocked >= count / 100 || from_surfaces);
     }
     comparison_free(&comparison);
     return differences;

@@ -32,6 +32,18 @@ kernel void probe_layout(global uint *sizes)
     sizes[18] = (uint)((char *)&look.normals - (char *)&look);
 }
 
+// cases holds {normal, half vector, shininess, exponent as bits} of eight floats.
+kernel void probe_highlights(global const float *cases, global float *results)
+{
+    const uint item = get_global_id(0);
+    global const float *values = cases + 8 * item;
+    MaterialLanes material;
+    material.shininess = values[6];
+    material.exponent = (Count)(as_uint(values[7]));
+    const Real result = highlight(&material, load3(values), load3(values + 3));
+    results[item] = *(const float *)&result;
+}
+
 #if CLRT_LANES == 1
 // values holds pairs {base, exponent}; results what the highlight of each kind makes of them.
 kernel void probe_powers(global const float *values, global float *results)

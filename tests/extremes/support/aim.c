@@ -6,17 +6,9 @@
 #include "image/form.h"
 #include "shapes.h"
 
-#include <stdlib.h>
-
 bool aim_moves_origin(size_t i, size_t packet_rays)
 {
     return form_choice().family != FAMILY_PACKET || i % packet_rays == 0;
-}
-
-size_t aim_share(void)
-{
-    const char *share = getenv("CLRT_TEST_SHARE");
-    return share != NULL ? strtoul(share, NULL, 10) : 1;
 }
 
 TestRay aim_at(Vec3 origin, Vec3 target)
@@ -99,19 +91,6 @@ void aim_exactly_at_vertices(TestRay *rays, size_t count, const Room *room,
         if (room_contains(room, origin))
             i++;
     }
-}
-
-size_t aim_count_misses(const RayBatch *batch, const TestRay *rays, size_t count)
-{
-    Error error = {0};
-    size_t misses = 0;
-    TestHit *hits = memory_raw(count, sizeof *hits, &error);
-    require(hits != NULL, &error);
-    ray_batch_trace(batch, BATCH_NEAREST, rays, count, hits);
-    for (size_t i = 0; i < count; i++)
-        misses += hits[i].id == NOTHING || !(hits[i].t < INFINITY);
-    free(hits);
-    return misses;
 }
 
 TestRay *aim_make_rays(size_t count)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes rays in the normalized frame and counts those that meet nothing.
+// Makes rays in the normalized frame.
 #pragma once
 
 #include "ray_batch.h"
@@ -11,9 +11,6 @@ bool aim_moves_origin(size_t i, size_t packet_rays);
 
 // So many rays from one point lead everywhere and still fill packets.
 #define AIM_BUNDLE 512
-
-// One in how many rays the largest tests are to trace: CLRT_TEST_SHARE in the environment, unset 1.
-size_t aim_share(void);
 
 // A corner of a triangle.
 Vec3 aim_corner(const Triangles *triangles, size_t triangle, size_t corner);
@@ -36,9 +33,6 @@ void aim_at_vertices(TestRay *rays, size_t count, const Room *room, const Triang
 // The same without any rounding: origin + direction is the vertex.
 void aim_exactly_at_vertices(TestRay *rays, size_t count, const Room *room,
                              const Triangles *triangles, Random *random);
-
-// Traces the rays; the number of those that meet nothing or something at no finite distance.
-size_t aim_count_misses(const RayBatch *batch, const TestRay *rays, size_t count);
 
 // Room for count rays; the caller frees it.
 TestRay *aim_make_rays(size_t count);

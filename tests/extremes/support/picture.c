@@ -70,6 +70,13 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
 void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
+    RenderProgress progress;
+    picture_draw_counted(framebuffer, studio, scene, settings, &progress);
+}
+
+void picture_draw_counted(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
+                          const PictureSettings *settings, RenderProgress *progress)
+{
     Stage stage;
     Renderer renderer;
     Error error = {0};
@@ -78,6 +85,7 @@ void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *s
     picture_open(&renderer, &stage, studio, scene, settings);
     const bool ok = framebuffer_make(framebuffer, render->width, render->height, &error) &&
                     renderer_draw(&renderer, &camera, NULL, framebuffer, &error);
+    *progress = renderer.progress;
     renderer_close(&renderer);
     stage_free(&stage);
     require(ok, &error);

@@ -38,6 +38,10 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings);
 void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
 
+// The same, and what it cost: settings ask for statistics.
+void picture_draw_counted(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
+                          const PictureSettings *settings, RenderProgress *progress);
+
 // How many pixels differ in any bit.
 size_t picture_count_differences(const Framebuffer *a, const Framebuffer *b);
 

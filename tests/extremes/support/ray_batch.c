@@ -16,7 +16,7 @@
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
-                                                      "batch_each", "batch_boxes"};
+                                                      "batch_each", "batch_boxes", "batch_leave"};
 
 static void require_success(cl_int status, const char *attempt)
 {
@@ -58,6 +58,11 @@ static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *
     status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &batch->rays);
     status |= clSetKernelArg(kernel, 5, sizeof count, &count);
     status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &batch->hits);
+    if (task == BATCH_LEAVE) {
+        status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &batch->looks);
+        status |= clSetKernelArg(kernel, 8, sizeof(cl_mem), &batch->normals);
+        status |= clSetKernelArg(kernel, 9, sizeof(cl_mem), &batch->outward);
+    }
     if (!cl_succeeded(status, "set the arguments of a kernel", error))
         return false;
     status =
@@ -96,7 +101,7 @@ static void build_locked(RayBatch *batch, const ProgramSource *source)
     require(ok, &error);
 }
 
-void ray_batch_open(RayBatch *batch, const char *kernel_folder)
+void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options)
 {
     Error error = {0};
     File file = {0};
@@ -109,9 +114,11 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder)
             &error);
     batch->rays = make_room(batch, BATCH_RAYS * sizeof(TestRay));
     batch->hits = make_room(batch, BATCH_RAYS * sizeof(TestHit));
+    batch->outward = make_room(batch, BATCH_RAYS * sizeof(float[3]));
     ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
     const ProgramSource source = {
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
+        .extra_options = options,
         .appended = file.bytes,
         .choice = batch->choice};
     build_locked(batch, &source);
@@ -120,8 +127,9 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder)
 
 static void release_scene(RayBatch *batch)
 {
-    cl_mem *buffers[] = {&batch->spheres, &batch->nodes, &batch->triangles};
-    for (int i = 0; i < 3; i++) {
+    cl_mem *buffers[] = {&batch->spheres, &batch->nodes, &batch->triangles, &batch->looks,
+                         &batch->normals};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {
         if (*buffers[i] != NULL)
             clReleaseMemObject(*buffers[i]);
         *buffers[i] = NULL;
@@ -138,6 +146,8 @@ void ray_batch_close(RayBatch *batch)
         clReleaseMemObject(batch->rays);
     if (batch->hits != NULL)
         clReleaseMemObject(batch->hits);
+    if (batch->outward != NULL)
+        clReleaseMemObject(batch->outward);
     program_free(&batch->program);
     device_close(&batch->device);
     cache_close(&batch->cache);
@@ -147,7 +157,7 @@ void ray_batch_close(RayBatch *batch)
 int ray_batch_setup(void **state)
 {
     static RayBatch batch;
-    ray_batch_open(&batch, NULL);
+    ray_batch_open(&batch, NULL, NULL);
     *state = &batch;
     return 0;
 }
@@ -163,6 +173,9 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
     assert_int_equal(flat->layout, batch->choice.nodes);
     release_scene(batch);
     batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
+    batch->looks = make_buffer(
+        batch, flat->looks, flat->looks == NULL ? 0 : flat->triangle_count * sizeof(TriangleLook));
+    batch->normals = make_buffer(batch, flat->normals, flat->normals_count * sizeof(CornerNormals));
     if (flat->layout == NODES_WIDE) {
         batch->nodes = make_buffer(batch, flat->wides, flat->node_count * sizeof(BvhWide));
         batch->triangles =
@@ -224,6 +237,21 @@ void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays,
 {
     for (size_t first = 0; first < count; first += BATCH_RAYS)
         trace_ordered(batch, task, rays + first, chunk_of(first, count), hits + first);
+}
+
+void ray_batch_leave(const RayBatch *batch, const TestRay *rays, const float (*outward)[3],
+                     size_t count, TestHit *hits)
+{
+    for (size_t first = 0; first < count; first += BATCH_RAYS) {
+        const size_t chunk = chunk_of(first, count);
+        write_rays(batch, rays + first, chunk);
+        require_success(clEnqueueWriteBuffer(batch->device.queue, batch->outward, CL_TRUE, 0,
+                                             chunk * sizeof *outward, outward + first, 0, NULL,
+                                             NULL),
+                        "write directions");
+        run(batch, BATCH_LEAVE, chunk);
+        read_hits(batch, hits + first, chunk);
+    }
 }
 
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)

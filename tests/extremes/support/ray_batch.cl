@@ -141,6 +141,48 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
     }
 }
 
+// What a ray meets that leaves the surface its own ray meets, in the direction of outward or the
+// one opposite, whichever leaves the face; LEAVE_SHADOWED where it meets nothing, yet the point at
+// its end does not light the surface.  t is 0 where there is no surface.
+#define LEAVE_SHADOWED 0xfffffffeu
+
+kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
+                        global const Node *nodes, global const Triangles *triangles,
+                        global const TestRay *rays, uint count, global TestHit *hits,
+                        global const TriangleLook *looks, global const CornerNormals *normals,
+                        global const float *outward)
+{
+    if (count == 0)
+        return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, looks, normals};
+    const TestRays all = test_rays(rays, count);
+    const Count place = all.first + LANE_Y * PACKET_WIDTH + LANE_X, last = count - 1;
+    const Record record = record_at(outward, min(place, last) * 3);
+    const Real3 chosen = record_real3(&record, 0, 1);
+    Truth left = all.exist;
+    while (any_lane(left)) {
+        Tally tally = {0};
+        const Truth lanes = companions(&all, left);
+        const Ray ray = ray_of(&all, lanes);
+        const Hit first = nearest_hit(&scene, &frame, &ray, &tally);
+        const Truth met = lanes && first.id != NOTHING;
+        Hit second = {0.0f, NOTHING, NOTHING};
+        if (any_lane(met)) {
+            const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
+            const Truth inward = dot_product(chosen, surface.face) < 0.0f;
+            const Real3 direction = choose3(inward, negative3(chosen), chosen);
+            const Ray next = {surface.point, direction,     surface.id,
+                              RAY_REFLECTED, surface.point, met};
+            second = nearest_hit(&scene, &frame, &next, &tally);
+            const Ray shadow = ray_from_light(sum3(surface.point, direction), &surface, met);
+            const Truth dark = is_blocked(&scene, &frame, &shadow, &tally);
+            second.id = second.id == NOTHING && dark ? (Count)(LEAVE_SHADOWED) : second.id;
+        }
+        store_hits(hits, &all, lanes, met ? second.t : 0.0f, met ? second.id : (Count)(NOTHING));
+        left = left && !lanes;
+    }
+}
+
 #if CLRT_WIDE_NODES
 // The first lane's ray, as the searches want it, in every lane of which only that one counts.
 static inline void prepare_first(Packet *packet, const Ray *ray)

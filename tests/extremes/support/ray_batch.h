@@ -28,6 +28,7 @@ typedef enum {
     BATCH_BLOCKED, // is_blocked: id 1 or 0
     BATCH_EACH,    // one ray against each triangle: ray_batch_each
     BATCH_BOXES,   // ray_batch_boxes
+    BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
 
@@ -37,15 +38,17 @@ typedef struct {
     Program program;
     cl_kernel kernels[BATCH_TASKS];
     cl_mem rays, hits;
-    cl_mem spheres, nodes, triangles; // of the scene
+    cl_mem spheres, nodes, triangles, looks, normals; // of the scene
+    cl_mem outward;
     uint32_t block_count;
     FrameData frame;
     KernelChoice choice; // form_choice, with a number of lanes
 } RayBatch;
 
 // Takes the kernels from a folder; where it is NULL, from the environment variable CLRT_KERNEL_DIR,
-// or those that are built in.  The device is the one that CLRT_DEVICE names, unset the best.
-void ray_batch_open(RayBatch *batch, const char *kernel_folder);
+// or those that are built in; options are the compiler's, NULL for none.  The device is the one
+// that CLRT_DEVICE names, unset the best.
+void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options);
 void ray_batch_close(RayBatch *batch);
 
 // The same as fixtures of a group of tests, which find the batch in *state.
@@ -62,6 +65,14 @@ void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays,
 
 // Fills one hit for each triangle of the scene, in file order.
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
+
+// The id of hits of ray_batch_leave that meet nothing but are shadowed.
+#define LEAVE_SHADOWED 0xfffffffeu
+
+// What a ray meets that leaves the surface rays[i] meets along outward[i], turned to the side that
+// the ray came from.  t is 0 where there is no surface.
+void ray_batch_leave(const RayBatch *batch, const TestRay *rays, const float (*outward)[3],
+                     size_t count, TestHit *hits);
 
 // Which boxes of nodes[i] does rays[i] meet?  Replaces the scene.
 void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,

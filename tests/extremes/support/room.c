@@ -4,6 +4,7 @@
 #include "room.h"
 
 #include "check.h"
+#include "shapes.h"
 
 static Vec3 corner_of(const float corner[3])
 {
@@ -53,7 +54,8 @@ static double solid_angle(const float corners[3][3], Vec3 point)
 Room room_inside(const Stage *stage, Vec3 center, double half_side)
 {
     Room room = {normalize_point(&stage->normalization, center),
-                 half_side * stage->normalization.scale, INFINITY};
+                 half_side * stage->normalization.scale, INFINITY, stage->normalization,
+                 vec3_extent(center) < 0x1p19 * half_side};
     double winding = 0;
     for (size_t i = 0; i < stage->triangles.count; i++) {
         const StageTriangle triangle = stage_triangle(&stage->triangles, i);
@@ -72,10 +74,21 @@ bool room_contains(const Room *room, Vec3 point)
     return vec3_extent(from_center) <= room->half_side && length_of(from_center) <= room->radius;
 }
 
+// The nearest point whose file coordinates are floats.
+static Vec3 float_place(const Normalization *normalization, Vec3 point)
+{
+    const Vec3 center = normalization->center;
+    const Vec3 place = vec3_add(center, vec3_scale(point, 1 / normalization->scale));
+    const Vec3 rounded = {shape_rounded(place.x), shape_rounded(place.y), shape_rounded(place.z)};
+    return normalize_point(normalization, rounded);
+}
+
 Vec3 room_point(const Room *room, Random *random)
 {
     for (;;) {
-        const Vec3 point = vec3_add(room->center, random_in_cube(random, room->half_side));
+        Vec3 point = vec3_add(room->center, random_in_cube(random, room->half_side));
+        if (room->has_floats)
+            point = float_place(&room->normalization, point);
         if (room_contains(room, point))
             return point;
     }

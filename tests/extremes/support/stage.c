@@ -4,8 +4,26 @@
 
 #include "check.h"
 #include "image/form.h"
+#include "plain_tree.h"
 
-const char *const tree_names[TREE_KINDS] = {"sah", "midpoint", "none"};
+const char *const tree_names[TREE_ALL_KINDS] = {"sah",      "midpoint", "none",     "leaves_1",
+                                                "leaves_2", "leaves_4", "leaves_8", "deepest"};
+
+static bool build_tree(Bvh *bvh, const Triangles *triangles, TreeKind tree, NodeLayout layout,
+                       Error *error)
+{
+    const BvhBuilder builder = tree == TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
+    const BvhSettings settings = {builder, flat_leaves(layout)};
+    if (tree == TREE_NONE)
+        return true;
+    if (tree < TREE_KINDS)
+        return bvh_build(bvh, triangles, &settings, NULL, error);
+    if (tree == TREE_DEEPEST)
+        plain_tree_chain(bvh, triangles);
+    else
+        plain_tree_halves(bvh, triangles, 1u << (tree - TREE_LEAVES_1));
+    return true;
+}
 
 void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout layout)
 {
@@ -13,13 +31,10 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
     *stage = (Stage){.normalization = normalization_of(scene)};
     const FlatSource source = {scene, &stage->triangles, &stage->bvh, &stage->normalization, layout,
                                NULL};
-    const BvhBuilder builder = tree == TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
-    const BvhSettings settings = {builder, flat_leaves(layout)};
-    const bool ok =
-        normalization_check(&stage->normalization, scene, &error) &&
-        triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
-        (tree == TREE_NONE || bvh_build(&stage->bvh, &stage->triangles, &settings, NULL, &error)) &&
-        flat_make(&stage->flat, &source, &error);
+    const bool ok = normalization_check(&stage->normalization, scene, &error) &&
+                    triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
+                    build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&
+                    flat_make(&stage->flat, &source, &error);
     require(ok, &error);
 }
 

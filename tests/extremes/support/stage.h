@@ -4,9 +4,22 @@
 
 #include "accel/flat.h"
 
-typedef enum { TREE_SAH, TREE_MIDPOINT, TREE_NONE, TREE_KINDS } TreeKind;
+typedef enum {
+    TREE_SAH,
+    TREE_MIDPOINT,
+    TREE_NONE,
+    TREE_KINDS,
+    // Trees that no builder makes (plain_tree.h): leaves of so many triangles, and as deep as a
+    // tree may be.
+    TREE_LEAVES_1 = TREE_KINDS,
+    TREE_LEAVES_2,
+    TREE_LEAVES_4,
+    TREE_LEAVES_8,
+    TREE_DEEPEST,
+    TREE_ALL_KINDS
+} TreeKind;
 
-extern const char *const tree_names[TREE_KINDS];
+extern const char *const tree_names[TREE_ALL_KINDS];
 
 typedef struct {
     Normalization normalization;

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs the extremes with ctest and gathers their lines into RESULTS.md.
+
+Usage: tests/extremes/gather.py BUILD_FOLDER [--tiers 2,1,0] [--from TIER:LOG]...
+Without --from the tiers are run; with it, the verbose output of earlier runs is read.  Tier 0
+counts only for the tests that no other tier has.
+Exits as ctest does: with 0 where every test passed.
+"""
+import argparse
+import collections
+import datetime
+import os
+import re
+import subprocess
+import sys
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+LINE = re.compile(r"^(?:\d+: )?(T-\d\d) form=(\S+) (.*)$")
+FIELD = re.compile(r"^(rays|fail|limit|embree_default|embree_robust)=(\d+)$")
+FORMS = ["packet", "wide", "pair"]
+MONTHS = ("January February March April May June July August September October November "
+          "December").split()
+
+
+def titles():
+    """What each test asks for, from the table in README.md."""
+    found = {}
+    with open(os.path.join(FOLDER, "README.md"), encoding="utf-8") as readme:
+        for line in readme:
+            row = re.match(r"^\| (\d+) \| ([^|]+) \| ([^|]+) \|", line)
+            if row:
+                found[f"T-{int(row[1]):02}"] = (row[2].strip(), row[3].strip())
+    return found
+
+
+def run_tier(build, tier):
+    """The verbose output of a tier, and how ctest ended."""
+    label = "extremes" if tier == 0 else f"extremes{tier}"
+    command = ["ctest", "--test-dir", build, "-V", "-L", f"^{label}$"]
+    if tier > 0:
+        command += ["-C", label]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", check=False)
+    return done.stdout, done.returncode
+
+
+def machine():
+    """The processor and PoCL, in words."""
+    name = "unknown"
+    with open("/proc/cpuinfo", encoding="utf-8") as info:
+        for line in info:
+            if line.startswith("model name"):
+                name = line.split(":", 1)[1].strip()
+                break
+    packages = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "libpocl2-common"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                              check=False).stdout or "unknown"
+    return f"{name} with {os.cpu_count()} processors, PoCL {packages.split('-')[0]}"
+
+
+class Results:
+    """All cases by test and details; figures by form of the kernels."""
+
+    def __init__(self):
+        self.cases = collections.OrderedDict()
+        self.passed_over = {}
+
+    def read(self, tier, output):
+        known = {test for test, _ in self.cases} if tier == 0 else set()
+        for line in output.splitlines():
+            match = LINE.match(line)
+            if not match:
+                continue
+            test, form, rest = match.groups()
+            if test in known:
+                continue
+            if rest.startswith("passed over: "):
+                self.passed_over[test] = rest[len("passed over: "):]
+                continue
+            self.add(test, form, rest.split(" "))
+
+    def add(self, test, form, words):
+        figures = {m[1]: int(m[2]) for m in map(FIELD.match, words) if m}
+        measured = ("ulp=", "rmse=", "error=", "times=", "leaks=", "hits=", "blocked=", "at_edges=",
+                    "depth=", "largest_leaf=", "met=", "refused=", "megabytes=", "seeds=")
+        details = [w for w in words if not FIELD.match(w)]
+        key = " ".join(w for w in details if not any(m in w for m in measured))
+        case = self.cases.setdefault((test, key), {"forms": {}, "notes": {}})
+        kept = case["forms"].get(form)
+        # The larger of several tiers' runs of one case counts.
+        if kept is None or figures["rays"] >= kept["rays"]:
+            case["forms"][form] = figures
+            case["notes"][form] = " ".join(w for w in details if any(m in w for m in measured))
+
+    def of_test(self, test):
+        return [(key, case) for (name, key), case in self.cases.items() if name == test]
+
+
+def summed(cases, form, field):
+    figures = [case["forms"][form].get(field) for _, case in cases if form in case["forms"]]
+    figures = [f for f in figures if f is not None]
+    return sum(figures) if figures else None
+
+
+def cell(value):
+    return "" if value is None else f"{value:,}"
+
+
+def verdict(cases):
+    for _, case in cases:
+        if any(f["fail"] > f["limit"] for f in case["forms"].values()):
+            return "**fails**"
+    return "holds"
+
+
+def summary_row(results, test, title):
+    cases = results.of_test(test)
+    if not cases:
+        return f"| {test} | {title} | {results.passed_over.get(test, 'not run')} ||||||||"
+    rays = max((summed(cases, form, "rays") or 0) for form in FORMS)
+    cells = [verdict(cases), cell(len(cases)), cell(rays)]
+    cells += [cell(summed(cases, form, "fail")) for form in FORMS]
+    cells += [cell(summed(cases, "packet", mode)) for mode in ("embree_default", "embree_robust")]
+    return f"| {test} | {title} | " + " | ".join(cells) + " |"
+
+
+def case_row(test, key, case):
+    first = next((case["forms"][f] for f in FORMS if f in case["forms"]), None)
+    note = next((case["notes"][f] for f in FORMS if case["notes"].get(f)), "")
+    cells = [cell(first["rays"]), cell(first["limit"])]
+    cells += [cell(case["forms"].get(form, {}).get("fail")) for form in FORMS]
+    cells += [cell(case["forms"].get("packet", {}).get(mode))
+              for mode in ("embree_default", "embree_robust")]
+    return f"| {test} | {key} | " + " | ".join(cells) + f" | {note} |"
+
+
+def write(results, path):
+    asked = titles()
+    today = datetime.date.today()
+    date = f"{today.day} {MONTHS[today.month - 1]} {today.year}"
+    with open(path, "w", encoding="utf-8") as out:
+        out.write(f"""# The extremes, measured
+
+Made by `tests/extremes/gather.py` on {date}, on an {machine()}.
+
+What each test asks is in [README.md](README.md). `rays` counts what a test judges: rays, pixels,
+boxes or files. Under packet, wide and pair stand the failures of the kernels' three forms, under
+Embree those of Embree 3.13.5 on the same rays and triangles, in its default and its robust mode; an
+empty cell means not run there. A test holds where no case has more failures than its limit.
+
+## Summary
+
+| test | what | | cases | rays | packet | wide | pair | Embree default | Embree robust |
+|---|---|---|---|---|---|---|---|---|---|
+""")
+        for test, (title, _) in sorted(asked.items()):
+            out.write(summary_row(results, test, title) + "\n")
+        out.write("""
+## All cases
+
+| test | case | rays | limit | packet | wide | pair | Embree default | Embree robust | measured |
+|---|---|---|---|---|---|---|---|---|---|
+""")
+        for test in sorted(asked):
+            for key, case in results.of_test(test):
+                out.write(case_row(test, key, case) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build")
+    parser.add_argument("--tiers", default="2,1,0")
+    parser.add_argument("--from", dest="logs", action="append", default=[])
+    options = parser.parse_args()
+    results, status = Results(), 0
+    for source in sorted(options.logs, reverse=True):
+        tier, log = source.split(":", 1)
+        with open(log, encoding="utf-8", errors="replace") as file:
+            results.read(int(tier), file.read())
+    tiers = [] if options.logs else sorted(map(int, options.tiers.split(",")), reverse=True)
+    for tier in tiers:
+        output, code = run_tier(options.build, tier)
+        results.read(tier, output)
+        status = status or code
+    write(results, os.path.join(FOLDER, "RESULTS.md"))
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
