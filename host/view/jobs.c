@@ -65,14 +65,16 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return is_current(worker, job);
 }
 
-// Follows what samples cost; a first measurement counts for more than any guess.
+// Follows what samples cost.  A first measurement counts for more than any guess, and a single slow
+// picture, whose processors were busy elsewhere, for no more than twice the cost before.
 static void learn(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
     if (pass->kind == PASS_COUNT || samples < 1)
         return;
     const double cost = seconds / samples, before = worker->sample_seconds;
-    worker->sample_seconds = worker->has_measured ? (before + cost) / 2 : cost;
+    const double trusted = cost < 2 * before ? cost : 2 * before;
+    worker->sample_seconds = worker->has_measured ? (before + trusted) / 2 : cost;
     worker->has_measured = true;
 }
 
