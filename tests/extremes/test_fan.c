@@ -4,13 +4,13 @@
 #include "support/aim.h"
 #include "support/check.h"
 #include "support/shapes.h"
+#include "support/tier.h"
 #include "support/trial.h"
 
 #include <stdlib.h>
 
 #define TRIANGLES 10000
 #define RAYS      50000
-#define JUDGED    200 // of them, by each triangle alone
 
 // Above the fan, whose apex is the origin of the frame.
 static Vec3 point_above(Random *random)
@@ -46,6 +46,12 @@ static void aim_along_spokes(TestRay *rays, const Triangles *triangles, Random *
     }
 }
 
+// How many of them are judged by each triangle alone.
+static size_t judged_count(void)
+{
+    return tier_size(50, 1000);
+}
+
 // The smallest (t, id) of all triangles, and how many share its t.
 static TestHit nearest_of(const RayBatch *batch, const TestRay *ray, TestHit *each, size_t *equals)
 {
@@ -68,16 +74,18 @@ static size_t wrong_answers(const RayBatch *batch, const TestRay *rays, size_t *
 {
     Error error = {0};
     size_t wrong = 0;
-    TestHit hits[JUDGED];
+    const size_t count = judged_count();
+    TestHit *hits = memory_raw(count, sizeof *hits, &error);
     TestHit *each = memory_raw(TRIANGLES, sizeof *each, &error);
-    require(each != NULL, &error);
-    ray_batch_trace(batch, BATCH_NEAREST, rays, JUDGED, hits);
-    for (int i = 0; i < JUDGED; i++) {
+    require(hits != NULL && each != NULL, &error);
+    ray_batch_trace(batch, BATCH_NEAREST, rays, count, hits);
+    for (size_t i = 0; i < count; i++) {
         size_t equals;
         const TestHit nearest = nearest_of(batch, &rays[i], each, &equals);
         wrong += nearest.t != hits[i].t || nearest.id != hits[i].id;
         *ties += equals > 1;
     }
+    free(hits);
     free(each);
     return wrong;
 }
@@ -117,14 +125,15 @@ static void of_equally_near_triangles_the_lowest_id_is_hit_t07(void **state)
     ray_batch_upload(*state, &stage.flat);
     aim_at_apex(rays, &random);
     size_t wrong =
-        report_case("T-07", "answer=apex", JUDGED, wrong_answers(*state, rays, &apex_ties));
+        report_case("T-07", "answer=apex", judged_count(), wrong_answers(*state, rays, &apex_ties));
     aim_along_spokes(rays, &stage.triangles, &random);
-    wrong += report_case("T-07", "answer=spokes", JUDGED, wrong_answers(*state, rays, &spoke_ties));
+    wrong += report_case("T-07", "answer=spokes", judged_count(),
+                         wrong_answers(*state, rays, &spoke_ties));
     free(rays);
     stage_free(&stage);
     assert_int_equal(wrong, 0);
     // Without ties this would test nothing.
-    assert_in_range(apex_ties, JUDGED / 4, JUDGED);
+    assert_in_range(apex_ties, judged_count() / 4, judged_count());
 }
 
 int main(void)

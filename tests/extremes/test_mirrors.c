@@ -89,7 +89,7 @@ static void colors_between_parallel_mirrors_are_a_geometric_series_t44(void **st
         const uint64_t reflected = level > 0 ? pixels * (level - 1) : 0;
         const bool bounded = progress.tallies[TALLY_REFLECTED_RAYS] == reflected &&
                              progress.tallies[TALLY_SHADED_POINTS] == pixels * level;
-        snprintf(details, sizeof details, "limit=%u", level);
+        snprintf(details, sizeof details, "levels=%u", level);
         off += report_case("T-44", details, pixels, count_off(&picture, &scene, level) + !bounded);
         framebuffer_free(&picture);
     }

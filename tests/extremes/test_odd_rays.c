@@ -138,12 +138,10 @@ static size_t count_invalid(void *triangles, const TestRay *rays, const TestHit 
     return wrong;
 }
 
-#define FAR_RAYS 2000
-
 // From afar along an axis, every other a little slanted.
-static void aim_from(TestRay *rays, float distance, Random *random)
+static void aim_from(TestRay *rays, size_t count, float distance, Random *random)
 {
-    for (size_t i = 0; i < FAR_RAYS; i++) {
+    for (size_t i = 0; i < count; i++) {
         const uint32_t axis = random_below(random, 3);
         const float side = random_below(random, 2) == 0 ? 1 : -1;
         rays[i] = aim_at(random_in_cube(random, 0.5), vec3(0, 0, 0));
@@ -161,19 +159,20 @@ static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
     Trial trial;
     Random random = {24};
     size_t wrong = 0;
-    TestRay *rays = aim_make_rays(FAR_RAYS);
+    const size_t count = tier_size(200, 2000);
+    TestRay *rays = aim_make_rays(count);
     Scene scene = globe();
     stage_make(&stage, &scene, TREE_SAH);
     trial_open(&trial, "T-24", *state, &stage);
     for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
         char details[32];
-        aim_from(rays, distances[i], &random);
+        aim_from(rays, count, distances[i], &random);
         // Embree 3.13.5 ends in a segmentation fault.
         if (distances[i] > 1e12f)
             peers_close(&trial.peers);
         snprintf(details, sizeof details, "distance=%g", (double)distances[i]);
-        wrong += trial_judge(&trial, details, rays, FAR_RAYS,
-                             &(Judgment){count_invalid, &stage.triangles});
+        wrong +=
+            trial_judge(&trial, details, rays, count, &(Judgment){count_invalid, &stage.triangles});
     }
     trial_close(&trial);
     stage_free(&stage);
