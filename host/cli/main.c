@@ -5,6 +5,7 @@
 #include "accel/flat.h"
 #include "accel/levels.h"
 #include "base/clock.h"
+#include "cli/check.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -89,6 +90,7 @@ static bool load_scene(Run *run, Error *error)
                        run->scene.viewpoints.count, options->view);
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = lap(&moment) - run->report.load;
+    ok = ok && check_geometry(options, &run->scene, error);
     run->normalization = normalization_of(&run->scene);
     Error cause = {0};
     if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
@@ -316,6 +318,11 @@ static ExitCode show(Run *run, Error *error)
     return show_scene(run->options, &run->cache, error);
 }
 
+static ExitCode check(Run *run, Error *error)
+{
+    return check_scene(run->options, &run->cache, error);
+}
+
 static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
                             Error *error)
 {
@@ -367,6 +374,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return perform_run(&options, warm, error);
     case ACTION_VIEW:
         return perform_run(&options, show, error);
+    case ACTION_CHECK:
+        return perform_run(&options, check, error);
     case ACTION_RENDER:
         break;
     }
@@ -379,7 +388,7 @@ int main(int count, char **words)
     // A reader that leaves early is a failed write, to be told and cleaned up after.
     signal(SIGPIPE, SIG_IGN);
     ExitCode code = perform(count, words, &error);
-    if (code == EXIT_DONE && (fflush(stdout) != 0 || ferror(stdout))) {
+    if (code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
         error_set(&error, "standard output cannot be written");
         code = EXIT_OUTPUT;
     }
