@@ -80,6 +80,16 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
+// The angle of a triangle at a corner: normals weighed by it do not depend on how faces are cut
+// into triangles.
+static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
+{
+    const Vec3 apex = corner_of(triangles, triangle, corner);
+    const Vec3 a = vec3_sub(corner_of(triangles, triangle, (corner + 1) % 3), apex);
+    const Vec3 b = vec3_sub(corner_of(triangles, triangle, (corner + 2) % 3), apex);
+    return atan2(length_of(vec3_cross(a, b)), vec3_dot(a, b));
+}
+
 // Whether the next aim is one of those that are kept.
 static bool is_chosen(Maker *maker)
 {
@@ -103,7 +113,8 @@ static void sum_stars(const Maker *maker)
         for (int corner = 0; corner < 3; corner++) {
             Star *star =
                 &maker->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
-            star->outward = vec3_add(star->outward, normal);
+            const double angle = angle_at(source->triangles, triangle, corner);
+            star->outward = vec3_add(star->outward, vec3_scale(normal, angle));
             star->triangle = triangle;
         }
     }

@@ -27,13 +27,12 @@ static void write_findings(const CheckReport *report, size_t object, FILE *strea
 static void write_leaks(const CheckReport *report, size_t object, FILE *stream)
 {
     const LeakCount *leaks = &report->result->leaks[object];
-    fprintf(stream, "  %zu leaks: %zu rays at %zu of its %zu edges and points", leaks->leaks.count,
-            leaks->rays, leaks->aimed, leaks->total);
+    fprintf(stream, "  %zu rays at %zu of its %zu edges and points", leaks->rays, leaks->aimed,
+            leaks->total);
     if (leaks->total > LEAKS_AIMS)
         fprintf(stream, " (at most %d are aimed at)", LEAKS_AIMS);
-    if (leaks->hidden > 0)
-        fprintf(stream, ", %zu hidden by other parts", leaks->hidden);
-    fputs("\n", stream);
+    fprintf(stream, ": %zu hidden by other parts, %zu pass through\n", leaks->hidden,
+            leaks->leaks.count);
 }
 
 static void write_mesh(const CheckReport *report, size_t object, FILE *stream)
@@ -72,7 +71,7 @@ void check_report_write_text(const CheckReport *report, FILE *stream)
     if (failing == 0)
         fputs("fine\n", stream);
     else
-        fprintf(stream, "%zu kinds of faults\n", failing);
+        fprintf(stream, "%zu of %zu findings are faults\n", failing, report->findings->list.count);
 }
 
 static json_t *integer(uint64_t value)
