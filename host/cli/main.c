@@ -3,7 +3,6 @@
 // Every stage borrows the ones before it and fills a value of its own; a zeroed value is valid and
 // freeing it does nothing, so there is one way out.
 #include "accel/flat.h"
-#include "accel/levels.h"
 #include "base/clock.h"
 #include "cli/check.h"
 #include "cli/options.h"
@@ -64,22 +63,6 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
     };
 }
 
-static void count_scene(Report *report, const Scene *scene, const Bvh *bvh)
-{
-    report->scene_hash[0] = scene->hash[0];
-    report->scene_hash[1] = scene->hash[1];
-    report->lights = (uint32_t)scene->lights.count;
-    report->spheres = (uint32_t)scene->spheres.count;
-    report->triangles = (uint32_t)scene_triangle_count(scene);
-    for (size_t i = 0; i < scene->objects.count; i++)
-        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
-    report->bvh_nodes = bvh->node_count;
-    report->bvh_leaves = bvh->leaf_count;
-    report->bvh_depth = bvh->depth;
-    report->bvh_largest_leaf = bvh->largest_leaf;
-    levels_count(bvh, report->bvh_inner);
-}
-
 static bool load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
@@ -137,7 +120,7 @@ static bool build_scene(Run *run, Error *error)
     crew_close(crew);
     run->report.build += lap(&moment);
     if (ok)
-        count_scene(&run->report, &run->scene, &bvh);
+        report_count_scene(&run->report, &run->scene, &bvh);
     bvh_free(&bvh);
     triangles_free(&triangles);
     return ok;

@@ -2,6 +2,7 @@
 // Words the report; Jansson writes the JSON.
 #include "cli/report.h"
 
+#include "accel/levels.h"
 #include "cli/json_file.h"
 
 #include <inttypes.h>
@@ -27,6 +28,22 @@ static const char *tree_name(const Report *report)
     if (!report->options->uses_bvh || report->triangles == 0)
         return "none";
     return report->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
+}
+
+void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
+{
+    report->scene_hash[0] = scene->hash[0];
+    report->scene_hash[1] = scene->hash[1];
+    report->lights = (uint32_t)scene->lights.count;
+    report->spheres = (uint32_t)scene->spheres.count;
+    report->triangles = (uint32_t)scene_triangle_count(scene);
+    for (size_t i = 0; i < scene->objects.count; i++)
+        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
+    report->bvh_nodes = bvh->node_count;
+    report->bvh_leaves = bvh->leaf_count;
+    report->bvh_depth = bvh->depth;
+    report->bvh_largest_leaf = bvh->largest_leaf;
+    levels_count(bvh, report->bvh_inner);
 }
 
 void report_make_texts(const Report *report, ReportTexts *texts)

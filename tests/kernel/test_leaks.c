@@ -85,7 +85,7 @@ static Closedness closedness_of(const Mesh *mesh)
 {
     Weld weld;
     Edges edges;
-    Closedness closedness;
+    Closedness closedness = {0};
     Error error = {0};
     assert_true(weld_make(&weld, mesh, &error) && edges_make(&edges, mesh, &weld, &error) &&
                 closedness_find(&closedness, mesh, &weld, &edges, &error));

@@ -20,7 +20,7 @@ typedef struct {
     uint32_t targets[64];
 } Fixture;
 
-static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
+static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
 {
     Fixture all = {.mesh = {.positions = corners,
                             .triangles = triangles,
@@ -34,10 +34,15 @@ static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
                 triangles_make(&all.triangles, &scene, &frame, NULL, &error) &&
                 weld_make(&all.weld, &all.mesh, &error) &&
                 edges_make(&all.edges, &all.mesh, &all.weld, &error));
-    const AimSource source = {&all.mesh, &all.triangles, &all.weld, &all.edges, false};
+    const AimSource source = {&all.mesh, &all.triangles, &all.weld, &all.edges, is_inside_out};
     assert_true(aims_make(&all.aims, &source, most, &error));
     free(scene.objects.memory);
     return all;
+}
+
+static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
+{
+    return aimed_as(triangles, count, most, false);
 }
 
 static void release(Fixture *all)
@@ -57,6 +62,16 @@ static void every_edge_and_point_is_aimed_at_once(void **state)
     for (size_t i = 0; i < 4; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 1.7);
     for (size_t i = 4; i < 10; i++)
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
+    release(&all);
+}
+
+static void a_mesh_turned_inside_out_is_aimed_at_from_outside_too(void **state)
+{
+    (void)state;
+    uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    Fixture all = aimed_as(turned, 4, 64, true);
+    for (size_t i = 0; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
     release(&all);
 }
@@ -131,6 +146,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_edge_and_point_is_aimed_at_once),
+        cmocka_unit_test(a_mesh_turned_inside_out_is_aimed_at_from_outside_too),
         cmocka_unit_test(an_open_edge_is_aimed_at_beyond_it_too),
         cmocka_unit_test(no_more_aims_are_kept_than_asked_for),
         cmocka_unit_test(rays_from_afar_start_outside_and_end_at_their_aims),
