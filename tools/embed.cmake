@@ -2,7 +2,7 @@
 # Joins the kernel files into one C array: each #include of render.cl, and so on down, gives way to
 # the file's text; a file with an include guard comes once, one without wherever it is included.
 # A #line before each piece makes build logs name the real file and line.
-# Usage: cmake -DFOLDER=kernels -DFILE=render.cl -DOUTPUT=file.c -P embed.cmake
+# Usage: cmake -DFOLDER=kernels -DFILE=render.cl -DNAME=kernel_source -DOUTPUT=file.c -P embed.cmake
 cmake_minimum_required(VERSION 3.25)
 set(seen "")
 
@@ -38,4 +38,4 @@ expand("${FILE}" joined)
 string(HEX "${joined}" bytes)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "(................................................................................)" "\\1\n" bytes "${bytes}")
-file(WRITE "${OUTPUT}" "// Made by tools/embed.cmake.\n#include <stddef.h>\nextern const char kernel_source[];\nextern const size_t kernel_source_size;\nconst char kernel_source[] = {\n${bytes}0};\nconst size_t kernel_source_size = sizeof kernel_source - 1;\n")
+file(WRITE "${OUTPUT}" "// Made by tools/embed.cmake.\n#include <stddef.h>\nextern const char ${NAME}[];\nextern const size_t ${NAME}_size;\nconst char ${NAME}[] = {\n${bytes}0};\nconst size_t ${NAME}_size = sizeof ${NAME} - 1;\n")

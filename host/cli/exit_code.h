@@ -4,6 +4,7 @@
 
 typedef enum {
     EXIT_DONE = 0,
+    EXIT_FAULTS = 1, // that a check was to find
     EXIT_USAGE = 2,
     EXIT_SCENE = 3,
     EXIT_DEVICE = 4,

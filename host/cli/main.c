@@ -3,8 +3,8 @@
 // Every stage borrows the ones before it and fills a value of its own; a zeroed value is valid and
 // freeing it does nothing, so there is one way out.
 #include "accel/flat.h"
-#include "accel/levels.h"
 #include "base/clock.h"
+#include "cli/check.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -63,22 +63,6 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
     };
 }
 
-static void count_scene(Report *report, const Scene *scene, const Bvh *bvh)
-{
-    report->scene_hash[0] = scene->hash[0];
-    report->scene_hash[1] = scene->hash[1];
-    report->lights = (uint32_t)scene->lights.count;
-    report->spheres = (uint32_t)scene->spheres.count;
-    report->triangles = (uint32_t)scene_triangle_count(scene);
-    for (size_t i = 0; i < scene->objects.count; i++)
-        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
-    report->bvh_nodes = bvh->node_count;
-    report->bvh_leaves = bvh->leaf_count;
-    report->bvh_depth = bvh->depth;
-    report->bvh_largest_leaf = bvh->largest_leaf;
-    levels_count(bvh, report->bvh_inner);
-}
-
 static bool load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
@@ -89,6 +73,7 @@ static bool load_scene(Run *run, Error *error)
                        run->scene.viewpoints.count, options->view);
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = lap(&moment) - run->report.load;
+    ok = ok && check_geometry(options, &run->scene, error);
     run->normalization = normalization_of(&run->scene);
     Error cause = {0};
     if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
@@ -135,7 +120,7 @@ static bool build_scene(Run *run, Error *error)
     crew_close(crew);
     run->report.build += lap(&moment);
     if (ok)
-        count_scene(&run->report, &run->scene, &bvh);
+        report_count_scene(&run->report, &run->scene, &bvh);
     bvh_free(&bvh);
     triangles_free(&triangles);
     return ok;
@@ -316,6 +301,11 @@ static ExitCode show(Run *run, Error *error)
     return show_scene(run->options, &run->cache, error);
 }
 
+static ExitCode check(Run *run, Error *error)
+{
+    return check_scene(run->options, &run->cache, error);
+}
+
 static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
                             Error *error)
 {
@@ -367,6 +357,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return perform_run(&options, warm, error);
     case ACTION_VIEW:
         return perform_run(&options, show, error);
+    case ACTION_CHECK:
+        return perform_run(&options, check, error);
     case ACTION_RENDER:
         break;
     }
@@ -379,7 +371,7 @@ int main(int count, char **words)
     // A reader that leaves early is a failed write, to be told and cleaned up after.
     signal(SIGPIPE, SIG_IGN);
     ExitCode code = perform(count, words, &error);
-    if (code == EXIT_DONE && (fflush(stdout) != 0 || ferror(stdout))) {
+    if (code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
         error_set(&error, "standard output cannot be written");
         code = EXIT_OUTPUT;
     }

@@ -4,15 +4,15 @@
 
 #include "base/number.h"
 #include "base/word.h"
+#include "cli/command.h"
 #include "cli/option_check.h"
+#include "cli/option_choice.h"
 #include "cli/option_value.h"
 #include "cli/show.h"
 
 #include <assert.h>
 #include <getopt.h>
 #include <string.h>
-
-typedef bool ReadValue(Options *options, const char *value, Error *error);
 
 static bool read_aa(Options *options, const char *value, Error *error)
 {
@@ -70,56 +70,11 @@ static bool read_group(Options *options, const char *value, Error *error)
     return ok;
 }
 
-static bool read_kernel(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"auto", "ray", "packet"};
-    const int choice = read_choice(value, "kernel", names, 3, error);
-    options->kernel.family_given = choice > 0;
-    options->kernel.choice.family = choice == 2 ? FAMILY_PACKET : FAMILY_RAY;
-    return choice >= 0;
-}
-
-static bool read_nodes(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"auto", "pair", "wide"};
-    const int choice = read_choice(value, "nodes", names, 3, error);
-    options->kernel.nodes_given = choice > 0;
-    options->kernel.choice.nodes = choice == 2 ? NODES_WIDE : NODES_PAIR;
-    return choice >= 0;
-}
-
-static bool read_lanes(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"auto", "4", "8", "16"};
-    static const uint32_t lanes[] = {0, 4, 8, 16};
-    const int choice = read_choice(value, "lanes", names, 4, error);
-    options->kernel.choice.lanes = choice > 0 ? lanes[choice] : 0;
-    return choice >= 0;
-}
-
 static bool read_no_bvh(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;
     options->uses_bvh = false;
     return true;
-}
-
-static bool read_bvh(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"sah", "midpoint"};
-    const int choice = read_choice(value, "bvh", names, 2, error);
-    options->builder = choice == 1 ? BVH_MIDPOINT : BVH_SAH;
-    return choice >= 0;
-}
-
-static bool read_specialize(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"auto", "always", "never"};
-    const int choice = read_choice(value, "specialize", names, 3, error);
-    options->specialization = choice == 1   ? SPECIALIZE_ALWAYS
-                              : choice == 2 ? SPECIALIZE_NEVER
-                                            : SPECIALIZE_AUTO;
-    return choice >= 0;
 }
 
 static bool read_max_level(Options *options, const char *value, Error *error)
@@ -166,14 +121,6 @@ static bool read_stats(Options *options, const char *value, Error *error)
            error_set(error, "--stats= wants the name of a file");
 }
 
-static bool read_encode(Options *options, const char *value, Error *error)
-{
-    static const char *const names[] = {"raw", "srgb"};
-    const int choice = read_choice(value, "encode", names, 2, error);
-    options->encoding = choice == 1 ? ENCODE_SRGB : ENCODE_RAW;
-    return choice >= 0;
-}
-
 static bool read_keys(Options *options, const char *value, Error *error)
 {
     (void)error;
@@ -184,6 +131,14 @@ static bool read_keys(Options *options, const char *value, Error *error)
 static bool read_quit_after(Options *options, const char *value, Error *error)
 {
     return read_count(value, "quit-after", 1000000, &options->quit_after, error);
+}
+
+static bool read_json(Options *options, const char *value, Error *error)
+{
+    options->json = true;
+    options->json_path = value;
+    return value == NULL || value[0] != '\0' ||
+           error_set(error, "--json= wants the name of a file");
 }
 
 static bool read_quiet(Options *options, const char *value, Error *error)
@@ -257,6 +212,9 @@ static const struct {
      "press these keys in the window, each once the one before is shown"},
     {"quit-after", 0, "N", read_quit_after,
      "close the window after N frames, counted once the keys are played"},
+    {"bad-geometry", 0, "WHAT", read_bad_geometry,
+     "triangles of no area: drop (default) or fail, naming the first"},
+    {"json", 0, "[=FILE]", read_json, "clrt check: write the report as JSON, to FILE or instead"},
     {"quiet", 'q', NULL, read_quiet, "say nothing but errors"},
     {"verbose", 'v', NULL, read_verbose, "say what is done and with what"},
     {"version", 0, NULL, read_version, "print the version"},
@@ -264,6 +222,7 @@ static const struct {
 };
 #define OPTION_COUNT (sizeof table / sizeof table[0])
 #define FIRST_LONG   256 // getopt's values of options: past the letters
+_Static_assert(OPTION_COUNT <= 64, "options_parse keeps a bit for each");
 
 static bool argument_is_optional(size_t option)
 {
@@ -275,8 +234,10 @@ void options_write_help(FILE *stream)
     fprintf(stream,
             "Usage: clrt SCENE [options]\n"
             "       clrt SCENE -o FILE [options]\n"
+            "       clrt check SCENE [options]\n"
             "       clrt --warm [SCENE] [options]\n"
-            "Traces a scene (.scn, or a .ply mesh) with OpenCL, in a window or to a file.\n\n");
+            "Traces a scene (.scn, or a .ply mesh) with OpenCL, in a window or to a file; check\n"
+            "looks for what is wrong in its geometry instead.\n\n");
     for (size_t i = 0; i < OPTION_COUNT; i++) {
         char name[64], letter[8] = "    ";
         if (table[i].letter != 0)
@@ -288,8 +249,9 @@ void options_write_help(FILE *stream)
         fprintf(stream, "  %s%-20s %s\n", letter, name, table[i].help);
     }
     show_write_keys(stream);
-    fprintf(stream, "\nExit status: 0 done, 2 usage, 3 scene or mesh, 4 device, 5 output, "
-                    "128 + signal when stopped.\n");
+    fprintf(stream, "\nExit status: 0 done, 1 check found faults, 2 usage, 3 scene or mesh, "
+                    "4 device, 5 output,\n"
+                    "             128 + signal when stopped.\n");
 }
 
 static void fill_getopt(struct option longs[OPTION_COUNT + 1], char *shorts)
@@ -333,6 +295,16 @@ static size_t option_of(int found)
     return 0;
 }
 
+static bool check_purposes(uint64_t given, const Command *command, Error *error)
+{
+    for (size_t i = 0; i < OPTION_COUNT; i++)
+        if ((given >> i & 1) != 0 && !command_takes(command, table[i].name))
+            return command == NULL
+                       ? error_set(error, "--%s is for clrt check", table[i].name)
+                       : error_set(error, "clrt %s takes no --%s", command->name, table[i].name);
+    return true;
+}
+
 static bool read_scene(Options *options, int count, char **words, Error *error)
 {
     if (optind >= count && options->action == ACTION_WARM)
@@ -346,7 +318,7 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
                          words[optind + 1], words[optind]);
     options->scene_path = words[optind];
     return kernel_check_wish(&options->kernel, error) &&
-           (options->action == ACTION_WARM || options_check_purpose(options, error));
+           (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
 bool options_parse(Options *options, int count, char **words, Error *error)
@@ -363,6 +335,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     fill_getopt(longs, shorts);
     opterr = 0;
     optind = 0;
+    uint64_t given = 0; // a bit for each option of the table
     for (;;) {
         const char *word = words[optind > 0 ? optind : 1];
         const int found = getopt_long(count, words, shorts, longs, NULL);
@@ -372,9 +345,17 @@ bool options_parse(Options *options, int count, char **words, Error *error)
             return error_set(error, "%s wants a value", words[optind - 1]);
         if (found == '?')
             return unknown_option(word != NULL && optind > 1 ? words[optind - 1] : word, error);
-        if (!table[option_of(found)].read(options, optarg, error))
+        const size_t option = option_of(found);
+        given |= (uint64_t)1 << option;
+        if (!table[option].read(options, optarg, error))
             return false;
     }
-    const bool takes_scene = options->action == ACTION_RENDER || options->action == ACTION_WARM;
-    return !takes_scene || read_scene(options, count, words, error);
+    if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
+        return true;
+    const Command *command = optind < count ? command_named(words[optind]) : NULL;
+    if (command != NULL) {
+        optind++;
+        options->action = command->action;
+    }
+    return check_purposes(given, command, error) && read_scene(options, count, words, error);
 }

@@ -14,8 +14,15 @@ typedef enum {
     ACTION_VERSION,
     ACTION_LIST_DEVICES,
     ACTION_WARM,
-    ACTION_VIEW
+    ACTION_VIEW,
+    ACTION_CHECK
 } Action;
+
+// What happens to triangles of no area, which no ray can meet.
+typedef enum {
+    BAD_GEOMETRY_DROP, // those with two equal corners are left out; the others are harmless
+    BAD_GEOMETRY_FAIL
+} BadGeometry;
 
 #define FRAMES_MAX 1000
 
@@ -46,6 +53,9 @@ typedef struct {
     Encoding encoding;
     const char *keys;    // to play in the window, NULL for none
     uint32_t quit_after; // frames in the window; 0: when the user quits
+    BadGeometry bad_geometry;
+    bool json;             // of ACTION_CHECK
+    const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;
 

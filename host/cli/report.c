@@ -2,10 +2,10 @@
 // Words the report; Jansson writes the JSON.
 #include "cli/report.h"
 
-#include <errno.h>
+#include "accel/levels.h"
+#include "cli/json_file.h"
+
 #include <inttypes.h>
-#include <jansson.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -28,6 +28,22 @@ static const char *tree_name(const Report *report)
     if (!report->options->uses_bvh || report->triangles == 0)
         return "none";
     return report->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
+}
+
+void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
+{
+    report->scene_hash[0] = scene->hash[0];
+    report->scene_hash[1] = scene->hash[1];
+    report->lights = (uint32_t)scene->lights.count;
+    report->spheres = (uint32_t)scene->spheres.count;
+    report->triangles = (uint32_t)scene_triangle_count(scene);
+    for (size_t i = 0; i < scene->objects.count; i++)
+        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
+    report->bvh_nodes = bvh->node_count;
+    report->bvh_leaves = bvh->leaf_count;
+    report->bvh_depth = bvh->depth;
+    report->bvh_largest_leaf = bvh->largest_leaf;
+    levels_count(bvh, report->bvh_inner);
 }
 
 void report_make_texts(const Report *report, ReportTexts *texts)
@@ -102,26 +118,12 @@ static json_t *frames_json(const Report *report)
     return list;
 }
 
-// JSON is UTF-8 and a path need not be: bytes past ASCII in one that is not become '?'.
-static json_t *path_json(const char *path)
-{
-    char shown[4096];
-    json_t *valid = json_string(path);
-    if (valid != NULL)
-        return valid;
-    snprintf(shown, sizeof shown, "%s", path);
-    for (char *c = shown; *c != '\0'; c++)
-        if ((unsigned char)*c >= 0x80)
-            *c = '?';
-    return json_string(shown);
-}
-
 static json_t *scene_json(const Report *report, const ReportTexts *texts)
 {
     return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "path",
-                     path_json(report->options->scene_path), "hash", texts->scene_hash, "lights",
-                     integer(report->lights), "spheres", integer(report->spheres), "triangles",
-                     integer(report->triangles), "dropped_triangles",
+                     json_file_path(report->options->scene_path), "hash", texts->scene_hash,
+                     "lights", integer(report->lights), "spheres", integer(report->spheres),
+                     "triangles", integer(report->triangles), "dropped_triangles",
                      integer(report->dropped_triangles));
 }
 
@@ -175,15 +177,5 @@ static json_t *report_json(const Report *report)
 
 bool report_write_json(const Report *report, const char *path, Error *error)
 {
-    json_t *root = report_json(report);
-    char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_SORT_KEYS);
-    json_decref(root);
-    if (text == NULL)
-        return error_set(error, "%s: the statistics cannot be written as JSON", path);
-    FILE *stream = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
-    bool ok = stream != NULL && fprintf(stream, "%s\n", text) > 0 && fflush(stream) == 0;
-    if (stream != NULL && stream != stdout)
-        ok = fclose(stream) == 0 && ok;
-    free(text);
-    return ok || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    return json_file_write(report_json(report), path, error);
 }

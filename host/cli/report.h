@@ -35,6 +35,9 @@ typedef struct {
     char settings[256];
 } ReportTexts;
 
+// Takes what there is to tell of a scene and its tree.
+void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
+
 void report_make_texts(const Report *report, ReportTexts *texts);
 
 // The figures the course prints, on stream.

@@ -7,6 +7,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// Faults of one kind.
+typedef struct {
+    size_t count;
+    size_t first; // the lowest place of one, counted from 0
+} MeshFault;
+
+static inline void mesh_fault_add(MeshFault *fault, size_t place)
+{
+    if (fault->count++ == 0 || place < fault->first)
+        fault->first = place;
+}
+
 typedef struct {
     double (*positions)[3]; // vertex_count finite points, each component below 1e30 in size
     float (*normals)[3];    // vertex_count finite vectors of any length, zero where the file
@@ -14,7 +26,11 @@ typedef struct {
     uint32_t (
         *triangles)[3]; // triangle_count triples below vertex_count, counter-clockwise in front
     size_t vertex_count, triangle_count;
-    size_t dropped_count; // triangles with two equal corners, left out
+    size_t dropped_count;    // triangles left out, for either of these faults:
+    MeshFault equal_corners; // two of its corners are one point
+    MeshFault lost_corners;  // a corner's position was not usable; of tolerant readers alone
+    // Vertices, of tolerant readers alone; both become zero.
+    MeshFault bad_positions, bad_normals;
 } Mesh;
 
 // Widens low and high to hold the vertices that triangles use: a stray one counts for nothing.

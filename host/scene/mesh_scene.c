@@ -3,7 +3,6 @@
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
-#include "scene/ply.h"
 
 #include <string.h>
 
@@ -54,14 +53,15 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
            array_push(&scene->lights, ((Light){fill, 0.3}), error);
 }
 
-bool mesh_scene_parse(Scene *scene, const char *bytes, size_t size, const char *name, Error *error)
+bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
+                      Error *error)
 {
     Vec3 center;
     MeshObject object = {.material = 1, .two_sided = true, .smooth = true};
     const double start = clock_seconds();
-    bool ok = scene_init(scene, error) && ply_parse(&object.mesh, bytes, size, name, error);
+    bool ok = scene_init(scene, error) && parse(&object.mesh, file->bytes, file->size, name, error);
     scene->mesh_seconds = clock_seconds() - start;
-    scene_hash_input(scene, bytes, size);
+    scene_hash_input(scene, file->bytes, file->size);
     const double radius = radius_of(&object.mesh, &center);
     const bool kept = ok && array_push(&scene->objects, object, error);
     if (!kept)

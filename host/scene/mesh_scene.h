@@ -2,11 +2,14 @@
 // A mesh in place of a scene: framed by cameras of its own, lit and drawn two-sided.
 #pragma once
 
+#include "base/file.h"
+#include "scene/ply.h"
 #include "scene/scene.h"
 
 // Whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
-// Fills scene from the bytes of a mesh file called name.  Viewpoints: three-quarter, front, right,
-// back, left and top, with z up.
-bool mesh_scene_parse(Scene *scene, const char *bytes, size_t size, const char *name, Error *error);
+// Fills scene from a mesh file called name, as parse reads it.  Viewpoints: three-quarter, front,
+// right, back, left and top, with z up.
+bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
+                      Error *error);

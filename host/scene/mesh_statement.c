@@ -5,7 +5,6 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/trigonometry.h"
-#include "scene/ply.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -110,7 +109,7 @@ static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
     return true;
 }
 
-static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path)
+static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path, PlyParse *parse)
 {
     Error *error = tokens->error;
     Error cause = {0};
@@ -126,7 +125,7 @@ static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path
     ok = ok && scene_add_input(scene, full, error);
     if (ok) {
         scene_hash_input(scene, file.bytes, file.size);
-        ok = ply_parse(mesh, file.bytes, file.size, full, error);
+        ok = parse(mesh, file.bytes, file.size, full, error);
     }
     file_free(&file);
     free(full);
@@ -134,7 +133,7 @@ static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path
     return ok;
 }
 
-bool mesh_statement_read(Scene *scene, Tokens *tokens, MeshObject object)
+bool mesh_statement_read(Scene *scene, Tokens *tokens, MeshObject object, PlyParse *parse)
 {
     const bool transformable = strncmp(tokens->usage, "mesh", 4) == 0;
     const Token path = tokens_next(tokens);
@@ -143,7 +142,7 @@ bool mesh_statement_read(Scene *scene, Tokens *tokens, MeshObject object)
     if (memchr(path.text, '\0', path.length) != NULL)
         return tokens_fail(tokens, path, "expected a path without a zero byte");
     const double start = clock_seconds();
-    const bool loaded = load_mesh(scene, &object.mesh, tokens, path);
+    const bool loaded = load_mesh(scene, &object.mesh, tokens, path, parse);
     scene->mesh_seconds += clock_seconds() - start;
     const bool ok = loaded &&
                     (!transformable || (read_transforms(tokens, &object.mesh) &&

@@ -16,7 +16,31 @@ typedef struct {
     PlyHeader header;
     Mesh *mesh;
     ARRAY(Triangle) triangles;
+    size_t last_bad_position, last_bad_normal; // vertices: several components are one fault
 } Loader;
+
+static void count_once(MeshFault *fault, size_t *last, size_t vertex)
+{
+    if (fault->count == 0 || *last != vertex)
+        mesh_fault_add(fault, vertex);
+    *last = vertex;
+}
+
+// What stands for a value: NaN marks the vertex until its triangles are dropped.
+static double tolerated(Loader *loader, PlyRole role, double value)
+{
+    const size_t vertex = (size_t)loader->reader.index;
+    Mesh *mesh = loader->mesh;
+    if (role <= PLY_Z && !(fabs(value) < PLY_COORDINATE_BOUND)) {
+        count_once(&mesh->bad_positions, &loader->last_bad_position, vertex);
+        return (double)NAN;
+    }
+    if (role > PLY_Z && !isfinite((float)value)) {
+        count_once(&mesh->bad_normals, &loader->last_bad_normal, vertex);
+        return 0;
+    }
+    return value;
+}
 
 static bool read_component(Loader *loader, const PlyProperty *property)
 {
@@ -26,8 +50,10 @@ static bool read_component(Loader *loader, const PlyProperty *property)
     double value;
     if (!ply_reader_read_number(reader, property->type, &value))
         return false;
+    if (reader->is_tolerant)
+        value = tolerated(loader, property->role, value);
     if (property->role <= PLY_Z) {
-        if (!(fabs(value) < PLY_COORDINATE_BOUND))
+        if (!(fabs(value) < PLY_COORDINATE_BOUND) && !reader->is_tolerant)
             return ply_reader_fail(reader, "%s is %g, not a finite number below 1e30 in size", name,
                                    value);
         loader->mesh->positions[reader->index][property->role - PLY_X] = value;
@@ -219,17 +245,34 @@ static bool is_same_point(const double *a, const double *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+static bool is_lost(const double *point)
+{
+    return isnan(point[0]) || isnan(point[1]) || isnan(point[2]);
+}
+
+static bool has_equal_corners(const double *a, const double *b, const double *c)
+{
+    return is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a);
+}
+
 // Closes the gaps that dropped triangles leave.
-static void drop_slivers(Mesh *mesh)
+static void drop_triangles(Mesh *mesh)
 {
     size_t kept = 0;
+    const bool some_lost = mesh->bad_positions.count > 0;
     for (size_t index = 0; index < mesh->triangle_count; index++) {
         const uint32_t *triangle = mesh->triangles[index];
         const double *a = mesh->positions[triangle[0]];
         const double *b = mesh->positions[triangle[1]];
         const double *c = mesh->positions[triangle[2]];
-        if (is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a))
+        MeshFault *fault = some_lost && (is_lost(a) || is_lost(b) || is_lost(c))
+                               ? &mesh->lost_corners
+                           : has_equal_corners(a, b, c) ? &mesh->equal_corners
+                                                        : NULL;
+        if (fault != NULL) {
+            mesh_fault_add(fault, index);
             continue;
+        }
         if (kept < index)
             memcpy(mesh->triangles[kept], triangle, sizeof(Triangle));
         kept++;
@@ -238,23 +281,47 @@ static void drop_slivers(Mesh *mesh)
     mesh->triangle_count = kept;
 }
 
-bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
+// Once no triangle uses them, so that nobody meets a NaN.
+static void clear_lost_vertices(Mesh *mesh)
 {
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
+        if (is_lost(mesh->positions[vertex]))
+            memset(mesh->positions[vertex], 0, sizeof mesh->positions[vertex]);
+}
+
+static bool load(Loader *loader)
+{
+    Mesh *mesh = loader->mesh;
     *mesh = (Mesh){0};
-    Loader loader = {
-        .reader = {.name = name,
-                   .start = bytes,
-                   .end = size == 0 ? bytes : bytes + size,
-                   .error = error},
-        .mesh = mesh,
-    };
-    const bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
-    mesh->triangles = loader.triangles.data;
-    mesh->triangle_count = loader.triangles.count;
-    ply_header_free(&loader.header);
+    const bool ok = ply_header_parse(&loader->header, &loader->reader) && read_elements(loader);
+    mesh->triangles = loader->triangles.data;
+    mesh->triangle_count = loader->triangles.count;
+    ply_header_free(&loader->header);
     if (ok)
-        drop_slivers(mesh);
+        drop_triangles(mesh);
     else
         mesh_free(mesh);
+    if (mesh->bad_positions.count > 0)
+        clear_lost_vertices(mesh);
     return ok;
+}
+
+static PlyReader reader_of(const char *bytes, size_t size, const char *name, Error *error)
+{
+    return (PlyReader){
+        .name = name, .start = bytes, .end = size == 0 ? bytes : bytes + size, .error = error};
+}
+
+bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
+{
+    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
+    return load(&loader);
+}
+
+bool ply_parse_tolerantly(Mesh *mesh, const char *bytes, size_t size, const char *name,
+                          Error *error)
+{
+    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
+    loader.reader.is_tolerant = true;
+    return load(&loader);
 }

@@ -11,4 +11,9 @@
 // polygons become fans of triangles, triangles with two equal corners are dropped and counted.
 // False on anything truncated, lying, non-finite or out of range: the message gives the line
 // (ascii) or byte offset (binary), and nothing is allocated before the file has proved its size.
-bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
+typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
+PlyParse ply_parse;
+
+// The same for whoever looks for faults: coordinates and normals that are not finite or out of
+// range are counted in mesh, and so are the triangles dropped with them.
+PlyParse ply_parse_tolerantly;

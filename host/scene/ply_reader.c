@@ -6,9 +6,11 @@
 #include "base/number.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 static const size_t type_sizes[] = {
     [PLY_INT8] = 1,  [PLY_UINT8] = 1,  [PLY_INT16] = 2,   [PLY_UINT16] = 2,
@@ -152,11 +154,32 @@ static int64_t bits_to_integer(uint64_t bits, PlyType type)
     return ((int64_t)bits ^ sign) - sign;
 }
 
+// The words for infinities and NaN, which programs write in many ways: inf, -nan, nan(ind).
+static bool is_no_number(const PlyReader *reader)
+{
+    const char *word = reader->place;
+    const char *end = token_end(reader);
+    if (word < end && (*word == '-' || *word == '+'))
+        word++;
+    return end - word >= 3 &&
+           (strncasecmp(word, "nan", 3) == 0 || strncasecmp(word, "inf", 3) == 0);
+}
+
+static bool read_ascii_number(PlyReader *reader, double *value)
+{
+    if (!find_token(reader))
+        return false;
+    if (!reader->is_tolerant || !is_no_number(reader))
+        return take_token(reader, number_parse(reader->next, reader->end, value), "a number");
+    *value = (double)NAN;
+    reader->next = token_end(reader);
+    return true;
+}
+
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value)
 {
     if (reader->format == PLY_ASCII)
-        return find_token(reader) &&
-               take_token(reader, number_parse(reader->next, reader->end, value), "a number");
+        return read_ascii_number(reader, value);
     uint64_t bits = 0;
     if (!take_bits(reader, type, &bits))
         return false;

@@ -35,6 +35,7 @@ typedef struct {
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // being read; of length 0 in the header
     int64_t index;           // of the element being read; negative for all of them
+    bool is_tolerant;        // words for what is no finite number are read as NaN
     Error *error;
 } PlyReader;
 

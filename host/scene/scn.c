@@ -16,6 +16,7 @@
 typedef struct {
     Tokens tokens;
     Scene *scene;
+    PlyParse *parse_mesh;
     Materials materials;
     uint32_t material; // of the objects that follow
     MeshObject object; // the sides and normals of the objects that follow
@@ -59,7 +60,7 @@ static bool read_mesh(Parser *parser)
 {
     MeshObject object = parser->object;
     object.material = parser->material;
-    return mesh_statement_read(parser->scene, &parser->tokens, object);
+    return mesh_statement_read(parser->scene, &parser->tokens, object, parser->parse_mesh);
 }
 
 static bool read_camera(Parser *parser)
@@ -204,34 +205,50 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error)
+// The parser knows its scene, how meshes are read, and where errors go.
+static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
-    Parser parser = {.tokens = tokens_of(text, size, name, error),
-                     .scene = scene,
-                     .object = {.smooth = true},
-                     .up = {0, 0, 1},
-                     .error = error};
-    bool ok = scene_init(scene, error);
-    scene_hash_input(scene, text, size);
-    ok = ok && read_statements(&parser) && scene_complete(scene, error);
-    materials_free(&parser.materials);
+    parser->tokens = tokens_of(text, size, name, parser->error);
+    parser->object.smooth = true;
+    parser->up = vec3(0, 0, 1);
+    bool ok = scene_init(parser->scene, parser->error);
+    scene_hash_input(parser->scene, text, size);
+    ok = ok && read_statements(parser) && scene_complete(parser->scene, parser->error);
+    materials_free(&parser->materials);
     if (!ok)
-        scene_free(scene);
+        scene_free(parser->scene);
     return ok;
 }
 
-bool scn_load(Scene *scene, const char *path, Error *error)
+bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error)
+{
+    Parser parser = {.scene = scene, .parse_mesh = ply_parse, .error = error};
+    return parse(&parser, text, size, name);
+}
+
+static bool load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
 {
     File file = {0};
+    Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
     bool ok = file_read(&file, path, error);
     if (ok && mesh_scene_is_mesh(file.bytes, file.size))
-        ok = mesh_scene_parse(scene, file.bytes, file.size, path, error);
+        ok = mesh_scene_parse(scene, &file, path, parse_mesh, error);
     else
-        ok = ok && scn_parse(scene, file.bytes, file.size, path, error);
+        ok = ok && parse(&parser, file.bytes, file.size, path);
     file_free(&file);
     if (ok && !scene_add_input(scene, path, error)) {
         scene_free(scene);
         ok = false;
     }
     return ok;
+}
+
+bool scn_load(Scene *scene, const char *path, Error *error)
+{
+    return load(scene, path, ply_parse, error);
+}
+
+bool scn_load_tolerantly(Scene *scene, const char *path, Error *error)
+{
+    return load(scene, path, ply_parse_tolerantly, error);
 }

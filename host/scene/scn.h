@@ -12,3 +12,6 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
 
 // The same from a file, which may also be a mesh alone (mesh_scene.h).
 bool scn_load(Scene *scene, const char *path, Error *error);
+
+// The same with meshes read by ply_parse_tolerantly.
+bool scn_load_tolerantly(Scene *scene, const char *path, Error *error);

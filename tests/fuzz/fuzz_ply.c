@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes as a PLY file.  Beyond what the sanitizers see, a mesh that comes
 // out must keep the promises of scene/mesh.h, and a failure must leave a sentence and no mesh.
+// Read tolerantly it keeps them too, and clrt check can judge it.
+#include "scene/closedness.h"
+#include "scene/features.h"
 #include "scene/ply.h"
 
 #include <math.h>
@@ -28,8 +31,36 @@ static void check_mesh(const Mesh *mesh)
     }
 }
 
+static void judge_mesh(const Mesh *mesh)
+{
+    Weld weld = {0};
+    Edges edges = {0};
+    Closedness closedness = {0};
+    Error error = {0};
+    const Normalization frame = {{0, 0, 0}, 1};
+    demand(weld_make(&weld, mesh, &error) && edges_make(&edges, mesh, &weld, &error) &&
+           closedness_find(&closedness, mesh, &weld, &edges, &error));
+    demand(weld.unused_count + weld.repeated_count <= mesh->vertex_count);
+    demand(closedness.edge_count <= 3 * mesh->triangle_count);
+    demand(features_of(mesh, &frame).flat.count <= mesh->triangle_count);
+    edges_free(&edges);
+    weld_free(&weld);
+}
+
+static void read_tolerantly(const uint8_t *data, size_t size)
+{
+    Mesh mesh;
+    Error error = {0};
+    if (ply_parse_tolerantly(&mesh, (const char *)data, size, "fuzz.ply", &error)) {
+        check_mesh(&mesh);
+        judge_mesh(&mesh);
+    }
+    mesh_free(&mesh);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
+    read_tolerantly(data, size);
     Mesh mesh;
     Error error = {0};
     if (ply_parse(&mesh, (const char *)data, size, "fuzz.ply", &error))

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Reads the scene, takes the census, traces the leak rays where there is a device, and reports.
+#include "cli/check.h"
+
+#include "base/clock.h"
+#include "cli/check_report.h"
+#include "cli/threads.h"
+#include "scene/bad_geometry.h"
+#include "scene/scn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const Options *options;
+    Scene scene;
+    Normalization normalization;
+    Census census;
+    Device device;
+    LeakCount *leaks; // by object; NULL without a device
+    Error frame_fault, device_fault;
+} Check;
+
+static bool count_leaks(Check *check, RayCaster *caster, Error *error)
+{
+    const Options *options = check->options;
+    Crew *crew = crew_open(threads_allowed(options->threads));
+    bool ok = true;
+    for (size_t object = 0; ok && object < check->scene.objects.count; object++) {
+        const LeakSetting setting = {
+            .normalization = &check->normalization,
+            .closedness = &check->census.meshes[object].closedness,
+            .crew = crew,
+            .builder = options->builder,
+            .uses_bvh = options->uses_bvh,
+        };
+        const Mesh *mesh = &check->scene.objects.data[object].mesh;
+        if (mesh->triangle_count > 0)
+            ok = leaks_count(&check->leaks[object], caster, mesh, &setting, error);
+    }
+    crew_close(crew);
+    return ok;
+}
+
+static bool trace_leaks(Check *check, const Cache *cache, Error *error)
+{
+    const KernelChoice choice = kernel_choose(&check->options->kernel, check->device.is_cpu);
+    const RendererSetup setup = {
+        .device = &check->device,
+        .cache = cache,
+        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = choice}};
+    RayCaster caster;
+    check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
+    if (check->leaks == NULL || !ray_caster_open(&caster, &setup, error))
+        return false;
+    const bool ok = count_leaks(check, &caster, error);
+    ray_caster_close(&caster);
+    return ok;
+}
+
+// A machine without a device can still check everything else, unless one was asked for.
+static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
+{
+    if (scene_triangle_count(&check->scene) == 0)
+        return true;
+    Error cause = {0};
+    if (device_open(&check->device, check->options->device, &cause) &&
+        trace_leaks(check, cache, &cause))
+        return true;
+    if (check->options->device != NULL)
+        return error_set(error, "%s", cause.text);
+    free(check->leaks);
+    check->leaks = NULL;
+    check->device_fault = cause;
+    return true;
+}
+
+static ExitCode write_report(const CheckReport *report, const Options *options, Error *error)
+{
+    const char *json = options->json_path != NULL ? options->json_path : "-";
+    if (options->json && !check_report_write_json(report, json, error))
+        return EXIT_OUTPUT;
+    if (!options->quiet && !(options->json && strcmp(json, "-") == 0))
+        check_report_write_text(report, stdout);
+    return findings_count_failing(report->findings) > 0 ? EXIT_FAULTS : EXIT_DONE;
+}
+
+static ExitCode report(const Check *check, double start, Error *error)
+{
+    Findings findings;
+    const CheckResult result = {
+        .scene = &check->scene,
+        .census = &check->census,
+        .normalization = &check->normalization,
+        .leaks = check->leaks,
+        .frame_fault = check->frame_fault.text,
+        .device_name = check->leaks != NULL ? check->device.name : NULL,
+        .device_fault = check->device_fault.text,
+        .seconds = clock_seconds() - start,
+    };
+    const CheckReport whole = {check->options->scene_path, &result, &findings};
+    if (!findings_make(&findings, &result, error))
+        return EXIT_SCENE;
+    const ExitCode outcome = write_report(&whole, check->options, error);
+    findings_free(&findings);
+    return outcome;
+}
+
+static ExitCode run(Check *check, const Cache *cache, Error *error)
+{
+    const double start = clock_seconds();
+    if (!scn_load_tolerantly(&check->scene, check->options->scene_path, error))
+        return EXIT_SCENE;
+    check->normalization = normalization_of(&check->scene);
+    normalization_check(&check->normalization, &check->scene, &check->frame_fault);
+    if (!census_take(&check->census, &check->scene, &check->normalization, error))
+        return EXIT_SCENE;
+    if (!look_for_leaks(check, cache, error))
+        return EXIT_DEVICE;
+    return report(check, start, error);
+}
+
+ExitCode check_scene(const Options *options, const Cache *cache, Error *error)
+{
+    Check check = {.options = options};
+    const ExitCode outcome = run(&check, cache, error);
+    free(check.leaks);
+    device_close(&check.device);
+    census_free(&check.census);
+    scene_free(&check.scene);
+    return outcome;
+}
+
+bool check_geometry(const Options *options, const Scene *scene, Error *error)
+{
+    Error note = {0};
+    if (options->bad_geometry == BAD_GEOMETRY_FAIL)
+        return bad_geometry_none(scene, error);
+    // Nothing is left out in silence.
+    if (!options->quiet && !bad_geometry_none_dropped(scene, &note))
+        fprintf(stderr, "clrt: %s\n", note.text);
+    return true;
+}

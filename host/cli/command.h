@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The commands: what clrt does when its first word that is no option names one, instead of drawing.
+#pragma once
+
+#include "cli/options.h"
+
+typedef struct {
+    const char *name;
+    Action action;
+    const char *const *options; // that it takes, NULL behind the last
+} Command;
+
+// NULL where the word names none.
+const Command *command_named(const char *word);
+
+// Whether the option of that name is for the command; NULL draws, and takes all options but those
+// of commands alone.
+bool command_takes(const Command *command, const char *option);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The first object with an offender speaks for all.
+#include "scene/bad_geometry.h"
+
+#include "scene/features.h"
+
+static MeshFault flat_triangles(const Mesh *mesh)
+{
+    MeshFault flat = {0};
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        if (features_is_flat(mesh, triangle))
+            mesh_fault_add(&flat, triangle);
+    return flat;
+}
+
+bool bad_geometry_none_dropped(const Scene *scene, Error *error)
+{
+    for (size_t object = 0; object < scene->objects.count; object++) {
+        const MeshFault *equal = &scene->objects.data[object].mesh.equal_corners;
+        if (equal->count > 0)
+            return error_set(error,
+                             "%s: triangle %zu, the first of %zu such, has two equal corners and "
+                             "is left out",
+                             scene->inputs.data[object], equal->first, equal->count);
+    }
+    return true;
+}
+
+bool bad_geometry_none(const Scene *scene, Error *error)
+{
+    for (size_t object = 0; object < scene->objects.count; object++) {
+        const Mesh *mesh = &scene->objects.data[object].mesh;
+        const MeshFault *equal = &mesh->equal_corners;
+        if (equal->count > 0)
+            return error_set(error,
+                             "%s: triangle %zu, the first of %zu such, has two equal corners",
+                             scene->inputs.data[object], equal->first, equal->count);
+        const MeshFault flat = flat_triangles(mesh);
+        if (flat.count > 0)
+            return error_set(error,
+                             "%s: triangle %zu, the first of %zu such, has its corners on a line",
+                             scene->inputs.data[object], flat.first, flat.count);
+    }
+    return true;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The kernel of clrt check: arrays of rays instead of a picture's, through the same search.  It is
+// compiled behind render.cl, and only where it is wanted.
+
+// Lanes that may go in one packet: camera rays start at one point.  The others wait their turn.
+static inline Truth share_origin(Real3 origin, Truth left)
+{
+    return left && as_count(origin.x) == first_lane(as_count(origin.x), left) &&
+           as_count(origin.y) == first_lane(as_count(origin.y), left) &&
+           as_count(origin.z) == first_lane(as_count(origin.z), left);
+}
+
+static inline Real from_first(Real value, Truth lanes)
+{
+    return as_real(first_lane(as_count(value), lanes));
+}
+
+// The camera ray of those lanes; the rest copy the first.
+static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
+{
+    const Real3 start = real3_of(from_first(origin.x, lanes), from_first(origin.y, lanes),
+                                 from_first(origin.z, lanes));
+    const Real3 first = real3_of(from_first(direction.x, lanes), from_first(direction.y, lanes),
+                                 from_first(direction.z, lanes));
+    return (Ray){start, choose3(lanes, direction, first), NOTHING, RAY_CAMERA, start, lanes};
+}
+
+static inline void store_distances(global float *distances, Truth lanes, Real t)
+{
+    const uint bits = lane_bits(lanes);
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        if (bits >> lane & 1)
+            distances[lane] = ((const float *)&t)[lane];
+}
+
+// A ray is eight floats: an origin and a direction, a fourth component behind each.  A work-item
+// takes as many that follow each other as it has lanes, and those past the count do nothing.
+// distances receive how far each ray comes, INFINITY where it meets nothing.
+kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
+                       global const Node *nodes, global const Triangles *triangles,
+                       global const float *rays, uint count, global float *distances)
+{
+    const uint start = CLRT_LANES * (uint)get_global_id(0);
+    if (start >= count)
+        return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    const Count place = start + LANE_Y * PACKET_WIDTH + LANE_X;
+    const Record record = record_at(rays, min(place, (Count)(count - 1)) * 8);
+    const Real3 origin = record_real3(&record, 0, 1), direction = record_real3(&record, 4, 1);
+    Truth left = place < count;
+    while (any_lane(left)) {
+        const Truth lanes = share_origin(origin, left);
+        const Ray ray = shared_ray(origin, direction, lanes);
+        Tally tally = {0};
+        const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
+        store_distances(distances + start, lanes, hit.t);
+        left = left && !lanes;
+    }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Where a mesh is aimed at, from where, and how rays are judged.
+#include "accel/aims.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdlib.h>
+
+// A tetrahedron's corners at two of a cube's; the corners of the cube that it lacks are outside.
+static double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+static uint32_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+
+typedef struct {
+    Mesh mesh;
+    Weld weld;
+    Edges edges;
+    Triangles triangles;
+    Aims aims;
+    AimRay rays[64];
+    uint32_t targets[64];
+} Fixture;
+
+static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
+{
+    Fixture all = {.mesh = {.positions = corners,
+                            .triangles = triangles,
+                            .vertex_count = 4,
+                            .triangle_count = count}};
+    Error error = {0};
+    Scene scene = {0};
+    const MeshObject object = {.mesh = all.mesh};
+    const Normalization frame = {{0, 0, 0}, 1};
+    assert_true(array_push(&scene.objects, object, &error) &&
+                triangles_make(&all.triangles, &scene, &frame, NULL, &error) &&
+                weld_make(&all.weld, &all.mesh, &error) &&
+                edges_make(&all.edges, &all.mesh, &all.weld, &error));
+    const AimSource source = {&all.mesh, &all.triangles, &all.weld, &all.edges, is_inside_out};
+    assert_true(aims_make(&all.aims, &source, most, &error));
+    free(scene.objects.memory);
+    return all;
+}
+
+static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
+{
+    return aimed_as(triangles, count, most, false);
+}
+
+static void release(Fixture *all)
+{
+    aims_free(&all->aims);
+    triangles_free(&all->triangles);
+    edges_free(&all->edges);
+    weld_free(&all->weld);
+}
+
+static void every_edge_and_point_is_aimed_at_once(void **state)
+{
+    (void)state;
+    Fixture all = aimed(faces, 4, 64);
+    assert_int_equal(all.aims.total, 6 + 4);
+    assert_int_equal(all.aims.count, 6 + 4);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 1.7);
+    for (size_t i = 4; i < 10; i++)
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
+    release(&all);
+}
+
+static void a_mesh_turned_inside_out_is_aimed_at_from_outside_too(void **state)
+{
+    (void)state;
+    uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    Fixture all = aimed_as(turned, 4, 64, true);
+    for (size_t i = 0; i < 10; i++)
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
+    release(&all);
+}
+
+static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
+{
+    (void)state;
+    Fixture all = aimed(faces, 3, 64);
+    assert_int_equal(all.aims.total, 6 + 4 + 3);
+    // The missing face lies opposite the corner at (1, 1, 1).
+    const Vec3 outside = vec3(-1, -1, -1);
+    size_t beyond = 0;
+    for (size_t i = 4; i < all.aims.count; i++)
+        beyond += vec3_dot(all.aims.aims[i].point, outside) > 1 + 1e-6;
+    assert_int_equal(beyond, 3);
+    release(&all);
+}
+
+static void no_more_aims_are_kept_than_asked_for(void **state)
+{
+    (void)state;
+    Fixture all = aimed(faces, 4, 3);
+    assert_int_equal(all.aims.total, 10);
+    assert_int_equal(all.aims.count, 3);
+    release(&all);
+}
+
+static void rays_from_afar_start_outside_and_end_at_their_aims(void **state)
+{
+    (void)state;
+    Fixture all = aimed(faces, 4, 64);
+    const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
+    assert_true(count >= 6 && count <= 10);
+    for (size_t i = 0; i < count; i++) {
+        const Aim *aim = &all.aims.aims[all.targets[i]];
+        const float *o = all.rays[i].origin, *d = all.rays[i].direction;
+        const Vec3 origin = vec3((double)o[0], (double)o[1], (double)o[2]);
+        const Vec3 direction = vec3((double)d[0], (double)d[1], (double)d[2]);
+        assert_true(vec3_dot(origin, origin) > 3 * 1.5 * 1.5);
+        assert_true(vec3_extent(vec3_sub(vec3_add(origin, direction), aim->point)) < 1e-6);
+        assert_true(vec3_dot(direction, aim->outward) < 0);
+        assert_true(aim->tolerance > 0 && aim->tolerance < 1e-3f);
+    }
+    release(&all);
+}
+
+static void rays_are_judged_by_where_they_end(void **state)
+{
+    (void)state;
+    Fixture all = aimed(faces, 4, 64);
+    aims_shoot_from_afar(&all.aims, all.rays, all.targets);
+    const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
+    aims_judge(&all.aims, all.targets, distances, 4);
+    assert_int_equal(all.aims.aims[all.targets[0]].state, AIM_REACHED);
+    assert_int_equal(all.aims.aims[all.targets[1]].state, AIM_HIDDEN);
+    assert_int_equal(all.aims.aims[all.targets[2]].state, AIM_LEAKED);
+    assert_int_equal(all.aims.aims[all.targets[3]].state, AIM_LEAKED);
+    const uint32_t hidden = all.targets[1];
+    const uint32_t reached = all.targets[0];
+    const size_t close = aims_shoot_from_close(&all.aims, all.rays, all.targets);
+    assert_int_equal(close, all.aims.count - 3);
+    bool again = false;
+    for (size_t i = 0; i < close; i++) {
+        again = again || all.targets[i] == hidden;
+        assert_int_not_equal(all.targets[i], reached);
+    }
+    assert_true(again);
+    release(&all);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_edge_and_point_is_aimed_at_once),
+        cmocka_unit_test(a_mesh_turned_inside_out_is_aimed_at_from_outside_too),
+        cmocka_unit_test(an_open_edge_is_aimed_at_beyond_it_too),
+        cmocka_unit_test(no_more_aims_are_kept_than_asked_for),
+        cmocka_unit_test(rays_from_afar_start_outside_and_end_at_their_aims),
+        cmocka_unit_test(rays_are_judged_by_where_they_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+// What clrt check counts, each on a mesh or scene that has it and one that has not.
+#include "scene/census.h"
+#include "scene/ply.h"
+#include "scene/scn.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char tetrahedron[] = "0 0 0  1 0 0  0 1 0  0 0 1";
+static const char tetrahedron_faces[] = "0 2 1  0 1 3  0 3 2  1 2 3";
+
+static size_t count_words(const char *text)
+{
+    size_t count = 0;
+    char copy[4096];
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " "))
+        count++;
+    return count;
+}
+
+// Points and corners as words between blanks, three each.
+static size_t write_ply(char *bytes, size_t size, const char *points, const char *faces)
+{
+    char copy[4096];
+    int length = snprintf(bytes, size,
+                          "ply\nformat ascii 1.0\nelement vertex %zu\nproperty double x\n"
+                          "property double y\nproperty double z\nelement face %zu\n"
+                          "property list uchar int vertex_indices\nend_header\n%s\n",
+                          count_words(points) / 3, count_words(faces) / 3, points);
+    snprintf(copy, sizeof copy, "%s", faces);
+    size_t place = 0;
+    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " "))
+        length += snprintf(bytes + length, size - (size_t)length, "%s%s ",
+                           place++ % 3 == 0 ? "\n3 " : "", word);
+    assert_true((size_t)length < size);
+    return (size_t)length;
+}
+
+static Mesh mesh_read(const char *points, const char *faces)
+{
+    Mesh mesh;
+    Error error = {0};
+    char bytes[16384];
+    const size_t size = write_ply(bytes, sizeof bytes, points, faces);
+    if (!ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error))
+        fail_msg("%s", error.text);
+    return mesh;
+}
+
+typedef struct {
+    Scene scene;
+    Census census;
+} Taken;
+
+// Of a scene that holds only this mesh, in a frame that is the mesh's own.
+static Taken census_of_mesh(const char *points, const char *faces)
+{
+    Taken taken = {0};
+    Error error = {0};
+    const Normalization frame = {{0, 0, 0}, 1};
+    const MeshObject object = {.mesh = mesh_read(points, faces)};
+    assert_true(scene_init(&taken.scene, &error) &&
+                array_push(&taken.scene.objects, object, &error) &&
+                census_take(&taken.census, &taken.scene, &frame, &error));
+    return taken;
+}
+
+static Taken census_of_scene(const char *text)
+{
+    Taken taken = {0};
+    Error error = {0};
+    if (!scn_parse(&taken.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn",
+                   &error))
+        fail_msg("%s", error.text);
+    const Normalization frame = normalization_of(&taken.scene);
+    assert_true(census_take(&taken.census, &taken.scene, &frame, &error));
+    return taken;
+}
+
+static void release(Taken *taken)
+{
+    census_free(&taken->census);
+    scene_free(&taken->scene);
+}
+
+static MeshCensus mesh_census(const char *points, const char *faces)
+{
+    Taken taken = census_of_mesh(points, faces);
+    const MeshCensus census = taken.census.meshes[0];
+    release(&taken);
+    return census;
+}
+
+static Closedness closedness(const char *points, const char *faces)
+{
+    return mesh_census(points, faces).closedness;
+}
+
+static void a_tetrahedron_is_closed(void **state)
+{
+    (void)state;
+    const Closedness found = closedness(tetrahedron, tetrahedron_faces);
+    assert_true(found.is_closed);
+    assert_false(found.is_inside_out);
+    assert_int_equal(found.edge_count, 6);
+    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
+    assert_int_equal(found.pinched.count + found.duplicates.count, 0);
+}
+
+static void a_tetrahedron_turned_over_is_inside_out(void **state)
+{
+    (void)state;
+    const Closedness found = closedness(tetrahedron, "0 1 2  0 3 1  0 2 3  1 3 2");
+    assert_true(found.is_closed);
+    assert_true(found.is_inside_out);
+}
+
+static void a_missing_triangle_leaves_three_open_edges(void **state)
+{
+    (void)state;
+    const Closedness found = closedness(tetrahedron, "0 1 3  0 3 2  1 2 3");
+    assert_int_equal(found.open.count, 3);
+    assert_int_equal(found.open.first, 0);
+    assert_int_equal(found.edge_count, 6);
+    assert_false(found.is_closed);
+}
+
+static void a_vertex_on_a_neighbors_edge_leaves_it_open(void **state)
+{
+    (void)state;
+    // The edge from 1 to 2 has vertex 4 in its middle on one side alone.
+    const Closedness found =
+        closedness("0 0 0  1 0 0  0 1 0  0 0 1  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3");
+    assert_int_equal(found.open.count, 3);
+    assert_false(found.is_closed);
+}
+
+static void a_turned_triangle_is_told_by_its_edges(void **state)
+{
+    (void)state;
+    const Closedness found = closedness(tetrahedron, "0 2 1  0 1 3  0 3 2  1 3 2");
+    assert_int_equal(found.turned.count, 3);
+    assert_int_equal(found.turned.first, 0);
+    assert_int_equal(found.open.count, 0);
+    assert_false(found.is_closed);
+}
+
+static void a_third_triangle_at_an_edge_crowds_it(void **state)
+{
+    (void)state;
+    const Closedness found =
+        closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 -1 0", "0 2 1  0 1 3  0 3 2  1 2 3  0 3 4");
+    assert_int_equal(found.crowded.count, 1);
+    assert_int_equal(found.crowded.first, 1);
+    assert_int_equal(found.open.count, 2);
+    assert_int_equal(found.pinched.count, 0);
+    assert_false(found.is_closed);
+}
+
+static void solids_that_touch_at_a_point_are_pinched_there(void **state)
+{
+    (void)state;
+    const Closedness found = closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 0 0  0 -1 0  0 0 -1",
+                                        "0 2 1  0 1 3  0 3 2  1 2 3  0 4 5  0 6 4  0 5 6  4 6 5");
+    assert_int_equal(found.pinched.count, 1);
+    assert_int_equal(found.pinched.first, 4);
+    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
+    assert_false(found.is_closed);
+}
+
+static void vertices_at_one_position_are_one_point(void **state)
+{
+    (void)state;
+    const MeshCensus found = mesh_census("0 0 0  0 1 0  1 0 0  0 0 0  1 0 0  0 0 1 "
+                                         " -0 -0 0  0 0 1  0 1 0  1 0 0  0 1 0  0 0 1",
+                                         "0 1 2  3 4 5  6 7 8  9 10 11");
+    assert_true(found.closedness.is_closed);
+    assert_int_equal(found.closedness.edge_count, 6);
+    assert_int_equal(found.repeated_vertices, 8);
+    assert_int_equal(found.unused_vertices, 0);
+}
+
+static void vertices_that_nothing_uses_are_counted_apart(void **state)
+{
+    (void)state;
+    const MeshCensus found = mesh_census("5 5 5  0 0 0  1 0 0  0 1 0  0 0 0  5 5 5", "1 2 3");
+    assert_int_equal(found.unused_vertices, 3);
+    assert_int_equal(found.repeated_vertices, 0);
+    assert_true(found.features.extent == 1);
+}
+
+static void triangles_with_the_same_corners_are_duplicates(void **state)
+{
+    (void)state;
+    Closedness found = closedness(tetrahedron, "0 1 2  0 1 3  1 2 0  2 1 0");
+    assert_int_equal(found.duplicates.count, 2);
+    assert_int_equal(found.duplicates.first, 2);
+    found = closedness("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2");
+    assert_int_equal(found.duplicates.count, 1);
+    assert_int_equal(found.duplicates.first, 1);
+}
+
+static void an_edge_of_many_triangles_is_sorted_too(void **state)
+{
+    (void)state;
+    char points[4096] = "0 0 0  1 0 0", faces[4096] = "";
+    for (int i = 0; i < 60; i++) {
+        snprintf(points + strlen(points), sizeof points - strlen(points), "  0 1 %d", i % 50);
+        snprintf(faces + strlen(faces), sizeof faces - strlen(faces), "  0 1 %d", i + 2);
+    }
+    const Closedness found = closedness(points, faces);
+    assert_int_equal(found.crowded.count, 1);
+    assert_int_equal(found.duplicates.count, 10);
+    assert_int_equal(found.duplicates.first, 50);
+    assert_int_equal(found.edge_count, 1 + 2 * 50);
+}
+
+static void triangles_of_no_area_are_counted(void **state)
+{
+    (void)state;
+    const MeshCensus found =
+        mesh_census("0 0 0  0.1 0.1 0.1  0.2 0.2 0.2  1 0 0  0 1 0  0.25 0.25 0.25 0.5 0.5 0.5",
+                    "0 3 4  0 1 2  0 5 6");
+    assert_int_equal(found.features.flat.count, 2);
+    assert_int_equal(found.features.flat.first, 1);
+}
+
+static void nothing_of_an_empty_mesh_is_closed(void **state)
+{
+    (void)state;
+    Taken taken = census_of_mesh("0 0 0", "");
+    assert_int_equal(taken.census.empty_meshes, 1);
+    assert_false(taken.census.meshes[0].closedness.is_closed);
+    assert_int_equal(taken.census.meshes[0].unused_vertices, 1);
+    assert_true(isinf(taken.census.meshes[0].features.edge.steps));
+    release(&taken);
+}
+
+static void what_is_not_finite_is_counted_and_left_out(void **state)
+{
+    (void)state;
+    Mesh mesh = mesh_read("0 0 0  1 nan inf  0 1 0  0 0 1  -inf 0 0  1e300 2 3  1 0 0",
+                          "0 2 3  0 1 2  0 2 6  4 5 6  0 0 1");
+    assert_int_equal(mesh.bad_positions.count, 3);
+    assert_int_equal(mesh.bad_positions.first, 1);
+    assert_int_equal(mesh.lost_corners.count, 3);
+    assert_int_equal(mesh.lost_corners.first, 1);
+    assert_int_equal(mesh.equal_corners.count, 0);
+    assert_int_equal(mesh.triangle_count, 2);
+    assert_int_equal(mesh.dropped_count, 3);
+    for (size_t vertex = 0; vertex < mesh.vertex_count; vertex++)
+        assert_true(isfinite(mesh.positions[vertex][0] + mesh.positions[vertex][1]));
+    mesh_free(&mesh);
+}
+
+static void what_is_not_finite_is_counted_in_binary_files_too(void **state)
+{
+    (void)state;
+    static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
+                               "property float x\nproperty float y\nproperty float z\n"
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "end_header\n";
+    const float values[18] = {0, 0, 0, 0, NAN, 1, 1, NAN, NAN, 0, 0, 1, 2, 0, 0, INFINITY, 0, NAN};
+    char bytes[sizeof head + sizeof values];
+    Mesh mesh;
+    Error error = {0};
+    memcpy(bytes, head, sizeof head - 1);
+    memcpy(bytes + sizeof head - 1, values, sizeof values);
+    const size_t size = sizeof head - 1 + sizeof values;
+    assert_true(ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error));
+    assert_int_equal(mesh.bad_positions.count, 1);
+    assert_int_equal(mesh.bad_positions.first, 1);
+    assert_int_equal(mesh.bad_normals.count, 2);
+    assert_int_equal(mesh.bad_normals.first, 0);
+    assert_true(mesh.normals[2][0] == 0 && mesh.normals[2][2] == 0 && mesh.positions[2][0] == 2);
+    mesh_free(&mesh);
+    assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
+}
+
+static void two_equal_corners_are_told_by_the_triangles_place_in_the_file(void **state)
+{
+    (void)state;
+    Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
+    assert_int_equal(mesh.equal_corners.count, 2);
+    assert_int_equal(mesh.equal_corners.first, 1);
+    assert_int_equal(mesh.lost_corners.count, 0);
+    mesh_free(&mesh);
+}
+
+static void edges_and_heights_are_measured_in_steps_of_float(void **state)
+{
+    (void)state;
+    // At coordinates below 1, floats are 2^-24 apart.
+    const MeshCensus found = mesh_census(
+        "0.5 0 0  0.75 0 0  0.5 0.03125 0  0 0 0  0.875 0 0  0 0.875 0", "3 4 5  0 1 2");
+    assert_true(found.features.edge.steps == 0x1p-5 * 0x1p24);
+    assert_true(found.features.edge.size == 0x1p-5);
+    assert_int_equal(found.features.edge.triangle, 1);
+    const double height = 0.25 * 0x1p-5 / sqrt(0.0625 + 0x1p-10);
+    assert_true(fabs(found.features.height.size / height - 1) < 1e-12);
+    assert_true(fabs(found.features.height.steps / (height * 0x1p24) - 1) < 1e-12);
+    assert_true(found.features.extent == 0.875);
+    assert_true(found.features.holds_floats);
+}
+
+static void coordinates_far_from_the_origin_are_written_in_coarser_steps(void **state)
+{
+    (void)state;
+    Taken taken = census_of_scene("mesh cube.ply translate 1048576 0 0");
+    const Features *features = &taken.census.meshes[0].features;
+    assert_true(features->offset >= 0x1p20 - 2 && features->extent <= 4);
+    assert_true(features->written_edge.steps <= features->extent * 16);
+    assert_true(features->edge.steps > 1e5);
+    release(&taken);
+    taken = census_of_scene("mesh cube.ply translate 0.1 0 0");
+    assert_false(taken.census.meshes[0].features.holds_floats);
+    release(&taken);
+}
+
+static void repeated_meshes_spheres_and_lights_are_duplicates(void **state)
+{
+    (void)state;
+    Taken taken = census_of_scene("light 1 2 3 1\nlight 1 2 4 1\nlight 1 2 3 0.5\n"
+                                  "sphere 0 0 0 1\nsphere 0 -0 0 1\nsphere 0 0 0 2\n"
+                                  "ply_file cube.ply\nply_file cone.ply\nply_file cube.ply\n"
+                                  "mesh cube.ply translate 1 0 0");
+    assert_int_equal(taken.census.duplicate_lights, 1);
+    assert_int_equal(taken.census.duplicate_spheres, 1);
+    assert_int_equal(taken.census.duplicate_meshes, 1);
+    release(&taken);
+}
+
+static void defined_materials_that_nothing_has_are_unused(void **state)
+{
+    (void)state;
+    Taken taken = census_of_scene("define red matte\ndefine green matte\ndefine blue matte\n"
+                                  "material green\nsphere 0 0 0 1\nmaterial red\n"
+                                  "ply_file cube.ply");
+    assert_int_equal(taken.census.unused_materials, 1);
+    release(&taken);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tetrahedron_is_closed),
+        cmocka_unit_test(a_tetrahedron_turned_over_is_inside_out),
+        cmocka_unit_test(a_missing_triangle_leaves_three_open_edges),
+        cmocka_unit_test(a_vertex_on_a_neighbors_edge_leaves_it_open),
+        cmocka_unit_test(a_turned_triangle_is_told_by_its_edges),
+        cmocka_unit_test(a_third_triangle_at_an_edge_crowds_it),
+        cmocka_unit_test(solids_that_touch_at_a_point_are_pinched_there),
+        cmocka_unit_test(vertices_at_one_position_are_one_point),
+        cmocka_unit_test(vertices_that_nothing_uses_are_counted_apart),
+        cmocka_unit_test(triangles_with_the_same_corners_are_duplicates),
+        cmocka_unit_test(an_edge_of_many_triangles_is_sorted_too),
+        cmocka_unit_test(triangles_of_no_area_are_counted),
+        cmocka_unit_test(nothing_of_an_empty_mesh_is_closed),
+        cmocka_unit_test(what_is_not_finite_is_counted_and_left_out),
+        cmocka_unit_test(what_is_not_finite_is_counted_in_binary_files_too),
+        cmocka_unit_test(two_equal_corners_are_told_by_the_triangles_place_in_the_file),
+        cmocka_unit_test(edges_and_heights_are_measured_in_steps_of_float),
+        cmocka_unit_test(coordinates_far_from_the_origin_are_written_in_coarser_steps),
+        cmocka_unit_test(repeated_meshes_spheres_and_lights_are_duplicates),
+        cmocka_unit_test(defined_materials_that_nothing_has_are_unused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
