@@ -97,6 +97,14 @@ static bool read_lanes(Options *options, const char *value, Error *error)
     return choice >= 0;
 }
 
+static bool read_precision(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"fp32", "fp64"};
+    const int choice = read_choice(value, "precision", names, 2, error);
+    options->kernel.choice.precision = choice == 1 ? PRECISION_FP64 : PRECISION_FP32;
+    return choice >= 0;
+}
+
 static bool read_no_bvh(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;
@@ -246,6 +254,8 @@ static const struct {
     {"nodes", 0, "KIND", read_nodes,
      "nodes of two children or of eight: auto (default), pair or wide"},
     {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
+    {"precision", 0, "KIND", read_precision,
+     "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
     {"frames", 0, "N", read_frames,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"warm", 0, NULL, read_warm,
