@@ -54,7 +54,7 @@ static inline Count record_word(const Record *record, uint offset)
 
 static inline Real record_real(const Record *record, uint offset)
 {
-    return as_real(record_word(record, offset));
+    return stored_real(record_word(record, offset));
 }
 
 static inline Real3 record_real3(const Record *record, uint offset, uint stride)
@@ -105,8 +105,9 @@ static inline Sphere fetch_sphere(const SceneView *scene, Count index)
 {
     const Record record = record_at(scene->spheres, index * WORDS(SphereData));
     const Real3 high = record_real3(&record, 0, 1), low = record_real3(&record, 4, 1);
-    return (Sphere){{{high.x, low.x}, {high.y, low.y}, {high.z, low.z}},
-                    {record_real(&record, 3), record_real(&record, 7)}};
+    return (Sphere){
+        {two_stored(high.x, low.x), two_stored(high.y, low.y), two_stored(high.z, low.z)},
+        two_stored(record_real(&record, 3), record_real(&record, 7))};
 }
 
 static inline Count fetch_sphere_material(const SceneView *scene, Count index)

@@ -5,14 +5,14 @@
 // Lanes that may go in one packet: camera rays start at one point.  The others wait their turn.
 static inline Truth share_origin(Real3 origin, Truth left)
 {
-    return left && as_count(origin.x) == first_lane(as_count(origin.x), left) &&
-           as_count(origin.y) == first_lane(as_count(origin.y), left) &&
-           as_count(origin.z) == first_lane(as_count(origin.z), left);
+    return left && as_bits(origin.x) == first_lane(as_bits(origin.x), left) &&
+           as_bits(origin.y) == first_lane(as_bits(origin.y), left) &&
+           as_bits(origin.z) == first_lane(as_bits(origin.z), left);
 }
 
 static inline Real from_first(Real value, Truth lanes)
 {
-    return as_real(first_lane(as_count(value), lanes));
+    return as_real(first_lane(as_bits(value), lanes));
 }
 
 // The camera ray of those lanes; the rest copy the first.

@@ -22,9 +22,11 @@ static bool open_device(Starter *starter)
 {
     const Options *options = starter->options;
     const double start = clock_seconds();
-    const bool ok = device_open(&starter->device, options->device, &starter->error);
+    bool ok = device_open(&starter->device, options->device, &starter->error);
     starter->device_seconds = clock_seconds() - start;
-    take_choice(starter, kernel_choose(&options->kernel, starter->device.is_cpu));
+    const KernelChoice choice = kernel_choose(&options->kernel, starter->device.is_cpu);
+    take_choice(starter, choice);
+    ok = ok && kernel_check_device(&choice, &starter->device, &starter->error);
     return ok;
 }
 
@@ -88,7 +90,8 @@ static bool leaves_kernels_open(const Options *options)
 {
     const KernelWish *wish = &options->kernel;
     return options->action == ACTION_RENDER && !wish->family_given && !wish->nodes_given &&
-           wish->choice.lanes == 0 && options->uses_bvh && !options->statistics &&
+           wish->choice.lanes == 0 && wish->choice.precision == PRECISION_FP32 &&
+           options->uses_bvh && !options->statistics &&
            options->specialization != SPECIALIZE_ALWAYS;
 }
 

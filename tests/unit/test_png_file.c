@@ -18,7 +18,7 @@ static Framebuffer noise(uint32_t width, uint32_t height)
     uint32_t state = 1;
     for (size_t i = 0; i < (size_t)3 * width * height; i++) {
         state = state * 1664525 + 1013904223;
-        framebuffer.pixels[0][i] = (float)(state >> 8) / 0x1p24f;
+        framebuffer.pixels[i / 3][i % 3] = (float)(state >> 8) / 0x1p24f;
     }
     return framebuffer;
 }
