@@ -25,6 +25,12 @@ static inline Count first_lane(Count value, Truth among)
     return value;
 }
 
+static inline Real first_real(Real value, Truth among)
+{
+    (void)among;
+    return value;
+}
+
 static inline Record record_at(global const void *words, Count place)
 {
     return (Record){(global const uint *)words + place, 0, true};
@@ -34,6 +40,11 @@ static inline Count first_lane(Count value, Truth among)
 {
     const uint bits = lane_bits(among);
     return (Count)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
+}
+
+static inline Real first_real(Real value, Truth among)
+{
+    return as_real(first_lane(as_bits(value), among));
 }
 
 static inline Record record_at(global const void *words, Count place)
@@ -54,7 +65,7 @@ static inline Count record_word(const Record *record, uint offset)
 
 static inline Real record_real(const Record *record, uint offset)
 {
-    return as_real(record_word(record, offset));
+    return stored_real(record_word(record, offset));
 }
 
 static inline Real3 record_real3(const Record *record, uint offset, uint stride)
@@ -105,8 +116,9 @@ static inline Sphere fetch_sphere(const SceneView *scene, Count index)
 {
     const Record record = record_at(scene->spheres, index * WORDS(SphereData));
     const Real3 high = record_real3(&record, 0, 1), low = record_real3(&record, 4, 1);
-    return (Sphere){{{high.x, low.x}, {high.y, low.y}, {high.z, low.z}},
-                    {record_real(&record, 3), record_real(&record, 7)}};
+    return (Sphere){
+        {two_stored(high.x, low.x), two_stored(high.y, low.y), two_stored(high.z, low.z)},
+        two_stored(record_real(&record, 3), record_real(&record, 7))};
 }
 
 static inline Count fetch_sphere_material(const SceneView *scene, Count index)

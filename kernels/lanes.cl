@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the tracer computes with: Real, Truth and Count.  In the ray family they are a float, an int
-// and a uint, one ray a work-item, and every function reads as plain scalar code.  In the packet
-// family they are vectors with a ray in each lane: comparisons give -1 or 0 lane by lane, && || !
-// and ?: choose lane by lane, and one text serves both, so that both compute the same bits.
+// What the tracer computes with: Real, Truth and Count.  In the ray family they are a Scalar, an
+// int and a uint, one ray a work-item, and every function reads as plain scalar code.  In the
+// packet family they are vectors with a ray in each lane: comparisons give -1 or 0 lane by lane, &&
+// || ! and ?: choose lane by lane, and one text serves both, so that both compute the same bits.
 #ifndef CLRT_LANES_CL
 #define CLRT_LANES_CL
-#include "config.h"
+#include "precision.h"
 #include "shared.h"
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -39,30 +39,41 @@
 #define JOINED(a, b)    a##b
 #define JOIN(a, b)      JOINED(a, b)
 #define FOR_LANES(name) JOIN(name, CLRT_LANES)
-#define UNIT_ROUNDOFF   0x1p-24f
 
 #if CLRT_LANES == 1
-typedef float Real;
+typedef Scalar Real;
 typedef int Truth;
 typedef uint Count;
 typedef ulong LongCount;
-#define as_count as_uint
-#define as_real  as_float
-#define to_real  convert_float
-#define to_int   convert_int
-#define to_count convert_uint
-#define to_long  convert_ulong
+#if CLRT_FP64
+typedef ulong Bits;
+typedef double2 Real2;
+#define as_bits as_ulong
+#define as_real as_double
+#define to_real convert_double
+#define to_bits convert_ulong
+#else
+typedef uint Bits;
+typedef float2 Real2;
+#define as_bits as_uint
+#define as_real as_float
+#define to_real convert_float
+#define to_bits convert_uint
+#endif
+#define to_int  convert_int
+#define to_long convert_ulong
 #else
 typedef FOR_LANES(float) Real;
 typedef FOR_LANES(int) Truth;
 typedef FOR_LANES(uint) Count;
 typedef FOR_LANES(ulong) LongCount;
-#define as_count FOR_LANES(as_uint)
-#define as_real  FOR_LANES(as_float)
-#define to_real  FOR_LANES(convert_float)
-#define to_int   FOR_LANES(convert_int)
-#define to_count FOR_LANES(convert_uint)
-#define to_long  FOR_LANES(convert_ulong)
+typedef Count Bits;
+#define as_bits FOR_LANES(as_uint)
+#define as_real FOR_LANES(as_float)
+#define to_real FOR_LANES(convert_float)
+#define to_int  FOR_LANES(convert_int)
+#define to_bits FOR_LANES(convert_uint)
+#define to_long FOR_LANES(convert_ulong)
 #endif
 
 // One bit for each lane that is true.  x86 has an instruction for this; without it, each lane is
@@ -117,6 +128,12 @@ static inline Count gather(global const uint *words, Count place)
 {
     return words[place];
 }
+
+// A float of the scene, given as a word.
+static inline Real stored_real(Count word)
+{
+    return as_float(word);
+}
 #else
 #define ALL_LANES ((1u << CLRT_LANES) - 1)
 static inline Truth lanes_of(uint bits)
@@ -139,6 +156,11 @@ static inline Count gather(global const uint *words, Count place)
 #define GATHER_8(p)  GATHER_4(p.lo), GATHER_4(p.hi)
 #define GATHER_16(p) GATHER_8(p.lo), GATHER_8(p.hi)
     return (Count)(FOR_LANES(GATHER_)(place));
+}
+
+static inline Real stored_real(Count word)
+{
+    return as_real(word);
 }
 #endif
 

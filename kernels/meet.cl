@@ -131,8 +131,8 @@ static inline uint traverse_packet(const SceneView *scene, const Packet *packet,
 static inline Count ray_classes(Real3 direction)
 {
     const ShearAxes axes = shear_axes(direction);
-    const Count x = as_count(direction.x) >> 31, y = as_count(direction.y) >> 31;
-    const Count z = as_count(direction.z) >> 31;
+    const Count x = as_bits(direction.x) >> 31, y = as_bits(direction.y) >> 31;
+    const Count z = as_bits(direction.z) >> 31;
     return axes.z * 8 + x * 4 + y * 2 + z;
 }
 

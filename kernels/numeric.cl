@@ -37,6 +37,11 @@ static inline Real3 choose3(Truth first, Real3 a, Real3 b)
     return real3_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
+static inline Real clamp_to_one(Real v)
+{
+    return clamp(v, (Real)(0.0f), (Real)(1.0f));
+}
+
 static inline bool any_lane(Truth truth)
 {
     return lane_bits(truth) != 0;
@@ -47,8 +52,8 @@ static inline bool any_lane(Truth truth)
 static inline Real3 unit_vector(Real3 v)
 {
     const Real extent = largest_component(v);
-    const Count exponent = as_count(extent) & 0x7f800000u;
-    const Real3 scaled = scaled3(as_real(0x7f000000u - exponent), v);
+    const Bits exponent = as_bits(extent) & EXPONENT_MASK;
+    const Real3 scaled = scaled3(as_real(2 * BITS_OF_ONE - exponent), v);
     const Real3 unit = scaled3(1.0f / sqrt(dot_product(scaled, scaled)), scaled);
     return choose3(extent > 0.0f, unit, v);
 }
@@ -71,24 +76,61 @@ static inline Real integer_power(Real base, Count exponent)
     return result;
 }
 
+// The quotient of two literals, rounded once to a Real.
+#define RATIO(a, b) ((Real)(a) / (Real)(b))
+
+// (2 atanh(z) - 2 z) / z^3 for s = z^2 up to 0.04.
+static inline Real log_series(Real s)
+{
+    Real series = RATIO(2.0f, 13.0f);
+    if (CLRT_FP64) { // float is exact with the seven terms below
+        series = fma(RATIO(2.0f, 21.0f), s, RATIO(2.0f, 19.0f));
+        series = fma(series, s, RATIO(2.0f, 17.0f));
+        series = fma(series, s, RATIO(2.0f, 15.0f));
+        series = fma(series, s, RATIO(2.0f, 13.0f));
+    }
+    series = fma(series, s, RATIO(2.0f, 11.0f));
+    series = fma(series, s, RATIO(2.0f, 9.0f));
+    series = fma(series, s, RATIO(2.0f, 7.0f));
+    series = fma(series, s, RATIO(2.0f, 5.0f));
+    return fma(series, s, RATIO(2.0f, 3.0f));
+}
+
 // log(1 + x) for x in (-1, 0], through 2 atanh(x / (2 + x)), whose series is short for the
-// remainder that a power of two leaves.
+// remainder, in [3/4, 3/2), that a power of two leaves.
 static inline Real log_one_plus(Real x)
 {
     const Truth is_far = x < -0.25f;
-    const Count bits = as_count(1.0f + x) + (0x3f800000u - 0x3f400000u);
-    const Count exponent = bits & 0x7f800000u;
-    const Real power = is_far ? to_real(to_int(exponent >> 23)) - 127.0f : 0.0f;
-    x = is_far ? as_real(as_count(1.0f + x) + 0x3f800000u - exponent) - 1.0f : x;
+    const Bits bits = as_bits(1.0f + x) + ((Bits)(1) << (SIGNIFICAND_BITS - 1));
+    const Bits exponent = bits & EXPONENT_MASK;
+    const Real power =
+        is_far ? to_real(to_int(exponent >> SIGNIFICAND_BITS) - EXPONENT_BIAS) : 0.0f;
+    x = is_far ? as_real(as_bits(1.0f + x) + BITS_OF_ONE - exponent) - 1.0f : x;
     const Real z = x / (2.0f + x);
     const Real s = z * z;
-    Real series = fma(s, (Real)(2.0f / 13), (Real)(2.0f / 11));
-    series = fma(series, s, (Real)(2.0f / 9));
-    series = fma(series, s, (Real)(2.0f / 7));
-    series = fma(series, s, (Real)(2.0f / 5));
-    series = fma(series, s, (Real)(2.0f / 3));
-    const Real logarithm = fma(z * s, series, 2.0f * z);
-    return fma(power, (Real)(0x1.62e430p-1f), fma(power, (Real)(-0x1.05c610p-29f), logarithm));
+    const Real logarithm = fma(z * s, log_series(s), 2.0f * z);
+    return fma(power, (Real)(LN2_HIGH), fma(power, (Real)(LN2_LOW), logarithm));
+}
+
+// exp(r) for r up to log(2) / 2 in size.
+static inline Real exponential_series(Real r)
+{
+    Real series = RATIO(1.0f, 5040.0f);
+    if (CLRT_FP64) { // as above
+        series = fma(RATIO(1.0f, 6227020800.0f), r, RATIO(1.0f, 479001600.0f));
+        series = fma(series, r, RATIO(1.0f, 39916800.0f));
+        series = fma(series, r, RATIO(1.0f, 3628800.0f));
+        series = fma(series, r, RATIO(1.0f, 362880.0f));
+        series = fma(series, r, RATIO(1.0f, 40320.0f));
+        series = fma(series, r, RATIO(1.0f, 5040.0f));
+    }
+    series = fma(series, r, RATIO(1.0f, 720.0f));
+    series = fma(series, r, RATIO(1.0f, 120.0f));
+    series = fma(series, r, RATIO(1.0f, 24.0f));
+    series = fma(series, r, RATIO(1.0f, 6.0f));
+    series = fma(series, r, (Real)(0.5f));
+    series = fma(series, r, (Real)(1.0f));
+    return fma(series, r, (Real)(1.0f));
 }
 
 // exp(x) for x <= 0; below 2^-100 zero, as above.
@@ -96,16 +138,10 @@ static inline Real exponential(Real x)
 {
     const Truth is_tiny = !(x > -69.0f);
     x = is_tiny ? 0.0f : x;
-    const Real power = rint(x * 0x1.715476p+0f);
-    const Real r = fma(power, (Real)(0x1.05c610p-29f), fma(power, (Real)(-0x1.62e430p-1f), x));
-    Real series = fma(r, (Real)(1.0f / 5040), (Real)(1.0f / 720));
-    series = fma(series, r, (Real)(1.0f / 120));
-    series = fma(series, r, (Real)(1.0f / 24));
-    series = fma(series, r, (Real)(1.0f / 6));
-    series = fma(series, r, (Real)(0.5f));
-    series = fma(series, r, (Real)(1.0f));
-    series = fma(series, r, (Real)(1.0f));
-    return is_tiny ? 0.0f : series * as_real(to_count(127 + to_int(power)) << 23);
+    const Real power = rint(x * INVERSE_LN2);
+    const Real r = fma(power, (Real)(-LN2_LOW), fma(power, (Real)(-LN2_HIGH), x));
+    const Real scale = as_real(to_bits(EXPONENT_BIAS + to_int(power)) << SIGNIFICAND_BITS);
+    return is_tiny ? 0.0f : exponential_series(r) * scale;
 }
 
 #endif

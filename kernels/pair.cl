@@ -23,7 +23,7 @@ typedef struct {
 
 // A zero direction is replaced by 2^-30 of the largest, so that no infinity or NaN can arise from
 // rays whose largest component is above 2^-96; shorter ones have no length to speak of.
-static inline float slab_direction(float direction, float smallest)
+static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
 }
@@ -34,11 +34,11 @@ static inline Query query_of(const Ray *ray)
     query.axes = shear_axes(ray->direction);
     query.shear = shear_along(ray->direction, &query.axes);
     query.origin = axes_ordered(ray->origin, &query.axes);
-    const float smallest = 0x1p-30f * largest_component(ray->direction);
-    const float slack = BVH_SLACK * largest_component(ray->origin);
-    const float x = slab_direction(ray->direction.x, smallest);
-    const float y = slab_direction(ray->direction.y, smallest);
-    const float z = slab_direction(ray->direction.z, smallest);
+    const Real smallest = 0x1p-30f * largest_component(ray->direction);
+    const Real slack = BVH_SLACK * largest_component(ray->origin);
+    const Real x = slab_direction(ray->direction.x, smallest);
+    const Real y = slab_direction(ray->direction.y, smallest);
+    const Real z = slab_direction(ray->direction.z, smallest);
     const Real3 o = ray->origin, i = {1.0f / x, 1.0f / y, 1.0f / z};
     const Real3 widening = {copysign(slack, x), copysign(slack, y), copysign(slack, z)};
     const Real3 near = sum3(o, widening), far = difference(o, widening);
@@ -51,27 +51,27 @@ static inline Query query_of(const Ray *ray)
     return query;
 }
 
-static inline float2 plane_distances(global const BvhPair *node, uint2 plane, float inverse,
-                                     float offset)
+static inline Real2 plane_distances(global const BvhPair *node, uint2 plane, Real inverse,
+                                    Real offset)
 {
     global const float *planes = node->planes[plane.x][plane.y];
-    return fma((float2)(planes[0], planes[1]), (float2)(inverse), (float2)(offset));
+    return fma((Real2)(planes[0], planes[1]), (Real2)(inverse), (Real2)(offset));
 }
 
 // Where the ray is inside both children's boxes: [entry, leave], empty where it misses.
-static inline void slabs_meet(global const BvhPair *node, const Query *query, float reach,
-                              float2 *entry, float2 *leave)
+static inline void slabs_meet(global const BvhPair *node, const Query *query, Real reach,
+                              Real2 *entry, Real2 *leave)
 {
     const uint x = query->negative_x, y = query->negative_y, z = query->negative_z;
     const Real3 inverse = query->inverse, near = query->near_offset, far = query->far_offset;
-    const float2 near_x = plane_distances(node, (uint2)(0, x), inverse.x, near.x);
-    const float2 near_y = plane_distances(node, (uint2)(1, y), inverse.y, near.y);
-    const float2 near_z = plane_distances(node, (uint2)(2, z), inverse.z, near.z);
-    const float2 far_x = plane_distances(node, (uint2)(0, 1 - x), inverse.x, far.x);
-    const float2 far_y = plane_distances(node, (uint2)(1, 1 - y), inverse.y, far.y);
-    const float2 far_z = plane_distances(node, (uint2)(2, 1 - z), inverse.z, far.z);
-    *entry = max(max(near_x, near_y), max(near_z, (float2)(0.0f)));
-    *leave = min(min(far_x, far_y), min(far_z, (float2)(reach)));
+    const Real2 near_x = plane_distances(node, (uint2)(0, x), inverse.x, near.x);
+    const Real2 near_y = plane_distances(node, (uint2)(1, y), inverse.y, near.y);
+    const Real2 near_z = plane_distances(node, (uint2)(2, z), inverse.z, near.z);
+    const Real2 far_x = plane_distances(node, (uint2)(0, 1 - x), inverse.x, far.x);
+    const Real2 far_y = plane_distances(node, (uint2)(1, 1 - y), inverse.y, far.y);
+    const Real2 far_z = plane_distances(node, (uint2)(2, 1 - z), inverse.z, far.z);
+    *entry = max(max(near_x, near_y), max(near_z, (Real2)(0.0f)));
+    *leave = min(min(far_x, far_y), min(far_z, (Real2)(reach)));
 }
 
 // Reading components by axis makes the permutation free.
@@ -90,8 +90,8 @@ static inline bool triangle_is_open(global const TriangleData *triangle, const R
 }
 
 // The distance t at which the ray meets the triangle, INFINITY where it does not.
-static inline float triangle_distance(global const TriangleData *triangle, const Ray *ray,
-                                      const Query *query)
+static inline Real triangle_distance(global const TriangleData *triangle, const Ray *ray,
+                                     const Query *query)
 {
     const Corners relative = {corner_relative(triangle->a, query),
                               corner_relative(triangle->b, query),
@@ -103,10 +103,10 @@ static inline float triangle_distance(global const TriangleData *triangle, const
     const bool front = edges_face(&edges, &query->shear);
     if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
         return INFINITY;
-    const float t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
+    const Real t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
     if (ray->kind == RAY_CAMERA)
         return t > 0.0f ? t : INFINITY;
-    const float error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
+    const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW};
     return surface_ray_distance(&corners, &surface, t, error);
@@ -118,7 +118,7 @@ static inline void test_triangles(const SceneView *scene, const Ray *ray, const 
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &scene->triangles[index];
-        const float t = triangle_distance(triangle, ray, query);
+        const Real t = triangle_distance(triangle, ray, query);
         if (hit_precedes(t, triangle->id, best)) {
             *best = (Hit){t, triangle->id, index};
             if (ray->kind == RAY_SHADOW)
@@ -130,11 +130,11 @@ static inline void test_triangles(const SceneView *scene, const Ray *ray, const 
 // Children wait on the stack as 2 * node + child, beside the distance at which they are entered.
 typedef struct {
     uint child[BVH_STACK_SIZE];
-    float entry[BVH_STACK_SIZE];
+    Real entry[BVH_STACK_SIZE];
     uint count;
 } Waiting;
 
-static inline void wait_for_child(Waiting *waiting, uint child, float entry)
+static inline void wait_for_child(Waiting *waiting, uint child, Real entry)
 {
     waiting->child[waiting->count] = child;
     waiting->entry[waiting->count] = entry;
@@ -143,9 +143,9 @@ static inline void wait_for_child(Waiting *waiting, uint child, float entry)
 
 // Puts the children that the ray meets before `reach` on the stack, the nearer one on top.
 static inline void wait_for_children(const SceneView *scene, uint node, const Query *query,
-                                     float reach, Waiting *waiting)
+                                     Real reach, Waiting *waiting)
 {
-    float2 entry, leave;
+    Real2 entry, leave;
     slabs_meet(&scene->nodes[node], query, reach, &entry, &leave);
     const bool meets_first = entry.x <= leave.x, meets_second = entry.y <= leave.y;
     const bool second_nearer = entry.y < entry.x;

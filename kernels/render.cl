@@ -32,7 +32,7 @@
 // Colors are rounded to integers of 2^-32.
 static inline Real in_steps(Real color)
 {
-    return rint(clamp(color, 0.0f, 1.0f) * 0x1p32f);
+    return rint(clamp_to_one(color) * 0x1p32f);
 }
 
 static inline Real mean_of(LongCount sum, ulong count)
@@ -136,9 +136,9 @@ static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 
 
 static inline void store_lane(global float *pixel, const Real3 *color, uint lane)
 {
-    pixel[0] = ((const float *)&color->x)[lane];
-    pixel[1] = ((const float *)&color->y)[lane];
-    pixel[2] = ((const float *)&color->z)[lane];
+    pixel[0] = (float)((const Scalar *)&color->x)[lane];
+    pixel[1] = (float)((const Scalar *)&color->y)[lane];
+    pixel[2] = (float)((const Scalar *)&color->z)[lane];
 }
 
 // Stores the colors of the lanes inside the tile, and with the first of them what all cost.

@@ -6,7 +6,7 @@
 #include "surface.cl"
 
 // Sums stay finite for lights of any intensity, so that 0 * sum is never a NaN.
-#define BRIGHTEST 1e30f
+#define BRIGHTEST ((Real)(1e30f))
 
 static inline Ray ray_from_light(Real3 light, const Surface *surface, Truth active)
 {
@@ -22,7 +22,7 @@ static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 
     const Truth is_integer = material->exponent != 0xffffffffu;
     const Real cosine = dot_product(normal, half_vector);
     const Count exponent = is_integer ? material->exponent : (Count)(0);
-    const Real power = integer_power(clamp(cosine, 0.0f, 1.0f), exponent);
+    const Real power = integer_power(clamp_to_one(cosine), exponent);
     if (!any_lane(!is_integer))
         return power;
     const Real3 apart = difference(normal, half_vector);
@@ -89,8 +89,7 @@ static inline Real3 shade(const SceneView *scene, const FrameData *frame, const 
             scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);
         color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     }
-    color = real3_of(clamp(color.x, 0.0f, 1.0f), clamp(color.y, 0.0f, 1.0f),
-                     clamp(color.z, 0.0f, 1.0f));
+    color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
     return choose3(is_flat, material->diffuse, color);
 }
 

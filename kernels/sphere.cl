@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ray against sphere in two-float arithmetic: values as unevaluated sums high + low of 48 bits.
+// Ray against sphere in two-float arithmetic: values as unevaluated sums high + low of 48 bits (106
+// where Real is a double).
 // Single floats lose the discriminant of far, small and huge spheres to cancellation (a ground
 // sphere of radius 1e7 is 18 % wrong); this keeps it without fp64.  Roots after Haines, Guenther
 // and Akenine-Moeller, Ray Tracing Gems ch. 7; sums and products after Knuth and Dekker.
@@ -23,6 +24,12 @@ static inline TwoFloat two_sum_ordered(Real a, Real b)
 {
     const Real sum = a + b;
     return (TwoFloat){sum, b - (sum - a)};
+}
+
+// A number of the scene.  Its parts are two floats, which one double holds.
+static inline TwoFloat two_stored(Real high, Real low)
+{
+    return CLRT_FP64 ? two_sum_ordered(high, low) : (TwoFloat){high, low};
 }
 
 static inline TwoFloat two_add(TwoFloat a, TwoFloat b)
@@ -91,10 +98,10 @@ typedef struct {
 // One sphere in all lanes.
 static inline Sphere sphere_at(global const SphereData *data)
 {
-    return (Sphere){{{data->center[0], data->center_low[0]},
-                     {data->center[1], data->center_low[1]},
-                     {data->center[2], data->center_low[2]}},
-                    {data->radius, data->radius_low}};
+    return (Sphere){{two_stored(data->center[0], data->center_low[0]),
+                     two_stored(data->center[1], data->center_low[1]),
+                     two_stored(data->center[2], data->center_low[2])},
+                    two_stored(data->radius, data->radius_low)};
 }
 
 static inline TwoFloat two_from_center(Real origin, TwoFloat center)
@@ -202,8 +209,8 @@ static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;
     const Real t = 2.0f * b / dot_product(d, d);
     const Real3 size = magnitudes(origin);
-    const Real error = 0x1p-22f * (size.x + size.y + size.z);
-    return t > max(0x1p-17f * sphere->radius.high, error) ? t : INFINITY;
+    const Real error = 4.0f * UNIT_ROUNDOFF * (size.x + size.y + size.z);
+    return t > max(128.0f * UNIT_ROUNDOFF * sphere->radius.high, error) ? t : INFINITY;
 }
 
 #endif

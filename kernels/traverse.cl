@@ -70,7 +70,7 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
 static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {
-    Hit best = {1.0f - 0x1p-20f, NOTHING, NOTHING};
+    Hit best = {1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
     if (CLRT_SPHERES)
         meet_spheres(scene, frame, ray, &best, tally);
     Ray rest = *ray;

@@ -115,5 +115,5 @@ static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const S
     const Truth clear = (ray->is_shadow ? 1.0f - t : t) > error;
     const Real height = height_over(corners, ray->point);
     const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
-    return ahead && beyond ? max(t, 0.0f) : INFINITY;
+    return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;
 }

@@ -52,7 +52,8 @@ static bool trace_leaks(Check *check, const Cache *cache, Error *error)
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = choice}};
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !ray_caster_open(&caster, &setup, error))
+    if (check->leaks == NULL || !kernel_check_device(&choice, &check->device, error) ||
+        !ray_caster_open(&caster, &setup, error))
         return false;
     const bool ok = count_leaks(check, &caster, error);
     ray_caster_close(&caster);

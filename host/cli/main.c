@@ -217,8 +217,9 @@ static void describe(const Run *run)
     const Device *device = &run->starter.device;
     fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
             device->compute_units);
-    fprintf(stderr, "kernels: %s, %s nodes, %s, ready in %.3f s; uploaded %zu bytes\n",
+    fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
             kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
+            kernel_precision_name(report->choice->precision),
             report->specialized ? "specialized" : "general", report->kernel_build,
             report->upload_size);
 }
@@ -266,8 +267,9 @@ static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, E
     if (!ready_kernel_make(&ready, &starter->setup, traits, starter->group, error))
         return false;
     if (!run->options->quiet)
-        printf("%s kernels, %s, %s nodes: %s %.2f s\n", name, kernel_family_name(choice->family),
-               kernel_nodes_name(choice->nodes),
+        printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
+               kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
+               kernel_precision_name(choice->precision),
                ready.was_compiled ? "were compiled, ready in" : "compiled in", ready.seconds);
     ready_kernel_free(&ready);
     return true;

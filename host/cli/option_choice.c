@@ -31,6 +31,14 @@ bool read_lanes(Options *options, const char *value, Error *error)
     return choice >= 0;
 }
 
+bool read_precision(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"fp32", "fp64"};
+    const int choice = read_choice(value, "precision", names, 2, error);
+    options->kernel.choice.precision = choice == 1 ? PRECISION_FP64 : PRECISION_FP32;
+    return choice >= 0;
+}
+
 bool read_bvh(Options *options, const char *value, Error *error)
 {
     static const char *const names[] = {"sah", "midpoint"};

@@ -7,5 +7,5 @@
 // Takes an option's value; false where it is not understood.
 typedef bool ReadValue(Options *options, const char *value, Error *error);
 
-ReadValue read_kernel, read_nodes, read_lanes, read_bvh, read_specialize, read_encode,
-    read_bad_geometry;
+ReadValue read_kernel, read_nodes, read_lanes, read_precision, read_bvh, read_specialize,
+    read_encode, read_bad_geometry;

@@ -201,6 +201,8 @@ static const struct {
     {"nodes", 0, "KIND", read_nodes,
      "nodes of two children or of eight: auto (default), pair or wide"},
     {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
+    {"precision", 0, "KIND", read_precision,
+     "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
     {"frames", 0, "N", read_frames,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"warm", 0, NULL, read_warm,

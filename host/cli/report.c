@@ -52,9 +52,11 @@ void report_make_texts(const Report *report, ReportTexts *texts)
     snprintf(texts->scene_hash, sizeof texts->scene_hash, "%016" PRIx64 "%016" PRIx64,
              report->scene_hash[1], report->scene_hash[0]);
     snprintf(texts->settings, sizeof texts->settings,
-             "view=%u size=%ux%u samples=%ux%u max_level=%u encode=%s", report->options->view,
-             settings->width, settings->height, settings->samples, settings->samples,
-             settings->max_level, report->options->encoding == ENCODE_SRGB ? "srgb" : "raw");
+             "view=%u size=%ux%u samples=%ux%u max_level=%u encode=%s precision=%s",
+             report->options->view, settings->width, settings->height, settings->samples,
+             settings->samples, settings->max_level,
+             report->options->encoding == ENCODE_SRGB ? "srgb" : "raw",
+             kernel_precision_name(report->choice->precision));
     const ImageText list[REPORT_TEXTS] = {
         {"Software", "clrt " CLRT_VERSION},     {"clrt:version", CLRT_VERSION},
         {"clrt:scene_hash", texts->scene_hash}, {"clrt:settings", texts->settings},
@@ -147,7 +149,7 @@ static json_t *tree_json(const Report *report)
 static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b, s:s, s:s, s:o}", "view",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
                      integer(report->options->view), "width", integer(settings->width), "height",
                      integer(settings->height), "samples", integer(settings->samples), "max_level",
                      integer(settings->max_level), "tile", integer(settings->tile_width),
@@ -155,7 +157,8 @@ static json_t *settings_json(const Report *report)
                      integer(settings->group_height), "specialized", report->specialized, "kernel",
                      kernel_family_name(report->choice->family), "nodes",
                      kernel_nodes_name(report->choice->nodes), "lanes",
-                     integer(report->choice->lanes));
+                     integer(report->choice->lanes), "precision",
+                     kernel_precision_name(report->choice->precision));
 }
 
 static json_t *report_json(const Report *report)

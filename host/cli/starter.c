@@ -22,9 +22,11 @@ static bool open_device(Starter *starter)
 {
     const Options *options = starter->options;
     const double start = clock_seconds();
-    const bool ok = device_open(&starter->device, options->device, &starter->error);
+    bool ok = device_open(&starter->device, options->device, &starter->error);
     starter->device_seconds = clock_seconds() - start;
-    take_choice(starter, kernel_choose(&options->kernel, starter->device.is_cpu));
+    const KernelChoice choice = kernel_choose(&options->kernel, starter->device.is_cpu);
+    take_choice(starter, choice);
+    ok = ok && kernel_check_device(&choice, &starter->device, &starter->error);
     return ok;
 }
 

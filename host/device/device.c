@@ -134,7 +134,7 @@ static const Candidate *choose(const Candidates *candidates, const char *spec)
 
 static void describe(Device *device)
 {
-    cl_device_fp_config config = 0;
+    cl_device_fp_config config = 0, double_config = 0;
     cl_device_type type = 0;
     cl_bool shares_memory = CL_FALSE;
     clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
@@ -145,12 +145,15 @@ static void describe(Device *device)
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof device->compute_units,
                     &device->compute_units, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof double_config, &double_config,
+                    NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof shares_memory, &shares_memory,
                     NULL);
     device->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     device->shares_memory = shares_memory == CL_TRUE;
     device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    device->has_fp64 = double_config != 0;
 }
 
 bool device_open(Device *device, const char *spec, Error *error)

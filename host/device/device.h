@@ -15,6 +15,7 @@ typedef struct {
     bool is_cpu;
     bool shares_memory;    // with the host, whose arrays it reads in place
     bool correct_division; // offers correctly rounded divide and square root
+    bool has_fp64;         // computes with doubles
 } Device;
 
 // Opens the device that spec names: "PLATFORM:DEVICE" (as device_list prints them), a type (cpu,

@@ -10,10 +10,11 @@
 
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
-    assert(choice->family == FAMILY_RAY || choice->nodes == NODES_WIDE);
-    const int length =
-        snprintf(options, KERNEL_OPTIONS_SIZE, "-DCLRT_WIDE_NODES=%d -DCLRT_PACKET=%d",
-                 choice->nodes == NODES_WIDE, choice->family == FAMILY_PACKET);
+    const bool wide = choice->nodes == NODES_WIDE, packet = choice->family == FAMILY_PACKET;
+    assert((!packet || wide) && (choice->precision == PRECISION_FP32 || !wide));
+    const int length = snprintf(options, KERNEL_OPTIONS_SIZE,
+                                "-DCLRT_WIDE_NODES=%d -DCLRT_PACKET=%d -DCLRT_FP64=%d", wide,
+                                packet, choice->precision == PRECISION_FP64);
     if (choice->lanes > 0)
         snprintf(options + length, KERNEL_OPTIONS_SIZE - (size_t)length, " -DCLRT_LANES=%u",
                  choice->lanes);
@@ -21,6 +22,13 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
 
 bool kernel_check_wish(const KernelWish *wish, Error *error)
 {
+    const bool is_fp64 = wish->choice.precision == PRECISION_FP64;
+    if (is_fp64 && wish->family_given && wish->choice.family == FAMILY_PACKET)
+        return error_set(error, "--precision fp64 traces rays one by one: leave out --kernel "
+                                "packet");
+    if (is_fp64 && wish->nodes_given && wish->choice.nodes == NODES_WIDE)
+        return error_set(error, "--precision fp64 walks nodes of two children: leave out --nodes "
+                                "wide");
     if (wish->family_given && wish->choice.family == FAMILY_PACKET && wish->nodes_given &&
         wish->choice.nodes == NODES_PAIR)
         return error_set(error, "--kernel packet walks wide nodes: leave out --nodes pair");
@@ -29,6 +37,8 @@ bool kernel_check_wish(const KernelWish *wish, Error *error)
 
 KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu)
 {
+    if (wish->choice.precision == PRECISION_FP64)
+        return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
     const bool wants_pairs = wish->nodes_given && wish->choice.nodes == NODES_PAIR;
     KernelChoice choice = {.family = is_cpu && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
                            .nodes = is_cpu ? NODES_WIDE : NODES_PAIR,
@@ -47,6 +57,13 @@ uint32_t kernel_group_side(const KernelChoice *choice)
     return choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
 }
 
+bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
+{
+    return choice->precision == PRECISION_FP32 || device->has_fp64 ||
+           error_set(error, "%s has no double arithmetic, which --precision fp64 needs",
+                     device->name);
+}
+
 const char *kernel_family_name(KernelFamily family)
 {
     return family == FAMILY_PACKET ? "packet" : "ray";
@@ -55,4 +72,9 @@ const char *kernel_family_name(KernelFamily family)
 const char *kernel_nodes_name(NodeLayout nodes)
 {
     return nodes == NODES_WIDE ? "wide" : "pair";
+}
+
+const char *kernel_precision_name(Precision precision)
+{
+    return precision == PRECISION_FP64 ? "fp64" : "fp32";
 }

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Which of the kernels draw: settings of the user's, as the switches of kernels/config.h.  Every
-// choice draws the same picture.
+// choice of a precision draws the same picture.
 #pragma once
 
 #include "accel/flat.h"
+#include "device/device.h"
 
 typedef enum {
     FAMILY_RAY,   // a work-item draws a pixel
     FAMILY_PACKET // a work-item draws a block of PACKET_SIDE x PACKET_SIDE pixels
 } KernelFamily;
 
-// Packets walk wide nodes only.
+typedef enum {
+    PRECISION_FP32,
+    PRECISION_FP64 // the reference: the same scene, stored in float, in double arithmetic
+} Precision;
+
+// Packets walk wide nodes only; fp64 has rays and pairs only.
 typedef struct {
     KernelFamily family;
     NodeLayout nodes;
     uint32_t lanes; // of the kernels' vectors: 4, 8 or 16; 0 where the target decides
+    Precision precision;
 } KernelChoice;
 
 // What the user asked for.
@@ -27,11 +34,14 @@ typedef struct {
 bool kernel_check_wish(const KernelWish *wish, Error *error);
 
 // Fills in what was not asked for by what suits the device: packets on CPUs, rays and pairs
-// elsewhere.
+// elsewhere and in fp64.
 KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu);
 
 // Work-items along the sides of the work-groups that suit the kernels.
 uint32_t kernel_group_side(const KernelChoice *choice);
+
+// Fails where the device cannot run the kernels of the choice.
+bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error);
 
 #define KERNEL_OPTIONS_SIZE 80
 
@@ -40,3 +50,4 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
 
 const char *kernel_family_name(KernelFamily family);
 const char *kernel_nodes_name(NodeLayout nodes);
+const char *kernel_precision_name(Precision precision);

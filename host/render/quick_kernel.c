@@ -20,7 +20,7 @@ static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 
 static void packet_key(const RendererSetup *setup, char key[PROGRAM_KEY_SIZE])
 {
-    const RendererSetup packets = setup_with(setup, (KernelChoice){FAMILY_PACKET, NODES_WIDE, 0});
+    const RendererSetup packets = setup_with(setup, (KernelChoice){FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32});
     const SceneTraits traits = traits_general(false);
     program_key(setup->device, &packets.source, &traits, key);
 }
@@ -37,7 +37,7 @@ bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice)
 {
     const SceneTraits traits = traits_general(false);
-    const RendererSetup quick = setup_with(setup, (KernelChoice){FAMILY_RAY, NODES_PAIR, 0});
+    const RendererSetup quick = setup_with(setup, (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32});
     // Kernels under development are never known to be compiled.
     if (setup->source.choice.family != FAMILY_PACKET || setup->source.kernel_folder != NULL ||
         run->triangles >= FEW_TRIANGLES || ready_kernel_is_compiled(setup, &traits))

@@ -193,11 +193,11 @@ check "... marked as incomplete" json stopped.json "not d['complete']"
 rm -rf warm-cache
 warm() { env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" --warm --kernel ray "$@" >out 2>err; }
 check "--warm compiles ahead" warm
-check "... and says so" grep -q "^general kernels, ray, .* nodes: compiled in" out
+check "... and says so" grep -q "^general kernels, ray, .* nodes, fp32: compiled in" out
 check "... those for a scene too" warm "$scene" --stats
-check "... and says so" grep -q "^special kernels, ray, .* nodes: compiled in" out
+check "... and says so" grep -q "^special kernels, ray, .* nodes, fp32: compiled in" out
 check "... but nothing twice" warm
-check "... and says so" grep -q "^general kernels, ray, .* nodes: were compiled, ready in" out
+check "... and says so" grep -q "^general kernels, ray, .* nodes, fp32: were compiled, ready in" out
 check "a scene then finds its own compiled" env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" \
   --kernel ray "$scene" -s 48x32 -o warm.pfm --stats=warm.json
 check "... and takes it" json warm.json "d['settings']['specialized']"

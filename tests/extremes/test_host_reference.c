@@ -29,7 +29,7 @@ static size_t count_differences(const Studio *studio, const Scene *scene)
     settings.render.samples = 2;
     settings.render.width = settings.render.height = (uint32_t)tier_size(64, 256);
     picture_draw(&device, studio, scene, &settings);
-    settings.choice = (KernelChoice){FAMILY_RAY, NODES_PAIR, 0};
+    settings.choice = (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
     settings.render.group_width = settings.render.group_height = 8;
     picture_open(&renderer, &stage, studio, scene, &settings);
     FrameData frame = renderer.frame;

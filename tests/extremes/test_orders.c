@@ -43,9 +43,9 @@ static void every_layout_of_nodes_draws_the_same_picture_t28(void **state)
         const char *name;
         KernelChoice choice;
         uint32_t group;
-    } layouts[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0}, 8},
-                   {"wide", {FAMILY_RAY, NODES_WIDE, 0}, 2},
-                   {"packet", {FAMILY_PACKET, NODES_WIDE, 0}, 2}};
+    } layouts[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}, 8},
+                   {"wide", {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}, 2},
+                   {"packet", {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}, 2}};
     Framebuffer usual;
     size_t differences = 0;
     PictureSettings settings = sized_settings();

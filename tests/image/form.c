@@ -11,11 +11,12 @@
 static const struct {
     const char *name;
     KernelChoice choice;
-} forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0}},
-             {"wide", {FAMILY_RAY, NODES_WIDE, 0}},
-             {"packet", {FAMILY_PACKET, NODES_WIDE, 0}},
-             {"packet8", {FAMILY_PACKET, NODES_WIDE, 8}},
-             {"packet4", {FAMILY_PACKET, NODES_WIDE, 4}}};
+} forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
+             {"wide", {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
+             {"packet", {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
+             {"packet8", {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}},
+             {"packet4", {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}},
+             {"fp64", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}}};
 
 static KernelChoice named_choice(const char *name)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which form of the kernels the tests run: CLRT_TEST_KERNEL in the environment names one of "pair",
-// "wide", "packet", "packet8" and "packet4".  Unset, it is the one that the program takes without
-// options on the device that CLRT_DEVICE names.
+// "wide", "packet", "packet8", "packet4" and "fp64", of which the last draws another picture.
+// Unset, it is the one that the program takes without options on the device that CLRT_DEVICE names.
 #pragma once
 
 #include "device/kernel_choice.h"

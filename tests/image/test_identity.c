@@ -18,9 +18,10 @@ static const char *const scenes[] = {
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
 static const KernelChoice choices[] = {
-    {FAMILY_RAY, NODES_PAIR, 0},     {FAMILY_RAY, NODES_WIDE, 4},    {FAMILY_RAY, NODES_WIDE, 8},
-    {FAMILY_RAY, NODES_WIDE, 16},    {FAMILY_PACKET, NODES_WIDE, 4}, {FAMILY_PACKET, NODES_WIDE, 8},
-    {FAMILY_PACKET, NODES_WIDE, 16},
+    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 4, PRECISION_FP32},
+    {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 16, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
 };
 #define CHOICE_COUNT (sizeof choices / sizeof choices[0])
 
@@ -194,7 +195,7 @@ static void every_specialized_program_draws_what_the_general_one_does(void **sta
 static void specialized_packets_draw_what_general_ones_do(void **state)
 {
     (void)state;
-    const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0};
+    const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
     expect_special_same(0, &packet);
     expect_special_same(63, &packet);
     for (unsigned place = 0; place < 6; place++) {

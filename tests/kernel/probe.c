@@ -12,7 +12,8 @@ bool probe_open(Probe *probe, uint32_t lanes, Error *error)
     bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
               device_open(&probe->device, NULL, error);
     const KernelChoice choice = {lanes > 1 ? FAMILY_PACKET : FAMILY_RAY,
-                                 lanes > 1 ? NODES_WIDE : NODES_PAIR, lanes > 1 ? lanes : 0};
+                                 lanes > 1 ? NODES_WIDE : NODES_PAIR, lanes > 1 ? lanes : 0,
+                                 PRECISION_FP32};
     const ProgramSource source = {.appended = file.bytes, .choice = choice};
     ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
     file_free(&file);

@@ -49,15 +49,15 @@ static inline Truth companions(const TestRays *rays, Truth left)
 {
     const Real3 o = rays->origin;
     const Truth same_kind = left && same_in_first(rays->kind, left);
-    const Truth same_origin = same_in_first(as_count(o.x), left) &&
-                              same_in_first(as_count(o.y), left) &&
-                              same_in_first(as_count(o.z), left);
+    const Truth same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
+                              as_bits(o.y) == as_bits(first_real(o.y, left)) &&
+                              as_bits(o.z) == as_bits(first_real(o.z, left));
     return same_kind && (rays->kind == (uint)RAY_REFLECTED || same_origin);
 }
 
 static inline Real filled_lane(Real value, Truth lanes)
 {
-    return lanes ? value : as_real(first_lane(as_count(value), lanes));
+    return lanes ? value : first_real(value, lanes);
 }
 
 static inline Real3 filled_lanes(Real3 v, Truth lanes)
@@ -99,7 +99,7 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth 
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         if (bits >> lane & 1)
             hits[rays->first + lane] =
-                (TestHit){((const float *)&t)[lane], ((const uint *)&id)[lane]};
+                (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
 kernel void batch_nearest(const FrameData frame, global const SphereData *spheres,
@@ -291,7 +291,7 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const TestRays all = test_rays(rays, 1);
     const Ray ray = ray_of(&all, 1);
     const Query query = query_of(&ray);
-    const float t = triangle_distance(&triangles[place], &ray, &query);
+    const Real t = triangle_distance(&triangles[place], &ray, &query);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
 
@@ -306,7 +306,7 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const TestRays all = test_rays(rays, count);
     const Ray ray = ray_of(&all, 1);
     const Query query = query_of(&ray);
-    float2 entry, leave;
+    Real2 entry, leave;
     slabs_meet(&nodes[place], &query, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
