@@ -90,7 +90,8 @@ static bool leaves_kernels_open(const Options *options)
 {
     const KernelWish *wish = &options->kernel;
     return options->action == ACTION_RENDER && !wish->family_given && !wish->nodes_given &&
-           wish->choice.lanes == 0 && options->uses_bvh && !options->statistics &&
+           wish->choice.lanes == 0 && wish->choice.precision == PRECISION_FP32 &&
+           options->uses_bvh && !options->statistics &&
            options->specialization != SPECIALIZE_ALWAYS;
 }
 

@@ -14,7 +14,10 @@ bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
         .cache = options->cache,
         .source = {.kernel_folder = options->kernel_folder,
                    .choice = kernel_choose(&options->kernel, tracer->device.is_cpu)}};
-    const uint32_t side = kernel_group_side(&tracer->setup.source.choice);
+    const KernelChoice *choice = &tracer->setup.source.choice;
+    if (!kernel_check_device(choice, &tracer->device, error))
+        return false;
+    const uint32_t side = kernel_group_side(choice);
     tracer->group[0] = options->group_width > 0 ? options->group_width : side;
     tracer->group[1] = options->group_height > 0 ? options->group_height : side;
     return true;

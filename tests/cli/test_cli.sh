@@ -162,6 +162,33 @@ check "... and counts one" json f.json "d['rays']['camera'] == 1536"
 check "JSON goes to standard output" pixels a.pfm --stats=-
 check "... as JSON" json out "d['complete']"
 
+check "--precision fp64 has an effect" pixels fp64.pfm --precision fp64 -v --stats=g.json
+check "... on the picture" differ plain.pfm fp64.pfm
+check "... traces rays one by one through pairs" says "kernels: ray, pair nodes, fp64"
+check "... says the JSON" json g.json "(d['settings']['precision'], d['settings']['kernel'], \
+d['settings']['nodes']) == ('fp64', 'ray', 'pair')"
+for same in "--no-bvh" "--bvh midpoint" "-j 1" "--tile 16x8" "--work-group 4x2" "--specialize always" \
+  "--kernel ray" "--nodes pair"; do
+  # shellcheck disable=SC2086
+  check "--precision fp64 $same draws" pixels b.pfm --precision fp64 $same
+  check "--precision fp64 $same draws the same picture" cmp fp64.pfm b.pfm
+done
+check "--precision fp32 is what is drawn without it" pixels b.pfm --precision fp32 --stats=h.json
+check "... to the bit" cmp plain.pfm b.pfm
+check "... says the JSON" json h.json "d['settings']['precision'] == 'fp32'"
+check "there is no other precision" \
+  refuses 2 "--precision wants fp32 or fp64, not 'fp16'" --precision fp16 "$scene" -o b.pfm
+check "packets have no fp64" \
+  refuses 2 "--precision fp64 traces rays one by one: leave out --kernel packet" \
+  --kernel packet --precision fp64 "$scene" -o b.pfm
+check "wide nodes have no fp64" \
+  refuses 2 "--precision fp64 walks nodes of two children: leave out --nodes wide" \
+  --precision fp64 --nodes wide "$scene" -o b.pfm
+export ASAN_OPTIONS=verify_asan_link_order=0:${ASAN_OPTIONS:-}
+LD_PRELOAD=$NO_FP64 check "a device without fp64 draws in fp32" run 0 "$scene" -s 48x32 -o b.pfm
+LD_PRELOAD=$NO_FP64 check "... and is exit 4 in fp64" run 4 "$scene" --precision fp64 -s 8x8 -o b.pfm
+check "... with the reason" says "has no double arithmetic, which --precision fp64 needs"
+
 mkdir -p readonly cold
 HOME=/proc XDG_CACHE_HOME=/proc POCL_CACHE_DIR='' TMPDIR=$work/cold check "an unwritable HOME works" \
   env -u POCL_CACHE_DIR "$CLRT" "$scene" -s 8x8 -o a.pfm
@@ -196,6 +223,8 @@ check "--warm compiles ahead" warm
 check "... and says so" grep -q "^general kernels, ray, .* nodes, fp32: compiled in" out
 check "... those for a scene too" warm "$scene" --stats
 check "... and says so" grep -q "^special kernels, ray, .* nodes, fp32: compiled in" out
+check "... and those of fp64" warm --precision fp64
+check "... and says so" grep -q "^general kernels, ray, pair nodes, fp64: compiled in" out
 check "... but nothing twice" warm
 check "... and says so" grep -q "^general kernels, ray, .* nodes, fp32: were compiled, ready in" out
 check "a scene then finds its own compiled" env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" \
@@ -293,6 +322,9 @@ if [ "${FORMATS:-}" != "png, pfm" ]; then
   check "a JPEG past its size is refused" refuses 5 "a JPEG has at most 65500 pixels a side" \
     "$scene" -s 65536x1 -o a.jpg
   check "EXR holds metadata" grep -aq "clrt:settings" a.exr
+  check "... with the precision" grep -aq "precision=fp32" a.exr
+  check "... fp64's too" pixels b.exr --precision fp64
+  check "... with the precision" grep -aq "precision=fp64" b.exr
   check "/dev/full takes no picture of OpenImageIO's either" run 5 "$scene" -s 8x8 -o /dev/full --format ppm
 fi
 

@@ -107,12 +107,14 @@ static void highlights_of_any_shininess_are_exact_to_a_thousandth_t53(void **sta
 {
     static const double values[] = {0, 1e-3, 1, 50, 1e3, 1e6, 1e9};
     static const uint32_t lanes[] = {1, 8};
+    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
     size_t wrong = 0;
     (void)state;
     for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++) {
         Error error = {0};
         Probe probe;
-        require(probe_open(&probe, lanes[i], &error), &error);
+        require(probe_open(&probe, &choices[i], &error), &error);
         for (size_t value = 0; value < sizeof values / sizeof *values; value++)
             wrong += judge_highlights(&probe, lanes[i], values[value]);
         probe_close(&probe);

@@ -25,6 +25,8 @@ static const KernelChoice choices[] = {
 };
 #define CHOICE_COUNT (sizeof choices / sizeof choices[0])
 
+static const KernelChoice fp64 = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
+
 static PictureRequest in_form(PictureRequest request, const KernelChoice *choice)
 {
     request.choice = *choice;
@@ -191,17 +193,58 @@ static void every_specialized_program_draws_what_the_general_one_does(void **sta
         expect_special_same(mask, &choices[0]);
 }
 
-// Packets take longer to compile: all switches on, all off, and each alone on or off.
+// All switches on, all off, and each alone on or off: other forms take longer to compile.
+static void expect_specials_same(const KernelChoice *choice)
+{
+    expect_special_same(0, choice);
+    expect_special_same(63, choice);
+    for (unsigned place = 0; place < 6; place++) {
+        expect_special_same(1u << place, choice);
+        expect_special_same(63u & ~(1u << place), choice);
+    }
+}
+
 static void specialized_packets_draw_what_general_ones_do(void **state)
 {
     (void)state;
     const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
-    expect_special_same(0, &packet);
-    expect_special_same(63, &packet);
-    for (unsigned place = 0; place < 6; place++) {
-        expect_special_same(1u << place, &packet);
-        expect_special_same(63u & ~(1u << place), &packet);
+    expect_specials_same(&packet);
+}
+
+static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        const PictureRequest sah = in_form(small_request(scene), &fp64);
+        PictureRequest midpoint = sah, list = sah, grouped = sah;
+        midpoint.builder = BVH_MIDPOINT;
+        midpoint.tile_width = 13;
+        list.uses_bvh = false;
+        list.group_width = list.group_height = 1;
+        grouped.group_width = 3;
+        grouped.group_height = 5;
+        expect_same(&sah, &midpoint);
+        expect_same(&sah, &list);
+        expect_same(&sah, &grouped);
     }
+}
+
+static void specialized_fp64_draws_what_the_general_program_does(void **state)
+{
+    (void)state;
+    expect_specials_same(&fp64);
+}
+
+static void fp64_draws_another_picture_than_fp32(void **state)
+{
+    (void)state;
+    const PictureRequest reference = in_form(small_request(0), &fp64);
+    const PictureRequest usual = in_form(reference, &choices[0]);
+    Framebuffer first = rendered(&reference), second = rendered(&usual);
+    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
+    assert_memory_not_equal(first.pixels, second.pixels, size);
+    framebuffer_free(&first);
+    framebuffer_free(&second);
 }
 
 int main(void)
@@ -215,6 +258,9 @@ int main(void)
         cmocka_unit_test(counting_changes_no_pixel),
         cmocka_unit_test(every_specialized_program_draws_what_the_general_one_does),
         cmocka_unit_test(specialized_packets_draw_what_general_ones_do),
+        cmocka_unit_test(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups),
+        cmocka_unit_test(specialized_fp64_draws_what_the_general_program_does),
+        cmocka_unit_test(fp64_draws_another_picture_than_fp32),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

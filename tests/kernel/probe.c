@@ -4,17 +4,14 @@
 
 #include "base/file.h"
 
-bool probe_open(Probe *probe, uint32_t lanes, Error *error)
+bool probe_open(Probe *probe, const KernelChoice *choice, Error *error)
 {
     File file = {0};
     *probe = (Probe){0};
     const SceneTraits traits = traits_general(false);
     bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
               device_open(&probe->device, NULL, error);
-    const KernelChoice choice = {lanes > 1 ? FAMILY_PACKET : FAMILY_RAY,
-                                 lanes > 1 ? NODES_WIDE : NODES_PAIR, lanes > 1 ? lanes : 0,
-                                 PRECISION_FP32};
-    const ProgramSource source = {.appended = file.bytes, .choice = choice};
+    const ProgramSource source = {.appended = file.bytes, .choice = *choice};
     ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
     file_free(&file);
     return ok;

@@ -46,17 +46,17 @@ kernel void probe_highlights(global const float *cases, global float *results)
 
 #if CLRT_LANES == 1
 // values holds pairs {base, exponent}; results what the highlight of each kind makes of them.
-kernel void probe_powers(global const float *values, global float *results)
+kernel void probe_powers(global const Scalar *values, global Scalar *results)
 {
     const uint item = get_global_id(0);
-    const float base = values[2 * item], exponent = values[2 * item + 1];
+    const Scalar base = values[2 * item], exponent = values[2 * item + 1];
     results[2 * item] = integer_power(base, (uint)exponent);
     results[2 * item + 1] = exponential(exponent * log_one_plus(base - 1.0f));
 }
 
 // rays holds {origin, direction} of six floats, one for each of the spheres.
 kernel void probe_spheres(global const SphereData *spheres, global const float *rays,
-                          global float *distances)
+                          global Scalar *distances)
 {
     const uint item = get_global_id(0);
     const Sphere sphere = sphere_at(&spheres[item]);

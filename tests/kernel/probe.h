@@ -15,8 +15,7 @@ typedef struct {
     size_t size;
 } ProbeInput;
 
-// For kernels of that many lanes: 1, 4, 8 or 16.
-bool probe_open(Probe *probe, uint32_t lanes, Error *error);
+bool probe_open(Probe *probe, const KernelChoice *choice, Error *error);
 void probe_close(Probe *probe);
 
 // Runs kernel for items work-items over up to two inputs (the rest of the list has size 0) and

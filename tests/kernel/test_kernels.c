@@ -177,7 +177,8 @@ static Probe open_lanes(uint32_t lanes)
 {
     Probe opened;
     Error error = {0};
-    if (!probe_open(&opened, lanes, &error))
+    const KernelChoice choice = {FAMILY_PACKET, NODES_WIDE, lanes, PRECISION_FP32};
+    if (!probe_open(&opened, &choice, &error))
         fail_msg("%s", error.text);
     return opened;
 }
@@ -239,7 +240,8 @@ static int open_probe(void **state)
 {
     (void)state;
     Error error = {0};
-    if (probe_open(&probe, 1, &error))
+    const KernelChoice choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
+    if (probe_open(&probe, &choice, &error))
         return 0;
     print_error("%s\n", error.text);
     return 1;
