@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Rounds what host/accel/flat.c and triangles.c round, and nothing else.  Normals are floats in
-// the file already; powers of two that they are scaled by change no direction.
+// Rounds what host/accel/flat.c, flat_looks.c and triangles.c round, and nothing else.  Normals are
+// floats in the file already; where it has none, the face's is stored, before points are rounded.
 #include "oracle/stored.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 // The volatile is against GCC 12, which leaves out pairs of such conversions (-O2 and above).
 static double rounded(double value)
@@ -29,6 +32,46 @@ static void round_sphere(Sphere *sphere, const Normalization *normalization)
     sphere->radius = split_twice(sphere->radius * normalization->scale);
 }
 
+static Vec3 corner_of(const Mesh *mesh, const uint32_t corners[3], int corner)
+{
+    const double *position = mesh->positions[corners[corner]];
+    return vec3(position[0], position[1], position[2]);
+}
+
+static void store_face(const Mesh *mesh, const uint32_t corners[3], float normal[3])
+{
+    const Vec3 a = corner_of(mesh, corners, 0);
+    const Vec3 face = vec3_normalize(vec3_cross(vec3_sub(corner_of(mesh, corners, 1), a),
+                                                vec3_sub(corner_of(mesh, corners, 2), a)));
+    normal[0] = (float)face.x;
+    normal[1] = (float)face.y;
+    normal[2] = (float)face.z;
+}
+
+// Gives each triangle vertices of its own, none of which lacks a normal.
+static bool complete_normals(Mesh *mesh, Error *error)
+{
+    static const float none[3];
+    const size_t count = 3 * mesh->triangle_count;
+    double(*positions)[3] = memory_raw(count, sizeof *positions, error);
+    float(*normals)[3] = memory_raw(count, sizeof *normals, error);
+    for (size_t i = 0; positions != NULL && normals != NULL && i < count; i++) {
+        const uint32_t *corners = mesh->triangles[i / 3];
+        memcpy(positions[i], mesh->positions[corners[i % 3]], sizeof *positions);
+        memcpy(normals[i], mesh->normals[corners[i % 3]], sizeof *normals);
+        if (memcmp(normals[i], none, sizeof none) == 0)
+            store_face(mesh, corners, normals[i]);
+    }
+    for (size_t i = 0; i < count; i++)
+        mesh->triangles[i / 3][i % 3] = (uint32_t)i;
+    free(mesh->positions);
+    free(mesh->normals);
+    mesh->positions = positions;
+    mesh->normals = normals;
+    mesh->vertex_count = count;
+    return positions != NULL && normals != NULL;
+}
+
 static void round_mesh(Mesh *mesh, const Normalization *normalization)
 {
     for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++) {
@@ -40,7 +83,7 @@ static void round_mesh(Mesh *mesh, const Normalization *normalization)
     }
 }
 
-void stored_round(Scene *scene, const Normalization *normalization)
+bool stored_round(Scene *scene, const Normalization *normalization, Error *error)
 {
     for (size_t i = 0; i < scene->lights.count; i++) {
         Light *light = &scene->lights.data[i];
@@ -49,11 +92,16 @@ void stored_round(Scene *scene, const Normalization *normalization)
     }
     for (size_t i = 0; i < scene->spheres.count; i++)
         round_sphere(&scene->spheres.data[i], normalization);
-    for (size_t i = 0; i < scene->objects.count; i++)
-        round_mesh(&scene->objects.data[i].mesh, normalization);
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        Mesh *mesh = &scene->objects.data[i].mesh;
+        if (mesh->normals != NULL && !complete_normals(mesh, error))
+            return false;
+        round_mesh(mesh, normalization);
+    }
     scene->ambient = rounded(scene->ambient);
     scene->background = vec3(rounded(scene->background.x), rounded(scene->background.y),
                              rounded(scene->background.z));
+    return true;
 }
 
 static Vec3 vector_of(const float components[4])

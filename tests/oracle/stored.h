@@ -7,7 +7,7 @@
 #include "scene/normalize.h"
 
 // Replaces every number of the scene by what is stored of it, but for cameras.
-void stored_round(Scene *scene, const Normalization *normalization);
+bool stored_round(Scene *scene, const Normalization *normalization, Error *error);
 
 // The rays of a picture, one a pixel, through a camera made for it.
 OracleView stored_view(const Oracle *oracle, const CameraData *camera, uint32_t width,
