@@ -12,9 +12,10 @@
 #define ACROSS 24 // of each of its rounds
 
 static const KernelWish forms[] = {
-    {true, true, {FAMILY_RAY, NODES_PAIR, 0}},
-    {true, true, {FAMILY_RAY, NODES_WIDE, 0}},
-    {true, true, {FAMILY_PACKET, NODES_WIDE, 0}},
+    {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
+    {true, true, {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
+    {true, true, {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
+    {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}},
 };
 #define FORMS (sizeof forms / sizeof forms[0])
 
