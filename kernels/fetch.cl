@@ -25,6 +25,12 @@ static inline Count first_lane(Count value, Truth among)
     return value;
 }
 
+static inline Real first_real(Real value, Truth among)
+{
+    (void)among;
+    return value;
+}
+
 static inline Record record_at(global const void *words, Count place)
 {
     return (Record){(global const uint *)words + place, 0, true};
@@ -34,6 +40,11 @@ static inline Count first_lane(Count value, Truth among)
 {
     const uint bits = lane_bits(among);
     return (Count)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
+}
+
+static inline Real first_real(Real value, Truth among)
+{
+    return as_real(first_lane(as_bits(value), among));
 }
 
 static inline Record record_at(global const void *words, Count place)

@@ -5,23 +5,18 @@
 // Lanes that may go in one packet: camera rays start at one point.  The others wait their turn.
 static inline Truth share_origin(Real3 origin, Truth left)
 {
-    return left && as_bits(origin.x) == first_lane(as_bits(origin.x), left) &&
-           as_bits(origin.y) == first_lane(as_bits(origin.y), left) &&
-           as_bits(origin.z) == first_lane(as_bits(origin.z), left);
-}
-
-static inline Real from_first(Real value, Truth lanes)
-{
-    return as_real(first_lane(as_bits(value), lanes));
+    return left && as_bits(origin.x) == as_bits(first_real(origin.x, left)) &&
+           as_bits(origin.y) == as_bits(first_real(origin.y, left)) &&
+           as_bits(origin.z) == as_bits(first_real(origin.z, left));
 }
 
 // The camera ray of those lanes; the rest copy the first.
 static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
 {
-    const Real3 start = real3_of(from_first(origin.x, lanes), from_first(origin.y, lanes),
-                                 from_first(origin.z, lanes));
-    const Real3 first = real3_of(from_first(direction.x, lanes), from_first(direction.y, lanes),
-                                 from_first(direction.z, lanes));
+    const Real3 start = real3_of(first_real(origin.x, lanes), first_real(origin.y, lanes),
+                                 first_real(origin.z, lanes));
+    const Real3 first = real3_of(first_real(direction.x, lanes), first_real(direction.y, lanes),
+                                 first_real(direction.z, lanes));
     return (Ray){start, choose3(lanes, direction, first), NOTHING, RAY_CAMERA, start, lanes};
 }
 
@@ -30,7 +25,7 @@ static inline void store_distances(global float *distances, Truth lanes, Real t)
     const uint bits = lane_bits(lanes);
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         if (bits >> lane & 1)
-            distances[lane] = ((const float *)&t)[lane];
+            distances[lane] = (float)((const Scalar *)&t)[lane];
 }
 
 // A ray is eight floats: an origin and a direction, a fourth component behind each.  A work-item

@@ -52,14 +52,15 @@ static bool trace_leaks(Check *check, const Cache *cache, Error *error)
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = choice}};
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !ray_caster_open(&caster, &setup, error))
+    if (check->leaks == NULL || !kernel_check_device(&choice, &check->device, error) ||
+        !ray_caster_open(&caster, &setup, error))
         return false;
     const bool ok = count_leaks(check, &caster, error);
     ray_caster_close(&caster);
     return ok;
 }
 
-// A machine without a device can still check everything else, unless one was asked for.
+// A machine without a device can still check everything else, unless one was asked for, or fp64.
 static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
 {
     if (scene_triangle_count(&check->scene) == 0)
@@ -68,7 +69,7 @@ static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
     if (device_open(&check->device, check->options->device, &cause) &&
         trace_leaks(check, cache, &cause))
         return true;
-    if (check->options->device != NULL)
+    if (check->options->device != NULL || check->options->kernel.choice.precision == PRECISION_FP64)
         return error_set(error, "%s", cause.text);
     free(check->leaks);
     check->leaks = NULL;

@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-static const char *const check_options[] = {"bvh",    "no-bvh",  "device", "threads",
-                                            "kernel", "nodes",   "lanes",  "json",
-                                            "quiet",  "verbose", NULL};
+static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "threads",
+                                            "kernel", "nodes",  "lanes",   "precision",
+                                            "json",   "quiet",  "verbose", NULL};
 
 // What no picture needs.
 static const char *const command_options[] = {"json", NULL};

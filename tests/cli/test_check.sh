@@ -73,7 +73,7 @@ check "... with the verdict last" test "$(tail -n 1 out)" = "fine"
 check "options may stand before the command" run 0 -j 1 check closed.ply
 check "quiet says nothing" run 0 check -q closed.ply
 check "... at all" test ! -s out
-for form in "--kernel ray --nodes pair" "--kernel ray --nodes wide" "--kernel packet" "--bvh midpoint" "--no-bvh"; do
+for form in "--kernel ray --nodes pair" "--kernel ray --nodes wide" "--kernel packet" "--precision fp64" "--bvh midpoint" "--no-bvh"; do
   # shellcheck disable=SC2086
   check "$form checks" run 0 check closed.ply $form --json=form.json
   check "... with no leak" json form.json "m['leak_test']['leaks']['count'] == 0 and m['leak_test']['aimed_at'] == 10"

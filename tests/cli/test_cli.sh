@@ -188,6 +188,7 @@ export ASAN_OPTIONS=verify_asan_link_order=0:${ASAN_OPTIONS:-}
 LD_PRELOAD=$NO_FP64 check "a device without fp64 draws in fp32" run 0 "$scene" -s 48x32 -o b.pfm
 LD_PRELOAD=$NO_FP64 check "... and is exit 4 in fp64" run 4 "$scene" --precision fp64 -s 8x8 -o b.pfm
 check "... with the reason" says "has no double arithmetic, which --precision fp64 needs"
+LD_PRELOAD=$NO_FP64 check "... clrt check too" run 4 check "$source/scenes/cube.ply" --precision fp64
 
 mkdir -p readonly cold
 HOME=/proc XDG_CACHE_HOME=/proc POCL_CACHE_DIR='' TMPDIR=$work/cold check "an unwritable HOME works" \

@@ -15,6 +15,7 @@ static const KernelWish forms[] = {
     {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
     {true, true, {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
     {true, true, {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
+    {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}},
 };
 #define FORMS (sizeof forms / sizeof forms[0])
 

@@ -38,17 +38,6 @@ static inline TestRays test_rays(global const TestRay *rays, uint count)
                       place < count};
 }
 
-#if CLRT_LANES == 1
-static inline Truth companions(const TestRays *rays, Truth left)
-{
-    return left;
-}
-
-static inline Real filled_lane(Real value, Truth lanes)
-{
-    return value;
-}
-#else
 static inline Truth same_in_first(Count value, Truth among)
 {
     return value == first_lane(value, among);
@@ -60,18 +49,16 @@ static inline Truth companions(const TestRays *rays, Truth left)
 {
     const Real3 o = rays->origin;
     const Truth same_kind = left && same_in_first(rays->kind, left);
-    const Truth same_origin = same_in_first(as_bits(o.x), left) &&
-                              same_in_first(as_bits(o.y), left) &&
-                              same_in_first(as_bits(o.z), left);
+    const Truth same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
+                              as_bits(o.y) == as_bits(first_real(o.y, left)) &&
+                              as_bits(o.z) == as_bits(first_real(o.z, left));
     return same_kind && (rays->kind == (uint)RAY_REFLECTED || same_origin);
 }
 
 static inline Real filled_lane(Real value, Truth lanes)
 {
-    return lanes ? value : as_real(first_lane(as_bits(value), lanes));
+    return lanes ? value : first_real(value, lanes);
 }
-
-#endif
 
 static inline Real3 filled_lanes(Real3 v, Truth lanes)
 {
