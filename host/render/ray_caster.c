@@ -3,6 +3,8 @@
 // for each local size and kind of grid, and that has to happen under the cache's lock.
 #include "render/ray_caster.h"
 
+#include "device/upload.h"
+
 #include <string.h>
 
 #define LAUNCH_RAYS 65536
@@ -12,22 +14,6 @@
 
 // kernels/rays.cl, made at build time.
 extern const char rays_source[];
-
-static bool make_buffer(const RayCaster *caster, cl_mem *buffer, const void *data, size_t size,
-                        Error *error)
-{
-    static const _Alignas(64) char nothing[64];
-    const Device *device = caster->device;
-    if (size > device->largest_allocation)
-        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
-                         size, device->name, (unsigned long long)device->largest_allocation);
-    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
-    cl_int status;
-    *buffer =
-        clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin, size > 0 ? size : sizeof nothing,
-                       (void *)(size > 0 ? data : nothing), &status);
-    return cl_succeeded(status, "upload a mesh", error);
-}
 
 void ray_caster_unload(RayCaster *caster)
 {
@@ -46,16 +32,20 @@ bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error)
     caster->frame = (FrameData){.sphere_count = flat->sphere_count,
                                 .triangle_count = flat->triangle_count,
                                 .uses_bvh = flat->node_count > 0};
-    return make_buffer(caster, &caster->spheres, flat->spheres,
-                       flat->sphere_count * sizeof *flat->spheres, error) &&
-           (is_wide ? make_buffer(caster, &caster->nodes_array, flat->wides,
-                                  flat->node_count * sizeof *flat->wides, error) &&
-                          make_buffer(caster, &caster->faces, flat->blocks,
-                                      flat->block_count * sizeof *flat->blocks, error)
-                    : make_buffer(caster, &caster->nodes_array, flat->pairs,
-                                  flat->node_count * sizeof *flat->pairs, error) &&
-                          make_buffer(caster, &caster->faces, flat->triangles,
-                                      flat->triangle_count * sizeof *flat->triangles, error));
+    const Device *device = caster->device;
+    const size_t nodes = flat->node_count;
+    if (!upload_array(device, flat->spheres, flat->sphere_count * sizeof *flat->spheres,
+                      &caster->spheres, error))
+        return false;
+    if (is_wide)
+        return upload_array(device, flat->wides, nodes * sizeof *flat->wides, &caster->nodes_array,
+                            error) &&
+               upload_array(device, flat->blocks, flat->block_count * sizeof *flat->blocks,
+                            &caster->faces, error);
+    return upload_array(device, flat->pairs, nodes * sizeof *flat->pairs, &caster->nodes_array,
+                        error) &&
+           upload_array(device, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
+                        &caster->faces, error);
 }
 
 static bool launch(const RayCaster *caster, cl_uint count, Error *error)

@@ -3,6 +3,7 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
+#include "device/upload.h"
 
 #include <assert.h>
 #include <string.h>
@@ -16,18 +17,7 @@
 
 static bool upload(Renderer *renderer, int place, const void *data, size_t size, Error *error)
 {
-    // OpenCL has no empty buffers, and kernels read nothing from one that stands for no elements.
-    static const _Alignas(64) char nothing[64];
-    const Device *device = renderer->device;
-    if (size > device->largest_allocation)
-        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
-                         size, device->name, (unsigned long long)device->largest_allocation);
-    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
-    cl_int status;
-    void *source = (void *)(size > 0 ? data : nothing);
-    renderer->arrays[place] = clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin,
-                                             size > 0 ? size : sizeof nothing, source, &status);
-    return cl_succeeded(status, "upload the scene", error);
+    return upload_array(renderer->device, data, size, &renderer->arrays[place], error);
 }
 
 static bool upload_pairs(Renderer *renderer, const FlatScene *flat, Error *error)

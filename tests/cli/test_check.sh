@@ -3,41 +3,14 @@
 # clrt check and --bad-geometry as their user meets them: text, JSON, exit codes and sentences.
 # Usage: CLRT=path/to/clrt test_check.sh SOURCE_FOLDER WORK_FOLDER
 set -u
+here=$(cd "$(dirname "$0")" && pwd)
 source=$1
 work=$2
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work" || exit 1
-failures=0
-checks=0
-
-# Counts the test named $1 as passed where the command after it succeeds.
-check() {
-  local name=$1
-  shift
-  checks=$((checks + 1))
-  if ! "$@"; then
-    failures=$((failures + 1))
-    echo "FAILED: $name" >&2
-    sed 's/^/    /' err out >&2
-  fi
-}
-
-# Runs clrt with the words after the expected exit code; its streams go to the files out and err.
-run() {
-  local expected=$1 code
-  shift
-  "$CLRT" "$@" >out 2>err </dev/null
-  code=$?
-  [ "$code" = "$expected" ] || { echo "exit $code instead of $expected" >>err && false; }
-}
-
-# Runs clrt with these words, which must fail with that code and say that one sentence.
-refuses() {
-  local code=$1 sentence=$2
-  shift 2
-  run "$code" "$@" && [ "$(cat err)" = "clrt: $sentence" ]
-}
+# shellcheck source=tests/cli/checks.sh
+. "$here/checks.sh"
 
 tells() { grep -qF -- "$1" out; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); m=d['meshes'][0]; sys.exit(not ($2))"; }

@@ -3,42 +3,15 @@
 # The program as its user meets it: exit codes, sentences, and an effect of every option.
 # Usage: CLRT=path/to/clrt test_cli.sh SOURCE_FOLDER WORK_FOLDER
 set -u
+here=$(cd "$(dirname "$0")" && pwd)
 source=$1
 work=$2
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work" || exit 1
+# shellcheck source=tests/cli/checks.sh
+. "$here/checks.sh"
 scene=$source/scenes/reflections.scn
-failures=0
-checks=0
-
-# Counts the test named $1 as passed where the command after it succeeds.
-check() {
-  local name=$1
-  shift
-  checks=$((checks + 1))
-  if ! "$@"; then
-    failures=$((failures + 1))
-    echo "FAILED: $name" >&2
-    sed 's/^/    /' err >&2
-  fi
-}
-
-# Runs clrt with the words after the expected exit code; its streams go to the files out and err.
-run() {
-  local expected=$1 code
-  shift
-  "$CLRT" "$@" >out 2>err </dev/null
-  code=$?
-  [ "$code" = "$expected" ] || { echo "exit $code instead of $expected" >>err && false; }
-}
-
-# Runs clrt with these words, which must fail with that code and say that one sentence.
-refuses() {
-  local code=$1 sentence=$2
-  shift 2
-  run "$code" "$@" && [ "$(cat err)" = "clrt: $sentence" ]
-}
 
 says() { grep -q -- "$1" err; }
 pixels() { run 0 "$scene" -s 48x32 -o "$@"; }
