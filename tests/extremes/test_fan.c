@@ -68,6 +68,16 @@ static TestHit nearest_of(const RayBatch *batch, const TestRay *ray, TestHit *ea
     return nearest;
 }
 
+// Whether it is the answer: of those that share the smallest t, the lowest id.  Doubles that differ
+// may be one float here, and then any of those is.
+static bool is_answer(const RayBatch *batch, const TestHit *hit, const TestHit *nearest,
+                      const TestHit *each)
+{
+    if (batch->choice.precision == PRECISION_FP64)
+        return hit->id < TRIANGLES && each[hit->id].t == nearest->t && hit->t == nearest->t;
+    return hit->id == nearest->id && hit->t == nearest->t;
+}
+
 // How many of the first rays get another answer than the smallest (t, id); adds the number of those
 // where several triangles share the smallest t to *ties.
 static size_t wrong_answers(const RayBatch *batch, const TestRay *rays, size_t *ties)
@@ -82,7 +92,7 @@ static size_t wrong_answers(const RayBatch *batch, const TestRay *rays, size_t *
     for (size_t i = 0; i < count; i++) {
         size_t equals;
         const TestHit nearest = nearest_of(batch, &rays[i], each, &equals);
-        wrong += nearest.t != hits[i].t || nearest.id != hits[i].id;
+        wrong += !is_answer(batch, &hits[i], &nearest, each);
         *ties += equals > 1;
     }
     free(hits);

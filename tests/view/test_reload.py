@@ -131,7 +131,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
         window.until(lambda shown: shown != line, "tells that the kernels do not compile")
         window.press("t", "text off")
         assert window.read() == before, "the last good picture is gone"
-        dark = text.replace("rint(clamp(color, 0.0f, 1.0f)", "rint(clamp(0.5f * color, 0.0f, 1.0f)")
+        dark = text.replace("rint(clamp_to_one(color)", "rint(clamp_to_one(0.5f * color)")
         assert dark != text
         shade.write_text(dark)
         window.until(lambda shown: sum(shown[1::4]) < 0.6 * sum(before[1::4]), "is darker")
