@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Command line -> Options.  One table makes the parser and --help.
+// Command line -> Options.
 #pragma once
 
 #include "accel/bvh.h"
 #include "image/image_file.h"
 #include "render/renderer.h"
-
-#include <stdio.h>
 
 typedef enum {
     ACTION_RENDER,
@@ -61,6 +59,3 @@ typedef struct {
 
 // Fills options from the words of the command line; false where they are not understood.
 bool options_parse(Options *options, int count, char **words, Error *error);
-
-// Writes what --help shows.
-void options_write_help(FILE *stream);

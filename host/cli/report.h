@@ -4,6 +4,8 @@
 
 #include "cli/options.h"
 
+#include <stdio.h>
+
 #define REPORT_TEXTS 6
 
 // Everything about one run that is told to the user.

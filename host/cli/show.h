@@ -6,6 +6,8 @@
 #include "cli/options.h"
 #include "device/cache.h"
 
+#include <stdio.h>
+
 // Writes what the keys of the window do; nothing in a build without one.
 void show_write_keys(FILE *stream);
 

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// A function for each option that is not a choice among words, in the order of the table.
+#include "cli/option_reader.h"
+
+#include "base/number.h"
+#include "cli/option_value.h"
+
+#include <string.h>
+
+bool read_aa(Options *options, const char *value, Error *error)
+{
+    options->samples = 2;
+    return value == NULL || read_count(value, "aa", SAMPLES_MAX, &options->samples, error);
+}
+
+bool read_output(Options *options, const char *value, Error *error)
+{
+    options->output_path = value;
+    return value[0] != '\0' || error_set(error, "--output wants the name of a file");
+}
+
+bool read_format(Options *options, const char *value, Error *error)
+{
+    options->format = image_format_named(value);
+    return options->format != NULL ||
+           error_set(error, "--format wants one of %s, not '%s'", image_format_names(), value);
+}
+
+bool read_view(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "view", 1000000, &options->view, error);
+}
+
+bool read_size(Options *options, const char *value, Error *error)
+{
+    uint32_t area[2] = {0};
+    const bool ok = read_area(value, "size", PICTURE_SIZE_MAX, area, error);
+    options->width = area[0];
+    options->height = area[1];
+    return ok;
+}
+
+bool read_frames(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "frames", FRAMES_MAX, &options->frames, error);
+}
+
+bool read_tile(Options *options, const char *value, Error *error)
+{
+    uint32_t area[2] = {0};
+    const bool ok = read_area(value, "tile", PICTURE_SIZE_MAX, area, error);
+    options->tile_width = area[0];
+    options->tile_height = area[1];
+    return ok;
+}
+
+bool read_group(Options *options, const char *value, Error *error)
+{
+    uint32_t area[2] = {0};
+    const bool ok = read_area(value, "work-group", 1024, area, error);
+    options->group_width = area[0];
+    options->group_height = area[1];
+    return ok;
+}
+
+bool read_no_bvh(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->uses_bvh = false;
+    return true;
+}
+
+bool read_max_level(Options *options, const char *value, Error *error)
+{
+    const char *end = value + strlen(value);
+    if (integer_parse(value, end, &options->max_level) == end && options->max_level >= 0 &&
+        options->max_level <= MAX_LEVEL_LIMIT)
+        return true;
+    return error_set(error, "--max-level wants an integer between 0 and %d, not '%s'",
+                     MAX_LEVEL_LIMIT, value);
+}
+
+bool read_device(Options *options, const char *value, Error *error)
+{
+    (void)error;
+    options->device = value;
+    return true;
+}
+
+bool read_list_devices(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_LIST_DEVICES;
+    return true;
+}
+
+bool read_warm(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_WARM;
+    return true;
+}
+
+bool read_threads(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "threads", 4096, &options->threads, error);
+}
+
+bool read_stats(Options *options, const char *value, Error *error)
+{
+    options->statistics = true;
+    options->statistics_path = value;
+    return value == NULL || value[0] != '\0' ||
+           error_set(error, "--stats= wants the name of a file");
+}
+
+bool read_keys(Options *options, const char *value, Error *error)
+{
+    (void)error;
+    options->keys = value;
+    return true;
+}
+
+bool read_quit_after(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "quit-after", 1000000, &options->quit_after, error);
+}
+
+bool read_json(Options *options, const char *value, Error *error)
+{
+    options->json = true;
+    options->json_path = value;
+    return value == NULL || value[0] != '\0' ||
+           error_set(error, "--json= wants the name of a file");
+}
+
+bool read_quiet(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->quiet = true;
+    return true;
+}
+
+bool read_verbose(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->verbose = true;
+    return true;
+}
+
+bool read_help(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_HELP;
+    return true;
+}
+
+bool read_version(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_VERSION;
+    return true;
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The pipeline from a scene file to a picture file.
+#include "cli/picture.h"
+
+#include "base/clock.h"
+#include "image/image_file.h"
+#include "scene/camera.h"
+
+#include <stdio.h>
+
+// One picture of as many as were asked for; they are the same.
+static bool draw_frame(Run *run, const CameraData *camera, Error *error)
+{
+    double moment = clock_seconds();
+    Progress progress = progress_begin(run->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok = renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
+    run->stopped_by = progress_end(&progress);
+    const double seconds = run_lap(&moment);
+    if (run->options->verbose && ok)
+        fprintf(stderr, "traced in %.4f s\n", seconds);
+    run->report.frame_seconds[run->report.frame_count++] = seconds;
+    return ok;
+}
+
+static bool draw(Run *run, Error *error)
+{
+    const RenderSettings *settings = &run->settings;
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    const CameraData camera =
+        camera_make(viewpoint, &run->normalization, settings->height, settings->samples);
+    if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
+        return false;
+    bool ok = true;
+    double moment = clock_seconds();
+    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
+        ok = draw_frame(run, &camera, error);
+    starter_note_traced(&run->starter, run_lap(&moment));
+    run->report.trace = run->report.frame_seconds[0];
+    const RenderProgress *done = &run->renderer.progress;
+    run->report.complete = ok && done->tiles_done == done->tiles;
+    for (int kind = 0; kind < TALLY_KINDS; kind++)
+        run->report.tallies[kind] = done->tallies[kind];
+    return ok;
+}
+
+static bool write_picture(Run *run, Error *error)
+{
+    ReportTexts texts;
+    const Options *options = run->options;
+    double moment = clock_seconds();
+    report_make_texts(&run->report, &texts);
+    const ImageSettings settings = {.format = options->format,
+                                    .encoding = options->encoding,
+                                    .texts = texts.texts,
+                                    .text_count = REPORT_TEXTS};
+    const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
+    run->report.write = run_lap(&moment);
+    return ok;
+}
+
+static bool write_statistics(Run *run, double start, Error *error)
+{
+    const Options *options = run->options;
+    run->report.total = clock_seconds() - start;
+    if (!options->statistics)
+        return true;
+    if (options->statistics_path == NULL) {
+        report_write_text(&run->report, stderr);
+        return true;
+    }
+    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
+    return report_write_json(&run->report, options->statistics_path, error);
+}
+
+static void describe(const Run *run)
+{
+    const Report *report = &run->report;
+    if (!run->options->verbose)
+        return;
+    fprintf(stderr, "scene: %u triangles, %u spheres, %u lights; %llu triangles dropped\n",
+            report->triangles, report->spheres, report->lights,
+            (unsigned long long)report->dropped_triangles);
+    fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
+            report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
+    const Device *device = &run->starter.device;
+    fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
+            device->compute_units);
+    fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
+            kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
+            kernel_precision_name(report->choice->precision),
+            report->specialized ? "specialized" : "general", report->kernel_build,
+            report->upload_size);
+}
+
+ExitCode picture_make(Run *run, Error *error)
+{
+    const double start = clock_seconds();
+    if (!image_check_path(run->options->output_path, error))
+        return EXIT_OUTPUT;
+    image_prepare(run->options->format);
+    run_begin(run);
+    if (!run_load_scene(run, error)) {
+        starter_decide(&run->starter, false);
+        return EXIT_SCENE;
+    }
+    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+        return EXIT_OUTPUT;
+    if (!run_await_device(run, error))
+        return EXIT_DEVICE;
+    if (!run_build_scene(run, error))
+        return EXIT_SCENE;
+    if (!run_open_renderer(run, error))
+        return EXIT_DEVICE;
+    describe(run);
+    if (!draw(run, error))
+        return EXIT_DEVICE;
+    if (!write_picture(run, error) || !write_statistics(run, start, error))
+        return EXIT_OUTPUT;
+    return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The stages from a scene file to a renderer that stands ready.
+#include "cli/run.h"
+
+#include "base/clock.h"
+#include "cli/check.h"
+#include "cli/threads.h"
+#include "scene/camera.h"
+#include "scene/scn.h"
+
+#include <stdlib.h>
+
+// With so many, a tree takes longer to build than a compiled kernel to be loaded.
+#define MANY_TRIANGLES 20000
+
+double run_lap(double *moment)
+{
+    const double before = *moment;
+    *moment = clock_seconds();
+    return *moment - before;
+}
+
+static RenderSettings settings_of(const Options *options, const Scene *scene)
+{
+    const bool sized = options->width > 0;
+    return (RenderSettings){
+        .width = sized ? options->width : scene->width,
+        .height = sized ? options->height : scene->height,
+        .samples = options->samples,
+        .max_level = options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level,
+        .tile_width = options->tile_width,
+        .tile_height = options->tile_height,
+        .group_width = options->group_width,
+        .group_height = options->group_height,
+        .statistics = options->statistics,
+        .specialization = options->specialization,
+    };
+}
+
+bool run_load_scene(Run *run, Error *error)
+{
+    double moment = clock_seconds();
+    const Options *options = run->options;
+    bool ok = scn_load(&run->scene, options->scene_path, error);
+    if (ok && options->view > run->scene.viewpoints.count)
+        ok = error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
+                       run->scene.viewpoints.count, options->view);
+    run->report.load = run->scene.mesh_seconds;
+    run->report.parse = run_lap(&moment) - run->report.load;
+    ok = ok && check_geometry(options, &run->scene, error);
+    run->normalization = normalization_of(&run->scene);
+    Error cause = {0};
+    if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
+        ok = error_set(error, "%s: %s", options->scene_path, cause.text);
+    run->report.build = run_lap(&moment);
+    run->settings = settings_of(options, &run->scene);
+    return ok;
+}
+
+bool run_await_device(Run *run, Error *error)
+{
+    Starter *starter = &run->starter;
+    const uint64_t triangles = scene_triangle_count(&run->scene);
+    if (triangles < MANY_TRIANGLES)
+        starter_decide(starter, false);
+    if (!starter_wait_device(starter, error))
+        return false;
+    starter_choose(starter, &run->settings, triangles);
+    starter_decide(starter, true);
+    run->report.device = starter->device_seconds;
+    run->report.device_name = starter->device.name;
+    run->report.device_version = starter->device.version;
+    run->report.choice = &starter->setup.source.choice;
+    run->settings.group_width = starter->group[0];
+    run->settings.group_height = starter->group[1];
+    return true;
+}
+
+bool run_build_scene(Run *run, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    double moment = clock_seconds();
+    const Options *options = run->options;
+    const NodeLayout layout = run->starter.setup.source.choice.nodes;
+    Crew *crew = crew_open(threads_allowed(options->threads));
+    const BvhSettings settings = {options->builder, flat_leaves(layout)};
+    const FlatSource source = {&run->scene, &triangles, &bvh, &run->normalization, layout, crew};
+    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, crew, error) &&
+                    (!options->uses_bvh || bvh_build(&bvh, &triangles, &settings, crew, error)) &&
+                    flat_make(&run->flat, &source, error);
+    crew_close(crew);
+    run->report.build += run_lap(&moment);
+    if (ok)
+        report_count_scene(&run->report, &run->scene, &bvh);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+    return ok;
+}
+
+bool run_open_renderer(Run *run, Error *error)
+{
+    Starter *starter = &run->starter;
+    starter_wait_kernel(starter);
+    if (!renderer_open(&run->renderer, &starter->setup, &run->flat, &run->settings, error))
+        return false;
+    run->report.upload = run->renderer.upload_seconds;
+    run->report.upload_size = run->renderer.upload_size;
+    run->report.kernel_build = run->renderer.build_seconds;
+    run->report.specialized = run->renderer.is_special;
+    return true;
+}
+
+void run_begin(Run *run)
+{
+    const RendererSetup setup = {.cache = &run->cache,
+                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR")}};
+    starter_begin(&run->starter, run->options, setup);
+}
+
+void run_free(Run *run)
+{
+    framebuffer_free(&run->framebuffer);
+    starter_wait_kernel(&run->starter);
+    if (CLRT_TIDY_EXIT) {
+        renderer_close(&run->renderer);
+        starter_free(&run->starter);
+    }
+    flat_free(&run->flat);
+    scene_free(&run->scene);
+}

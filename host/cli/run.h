@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What every use of the pipeline keeps, and the stages that all of them begin with.  Stages borrow
+// the ones before them and fill a value of their own; a zeroed Run is valid and freeing it does
+// nothing, so there is one way out.
+#pragma once
+
+#include "accel/flat.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/starter.h"
+#include "render/renderer.h"
+
+typedef struct {
+    const Options *options;
+    Cache cache;
+    Scene scene;
+    Normalization normalization;
+    FlatScene flat;
+    Starter starter;
+    RenderSettings settings;
+    Renderer renderer;
+    Framebuffer framebuffer;
+    Report report;
+    int stopped_by; // a signal, 0 where the picture is whole
+} Run;
+
+// Returns the seconds since *moment, and moves it to now.
+double run_lap(double *moment);
+
+// Begins to open the device and to make the kernels, beside what follows.
+void run_begin(Run *run);
+
+// File to scene, with the frame it is traced in and the settings of its picture.
+bool run_load_scene(Run *run, Error *error);
+
+// Waits for the device; it and the scene decide about the kernels, and they about the layout.
+bool run_await_device(Run *run, Error *error);
+
+// Scene to arrays.
+bool run_build_scene(Run *run, Error *error);
+
+// Arrays and kernels to the renderer.
+bool run_open_renderer(Run *run, Error *error);
+
+// Frees what the stages made.
+void run_free(Run *run);
