@@ -17,8 +17,8 @@
 #ifndef CLRT_MIRRORS
 #define CLRT_MIRRORS 1 // some material reflects
 #endif
-#ifndef CLRT_SPECULAR
-#define CLRT_SPECULAR 1 // some material has highlights
+#ifndef CLRT_SHADED
+#define CLRT_SHADED 1 // some material is shaded by lights
 #endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted

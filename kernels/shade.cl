@@ -64,7 +64,7 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
     const Truth is_lit = faces && !is_blocked(scene, frame, &ray, tally);
     lighting->diffuse = is_lit ? lighting->diffuse + intensity * cosine : lighting->diffuse;
     const Truth shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
-    if (!CLRT_SPECULAR || !any_lane(shines))
+    if (!any_lane(shines))
         return;
     const Real3 half_vector = half_vector_of(surface, toward_light);
     const Real shine = intensity * highlight(lighting->material, surface->normal, half_vector);
@@ -78,17 +78,15 @@ static inline Real3 shade(const SceneView *scene, const FrameData *frame, const 
     const Truth is_flat = material->shader == SHADER_SILHOUETTE;
     const Truth wanted = met && !is_flat;
     Lighting lighting = {surface, material, wanted, 0.0f, 0.0f};
-    if (!any_lane(wanted))
+    if (!CLRT_SHADED || !any_lane(wanted))
         return material->diffuse;
     for (uint index = 0; index < frame->light_count; index++)
         receive_light(scene, frame, index, &lighting, tally);
     const Real diffuse = frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
     Real3 color = scaled3(diffuse, material->diffuse);
-    if (CLRT_SPECULAR) {
-        const Real3 shine =
-            scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);
-        color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
-    }
+    const Real3 shine =
+        scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);
+    color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
     return choose3(is_flat, material->diffuse, color);
 }

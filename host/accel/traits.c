@@ -8,7 +8,7 @@
 static void add_material(SceneTraits *traits, const Material *material)
 {
     traits->mirrors |= material->reflectivity > 0;
-    traits->specular |= material->shader == SHADER_BLINN_PHONG;
+    traits->shaded |= material->shader != SHADER_SILHOUETTE;
 }
 
 static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
@@ -39,7 +39,7 @@ void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS
 {
     snprintf(options, TRAITS_OPTIONS_SIZE,
              "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
-             "-DCLRT_SPECULAR=%d -DCLRT_STATISTICS=%d",
-             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->specular,
+             "-DCLRT_SHADED=%d -DCLRT_STATISTICS=%d",
+             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
              traits->statistics);
 }

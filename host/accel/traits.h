@@ -10,7 +10,7 @@ typedef struct {
     bool spheres, triangles;
     bool bvh;        // triangles are found through the tree
     bool mirrors;    // a material in use reflects
-    bool specular;   // a material in use has highlights
+    bool shaded;     // a material in use is shaded by lights: more than silhouettes
     bool statistics; // rays and tests are counted
 } SceneTraits;
 

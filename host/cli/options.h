@@ -38,6 +38,7 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     int64_t max_level;       // negative: the scene's
     bool uses_bvh;
+    bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
     const char *device; // NULL: the best
     uint32_t threads;   // 0: all that the process may use

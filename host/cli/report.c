@@ -25,7 +25,7 @@ static double per_ray(const Report *report, TallyKind kind)
 
 static const char *tree_name(const Report *report)
 {
-    if (!report->options->uses_bvh || report->triangles == 0)
+    if (report->bvh_nodes == 0)
         return "none";
     return report->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }

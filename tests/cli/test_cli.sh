@@ -121,6 +121,11 @@ check "--no-bvh tests no boxes" pixels a.pfm --no-bvh --stats=b.json
 check "... says the JSON" json b.json "d['tests']['box'] == 0 and d['bvh']['builder'] == 'none'"
 check "--bvh midpoint builds another tree" pixels a.pfm --bvh midpoint --stats=c.json
 check "... says the JSON" json c.json "d['bvh']['builder'] == 'midpoint'"
+"$CLRT" "$source/scenes/cube.ply" -s 16x16 -o b.pfm --kernel packet --bvh sah --stats=b.json
+check "12 triangles are tested without a tree" run 0 "$source/scenes/cube.ply" -s 16x16 --kernel packet -o a.pfm --stats=a.json
+check "... says the JSON" json a.json "d['tests']['box'] == 0 and d['bvh']['builder'] == 'none'"
+check "... unless one is asked for" json b.json "d['bvh']['builder'] == 'sah'"
+check "... which draws the same picture" cmp a.pfm b.pfm
 check "-j 1 uses one compute unit" pixels a.pfm -v -j 1
 check "... says -v" says ", 1 compute units"
 check "tiles have an effect" pixels a.pfm --tile 16x8 --work-group 4x2 --stats=d.json

@@ -161,7 +161,7 @@ static const char *write_scene(unsigned mask)
     FILE *stream = fdopen(file, "w");
     assert_non_null(stream);
     fprintf(stream, "light 3 -4 6 .8\ndefine it %s reflectivity %s\nmaterial it\n",
-            mask & 4 ? "blinn_phong" : "matte", mask & 8 ? ".4" : "0");
+            mask & 4 ? "blinn_phong" : "silhouette", mask & 8 ? ".4" : "0");
     if (mask & 1)
         fprintf(stream, "sphere -.4 .3 .4 .4\nsphere .5 .3 .3 .3\n");
     if (mask & 2)

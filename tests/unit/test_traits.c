@@ -15,10 +15,10 @@ static void only_materials_in_use_count(void **state)
     materials[1] = (Material){.shader = SHADER_BLINN_PHONG, .reflectivity = 0.5f};
     spheres[0].material = 0;
     assert_false(traits_of(&flat, false).mirrors);
-    assert_false(traits_of(&flat, false).specular);
+    assert_false(traits_of(&flat, false).shaded);
     spheres[0].material = 1;
     assert_true(traits_of(&flat, false).mirrors);
-    assert_true(traits_of(&flat, false).specular);
+    assert_true(traits_of(&flat, false).shaded);
     assert_true(traits_of(&flat, false).spheres);
     assert_false(traits_of(&flat, false).triangles);
 }
@@ -30,7 +30,7 @@ static void traits_become_compiler_options(void **state)
     const SceneTraits traits = {.spheres = true, .mirrors = true, .statistics = true};
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
-                                 "-DCLRT_MIRRORS=1 -DCLRT_SPECULAR=0 -DCLRT_STATISTICS=1");
+                                 "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_STATISTICS=1");
 }
 
 int main(void)
