@@ -2,6 +2,7 @@
 // Words what --help shows: names on the left, sentences broken into lines on the right.
 #include "cli/option_help.h"
 
+#include "cli/command.h"
 #include "cli/option_table.h"
 #include "cli/show.h"
 
@@ -65,15 +66,27 @@ static void write_classes(FILE *stream)
     }
 }
 
+static void write_usage(FILE *stream)
+{
+    fputs("Usage: clrt SCENE [options]             show it in a window\n"
+          "       clrt SCENE -o FILE [options]     draw it to a file\n"
+          "       clrt --warm [SCENE] [options]    compile the kernels ahead\n",
+          stream);
+    for (size_t i = 0; i < command_count; i++)
+        fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,
+                command_table[i].operands);
+    fputs("Traces a scene (.scn, or a .ply mesh) with OpenCL.\n", stream);
+    fputs("\nCommands:\n", stream);
+    for (size_t i = 0; i < command_count; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "  %s %s", command_table[i].name, command_table[i].operands);
+        write_item(stream, name, command_table[i].help);
+    }
+}
+
 void options_write_help(FILE *stream)
 {
-    fprintf(stream,
-            "Usage: clrt SCENE [options]\n"
-            "       clrt SCENE -o FILE [options]\n"
-            "       clrt check SCENE [options]\n"
-            "       clrt --warm [SCENE] [options]\n"
-            "Traces a scene (.scn, or a .ply mesh) with OpenCL, in a window or to a file; check\n"
-            "looks for what is wrong in its geometry instead.\n");
+    write_usage(stream);
     for (int group = 0; group < OPTION_GROUPS; group++)
         write_group(stream, (OptionGroup)group);
     write_classes(stream);

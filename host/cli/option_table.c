@@ -59,7 +59,7 @@ const Option option_table[] = {
     {"bad-geometry", 0, "drop|fail", read_bad_geometry, GROUP_GEOMETRY, CLASS_NONE,
      "triangles of no area: drop (default) or fail, naming the first"},
     {"json", 0, "[=FILE]", read_json, GROUP_GEOMETRY, CLASS_NONE,
-     "clrt check: write the report as JSON, to FILE or instead"},
+     "write the report of check as JSON, to FILE or instead of the text"},
 
     {"keys", 0, "KEYS", read_keys, GROUP_WINDOW, CLASS_NONE,
      "press these keys in the window, each once the one before is shown"},
