@@ -44,7 +44,7 @@ const Option option_table[] = {
 
     {"device", 0, "SPEC", read_device, GROUP_DEVICE, CLASS_EXACT,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
-    {"list-devices", 0, NULL, read_list_devices, GROUP_DEVICE, CLASS_NONE,
+    {"list-devices", 0, "[=text|json]", read_list_devices, GROUP_DEVICE, CLASS_NONE,
      "list the OpenCL devices"},
     {"threads", 'j', "N", read_threads, GROUP_DEVICE, CLASS_EXACT,
      "threads of a CPU device (all that the process may use)"},

@@ -29,24 +29,29 @@ static void write_sentence(FILE *stream, const char *text)
     fputs(".\n", stream);
 }
 
+// The words of a choice, or the name of the value.
+static void write_words(FILE *stream, const Option *option)
+{
+    char words[VALUE_WORDS_SIZE];
+    value_name(option, words, sizeof words);
+    if (strchr(words, '|') == NULL) {
+        fprintf(stream, "Ar %s", words);
+        return;
+    }
+    char *rest = words;
+    fprintf(stream, "Cm %s", strsep(&rest, "|"));
+    while (rest != NULL)
+        fprintf(stream, " | %s", strsep(&rest, "|"));
+}
+
 static void write_value(FILE *stream, const Option *option)
 {
-    char words[VALUE_WORDS_SIZE], name[64];
     if (option->argument == NULL)
         return;
-    value_name(option, name, sizeof name);
-    const bool is_choice = strchr(option->argument, '|') != NULL;
-    if (!is_choice) {
-        fprintf(stream, option_argument_is_optional(option) ? " Ns Oo = Ns Ar %s Oc" : " Ar %s",
-                name);
-        return;
-    }
-    value_kind(option, words);
-    for (const char *separator = " Cm "; words[0] != '\0'; separator = " | ") {
-        const size_t length = strcspn(words, " ");
-        fprintf(stream, "%s%.*s", separator, (int)length, words);
-        memmove(words, words + length + (words[length] == ' '), VALUE_WORDS_SIZE - length - 1);
-    }
+    const bool optional = option_argument_is_optional(option);
+    fputs(optional ? " Ns Oo = Ns " : " ", stream);
+    write_words(stream, option);
+    fputs(optional ? " Oc" : "", stream);
 }
 
 static void write_option(FILE *stream, const Option *option)
