@@ -76,7 +76,7 @@ def ask_terminal(shell, folder, line, work):
         def is_quiet(text):
             if len(text) != quiet[1]:
                 quiet[:] = [time.monotonic(), len(text)]
-            return len(text) > len(line) + 2 and time.monotonic() - quiet[0] > 1
+            return len(text) > len(line) + 2 and time.monotonic() - quiet[0] > 0.5
 
         return terminal.read(is_quiet)
     finally:

@@ -128,8 +128,9 @@ class Completions(unittest.TestCase):
         for _, name, value in OPTIONS:
             if "|" not in value:
                 continue
-            text = self.offered(shell, f"clrt a.scn --{name} ")
-            for word in value.strip().split("|"):
+            separator = "=" if value.startswith("[") else " "
+            text = self.offered(shell, f"clrt a.scn --{name}{separator}")
+            for word in value.strip(" [=]").split("|"):
                 self.assertRegex(text, rf"(?<!\w){word}(?!\w)", f"{shell} --{name}")
         self.assertIn("pfm", self.offered(shell, "clrt a.scn --format p"))
 

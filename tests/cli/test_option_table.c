@@ -120,7 +120,7 @@ static const char *find_entry(const char *help, const Option *option, const char
              option->argument == NULL ? "" : option->argument);
     const char *entry = strstr(help, start);
     assert_non_null(entry);
-    *end = entry + strcspn(entry, "\n");
+    *end = entry + 1 + strcspn(entry + 1, "\n");
     while (strspn(*end + 1, " ") > 6) // lines that go on
         *end += 1 + strcspn(*end + 1, "\n");
     return entry + strlen(start);

@@ -45,7 +45,7 @@ static void write_option(FILE *stream, const Option *option)
         fprintf(stream, " -s %c", option->letter);
     fprintf(stream, " -l %s", option->name);
     if (kind == VALUE_WORDS)
-        fprintf(stream, " -x -a '%s'", words);
+        fprintf(stream, optional ? " -f -a '%s'" : " -x -a '%s'", words);
     else if (kind == VALUE_FILE && optional)
         fputs(" -F", stream);
     else if (kind == VALUE_FILE)
