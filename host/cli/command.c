@@ -11,9 +11,12 @@ static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "thre
 // What no picture needs.
 static const char *const command_options[] = {"json", NULL};
 
-static const Command commands[] = {
-    {"check", ACTION_CHECK, check_options},
+const Command command_table[] = {
+    {"check", ACTION_CHECK, check_options, "SCENE",
+     "look for what is wrong in the scene's geometry, and draw nothing"},
 };
+
+const size_t command_count = sizeof command_table / sizeof command_table[0];
 
 static bool is_among(const char *name, const char *const *names)
 {
@@ -24,9 +27,9 @@ static bool is_among(const char *name, const char *const *names)
 
 const Command *command_named(const char *word)
 {
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-        if (strcmp(word, commands[i].name) == 0)
-            return &commands[i];
+    for (size_t i = 0; i < command_count; i++)
+        if (strcmp(word, command_table[i].name) == 0)
+            return &command_table[i];
     return NULL;
 }
 

@@ -8,7 +8,12 @@ typedef struct {
     const char *name;
     Action action;
     const char *const *options; // that it takes, NULL behind the last
+    const char *operands;       // what follows its name
+    const char *help;
 } Command;
+
+extern const Command command_table[];
+extern const size_t command_count;
 
 // NULL where the word names none.
 const Command *command_named(const char *word);

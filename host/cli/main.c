@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program: does what the command line asks for, and words what went wrong.
 #include "cli/check.h"
+#include "cli/device_report.h"
 #include "cli/option_help.h"
 #include "cli/picture.h"
 #include "cli/show.h"
@@ -36,18 +37,6 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
     return code;
 }
 
-static ExitCode list_devices(Error *error)
-{
-    char list[8192];
-    Cache cache;
-    cache_open(&cache);
-    const bool ok = device_list(list, sizeof list, error);
-    cache_close(&cache);
-    if (ok)
-        fputs(list, stdout);
-    return ok ? EXIT_DONE : EXIT_DEVICE;
-}
-
 static ExitCode perform(int count, char **words, Error *error)
 {
     Options options;
@@ -61,7 +50,7 @@ static ExitCode perform(int count, char **words, Error *error)
         puts("clrt " CLRT_VERSION);
         return EXIT_DONE;
     case ACTION_LIST_DEVICES:
-        return list_devices(error);
+        return device_report_write(options.lists_json, error);
     case ACTION_WARM:
         return perform_run(&options, warm_kernels, error);
     case ACTION_VIEW:

@@ -73,3 +73,12 @@ bool read_bad_geometry(Options *options, const char *value, Error *error)
     options->bad_geometry = choice == 1 ? BAD_GEOMETRY_FAIL : BAD_GEOMETRY_DROP;
     return choice >= 0;
 }
+
+bool read_list_devices(Options *options, const char *value, Error *error)
+{
+    static const char *const names[] = {"text", "json"};
+    const int choice = value == NULL ? 0 : read_choice(value, "list-devices", names, 2, error);
+    options->action = ACTION_LIST_DEVICES;
+    options->lists_json = choice == 1;
+    return choice >= 0;
+}

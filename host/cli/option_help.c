@@ -1,29 +1,95 @@
 // SPDX-License-Identifier: MIT
-// Words what --help shows.
+// Words what --help shows: names on the left, sentences broken into lines on the right.
 #include "cli/option_help.h"
 
+#include "cli/command.h"
 #include "cli/option_table.h"
 #include "cli/show.h"
 
+#include <string.h>
+
+#define NAME_WIDTH 28
+#define TEXT_WIDTH 66
+
+// Length of what of the text fits a line, broken at a blank.
+static int line_length(const char *text)
+{
+    const int length = (int)strlen(text);
+    if (length <= TEXT_WIDTH)
+        return length;
+    int end = TEXT_WIDTH;
+    while (end > 0 && text[end] != ' ')
+        end--;
+    return end > 0 ? end : TEXT_WIDTH;
+}
+
+static void write_item(FILE *stream, const char *name, const char *text)
+{
+    const bool fits = strlen(name) < NAME_WIDTH;
+    if (!fits)
+        fprintf(stream, "%s\n", name);
+    for (const char *left = fits ? name : ""; *text != '\0'; left = "") {
+        const int length = line_length(text);
+        fprintf(stream, "%-*s%.*s\n", NAME_WIDTH, left, length, text);
+        text += length + (text[length] == ' ');
+    }
+}
+
+static void write_option(FILE *stream, const Option *option)
+{
+    char name[64], text[512], letter[8] = "    ";
+    if (option->letter != 0)
+        snprintf(letter, sizeof letter, "-%c, ", option->letter);
+    const bool separate = option->argument != NULL && !option_argument_is_optional(option);
+    snprintf(name, sizeof name, "  %s--%s%s%s", letter, option->name, separate ? " " : "",
+             option->argument == NULL ? "" : option->argument);
+    snprintf(text, sizeof text, option->class == CLASS_NONE ? "%s" : "%s [%s]", option->help,
+             option_class_names[option->class]);
+    write_item(stream, name, text);
+}
+
+static void write_group(FILE *stream, OptionGroup group)
+{
+    fprintf(stream, "\n%s:\n", option_group_names[group]);
+    for (size_t i = 0; i < option_count; i++)
+        if (option_table[i].group == group)
+            write_option(stream, &option_table[i]);
+}
+
+static void write_classes(FILE *stream)
+{
+    fputs("\nWhat a setting may do to the picture:\n", stream);
+    for (size_t i = CLASS_NONE + 1; i < OPTION_CLASSES; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "  [%s]", option_class_names[i]);
+        write_item(stream, name, option_class_meanings[i]);
+    }
+}
+
+static void write_usage(FILE *stream)
+{
+    fputs("Usage: clrt SCENE [options]             show it in a window\n"
+          "       clrt SCENE -o FILE [options]     draw it to a file\n"
+          "       clrt --warm [SCENE] [options]    compile the kernels ahead\n",
+          stream);
+    for (size_t i = 0; i < command_count; i++)
+        fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,
+                command_table[i].operands);
+    fputs("Traces a scene (.scn, or a .ply mesh) with OpenCL.\n", stream);
+    fputs("\nCommands:\n", stream);
+    for (size_t i = 0; i < command_count; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "  %s %s", command_table[i].name, command_table[i].operands);
+        write_item(stream, name, command_table[i].help);
+    }
+}
+
 void options_write_help(FILE *stream)
 {
-    fprintf(stream,
-            "Usage: clrt SCENE [options]\n"
-            "       clrt SCENE -o FILE [options]\n"
-            "       clrt check SCENE [options]\n"
-            "       clrt --warm [SCENE] [options]\n"
-            "Traces a scene (.scn, or a .ply mesh) with OpenCL, in a window or to a file; check\n"
-            "looks for what is wrong in its geometry instead.\n\n");
-    for (size_t i = 0; i < option_count; i++) {
-        char name[64], letter[8] = "    ";
-        const Option *option = &option_table[i];
-        if (option->letter != 0)
-            snprintf(letter, sizeof letter, "-%c, ", option->letter);
-        const bool separate = option->argument != NULL && !option_argument_is_optional(option);
-        snprintf(name, sizeof name, "--%s%s%s", option->name, separate ? " " : "",
-                 option->argument == NULL ? "" : option->argument);
-        fprintf(stream, "  %s%-20s %s\n", letter, name, option->help);
-    }
+    write_usage(stream);
+    for (int group = 0; group < OPTION_GROUPS; group++)
+        write_group(stream, (OptionGroup)group);
+    write_classes(stream);
     show_write_keys(stream);
     fprintf(stream, "\nExit status: 0 done, 1 check found faults, 2 usage, 3 scene or mesh, "
                     "4 device, 5 output,\n"

@@ -87,13 +87,6 @@ bool read_device(Options *options, const char *value, Error *error)
     return true;
 }
 
-bool read_list_devices(Options *options, const char *value, Error *error)
-{
-    (void)value, (void)error;
-    options->action = ACTION_LIST_DEVICES;
-    return true;
-}
-
 bool read_warm(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;

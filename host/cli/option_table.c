@@ -5,55 +5,96 @@
 #include "cli/option_choice.h"
 
 const Option option_table[] = {
-    {"output", 'o', "FILE", read_output,
+    {"output", 'o', "FILE", read_output, GROUP_OUTPUT, CLASS_NONE,
      "write the picture; its ending tells the format; - is standard output"},
-    {"format", 0, "NAME", read_format,
+    {"format", 0, "NAME", read_format, GROUP_OUTPUT, CLASS_NONE,
      "write this format, whatever the ending (png for standard output)"},
-    {"size", 's', "WxH", read_size, "size of the picture in pixels (the scene's, or 512x512)"},
-    {"view", 0, "N", read_view,
+    {"encode", 0, "raw|srgb", read_encode, GROUP_OUTPUT, CLASS_NONE,
+     "8-bit files: raw values (default) or srgb"},
+
+    {"size", 's', "WxH", read_size, GROUP_PICTURE, CLASS_NONE,
+     "size of the picture in pixels (the scene's, or 512x512)"},
+    {"view", 0, "N", read_view, GROUP_PICTURE, CLASS_NONE,
      "look through the scene's N-th camera (1); without any, the course's six"},
-    {"aa", 0, "[=N]", read_aa, "anti-alias with N x N samples a pixel (2)"},
-    {"max-level", 0, "N", read_max_level, "rays of level N see the background (the scene's, or 3)"},
-    {"bvh", 0, "KIND", read_bvh, "build the tree by sah (default) or midpoint"},
-    {"no-bvh", 0, NULL, read_no_bvh, "test every triangle instead"},
-    {"device", 0, "SPEC", read_device,
-     "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
-    {"list-devices", 0, NULL, read_list_devices, "list the OpenCL devices"},
-    {"threads", 'j', "N", read_threads, "threads of a CPU device (all that the process may use)"},
-    {"tile", 0, "WxH", read_tile, "size of the tiles that the picture is traced in (128x128)"},
-    {"work-group", 0, "WxH", read_group, "size of the device's work-groups (8x8; 2x2 packets)"},
-    {"specialize", 0, "WHEN", read_specialize,
-     "compile kernels for the scene: auto (default), always or never"},
-    {"kernel", 0, "KIND", read_kernel,
-     "trace rays one by one or packets of 4x4 pixels: auto (default), ray or packet"},
-    {"nodes", 0, "KIND", read_nodes,
-     "nodes of two children or of eight: auto (default), pair or wide"},
-    {"lanes", 0, "N", read_lanes, "width of the kernels' vectors: auto (default), 4, 8 or 16"},
-    {"precision", 0, "KIND", read_precision,
+
+    {"aa", 0, "[=N]", read_aa, GROUP_QUALITY, CLASS_STATISTICAL,
+     "anti-alias with N x N samples a pixel (2)"},
+    {"max-level", 0, "N", read_max_level, GROUP_QUALITY, CLASS_BOUNDED,
+     "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
+     "scene's highest reflectivity"},
+    {"precision", 0, "fp32|fp64", read_precision, GROUP_QUALITY, CLASS_STATISTICAL,
      "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
-    {"frames", 0, "N", read_frames,
-     "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
-    {"warm", 0, NULL, read_warm,
+
+    {"bvh", 0, "sah|midpoint", read_bvh, GROUP_SPEED, CLASS_EXACT,
+     "build the tree by the surface area heuristic (default) or by midpoints"},
+    {"no-bvh", 0, NULL, read_no_bvh, GROUP_SPEED, CLASS_EXACT,
+     "build no tree, test every triangle instead"},
+    {"tile", 0, "WxH", read_tile, GROUP_SPEED, CLASS_EXACT,
+     "size of the tiles that the picture is traced in (128x128)"},
+    {"work-group", 0, "WxH", read_group, GROUP_SPEED, CLASS_EXACT,
+     "size of the device's work-groups (8x8; 2x2 packets)"},
+    {"specialize", 0, "auto|always|never", read_specialize, GROUP_SPEED, CLASS_EXACT,
+     "compile kernels for the scene: where it pays (default), always or never"},
+    {"kernel", 0, "auto|ray|packet", read_kernel, GROUP_SPEED, CLASS_EXACT,
+     "trace rays one by one or packets of 4x4 pixels; auto (default) asks the device"},
+    {"nodes", 0, "auto|pair|wide", read_nodes, GROUP_SPEED, CLASS_EXACT,
+     "nodes of two children or of eight; auto (default) is what suits the kernel"},
+    {"lanes", 0, "auto|4|8|16", read_lanes, GROUP_SPEED, CLASS_EXACT,
+     "width of the kernels' vectors; auto (default) is the device's"},
+
+    {"device", 0, "SPEC", read_device, GROUP_DEVICE, CLASS_EXACT,
+     "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
+    {"list-devices", 0, "[=text|json]", read_list_devices, GROUP_DEVICE, CLASS_NONE,
+     "list the OpenCL devices"},
+    {"threads", 'j', "N", read_threads, GROUP_DEVICE, CLASS_EXACT,
+     "threads of a CPU device (all that the process may use)"},
+    {"warm", 0, NULL, read_warm, GROUP_DEVICE, CLASS_NONE,
      "compile the kernels ahead, and those for SCENE where one is named; draw nothing"},
-    {"stats", 0, "[=FILE]", read_stats,
+
+    {"stats", 0, "[=FILE]", read_stats, GROUP_STATISTICS, CLASS_NONE,
      "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
-    {"encode", 0, "KIND", read_encode, "8-bit files: raw values (default) or srgb"},
-    {"keys", 0, "KEYS", read_keys,
-     "press these keys in the window, each once the one before is shown"},
-    {"quit-after", 0, "N", read_quit_after,
-     "close the window after N frames, counted once the keys are played"},
-    {"bad-geometry", 0, "WHAT", read_bad_geometry,
+    {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
+     "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
+
+    {"bad-geometry", 0, "drop|fail", read_bad_geometry, GROUP_GEOMETRY, CLASS_NONE,
      "triangles of no area: drop (default) or fail, naming the first"},
-    {"json", 0, "[=FILE]", read_json, "clrt check: write the report as JSON, to FILE or instead"},
-    {"quiet", 'q', NULL, read_quiet, "say nothing but errors"},
-    {"verbose", 'v', NULL, read_verbose, "say what is done and with what"},
-    {"version", 0, NULL, read_version, "print the version"},
-    {"help", 'h', NULL, read_help, "print this"},
+    {"json", 0, "[=FILE]", read_json, GROUP_GEOMETRY, CLASS_NONE,
+     "write the report of check as JSON, to FILE or instead of the text"},
+
+    {"keys", 0, "KEYS", read_keys, GROUP_WINDOW, CLASS_NONE,
+     "press these keys in the window, each once the one before is shown"},
+    {"quit-after", 0, "N", read_quit_after, GROUP_WINDOW, CLASS_NONE,
+     "close the window after N frames, counted once the keys are played"},
+
+    {"quiet", 'q', NULL, read_quiet, GROUP_TALK, CLASS_NONE, "say nothing but errors"},
+    {"verbose", 'v', NULL, read_verbose, GROUP_TALK, CLASS_NONE, "say what is done and with what"},
+    {"version", 0, NULL, read_version, GROUP_TALK, CLASS_NONE, "print the version"},
+    {"help", 'h', NULL, read_help, GROUP_TALK, CLASS_NONE, "print this"},
 };
 
 const size_t option_count = sizeof option_table / sizeof option_table[0];
 _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "who walks the table keeps room for OPTIONS_MOST");
+
+const char *const option_group_names[OPTION_GROUPS] = {
+    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture", [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",       [GROUP_DEVICE] = "Device",   [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry", [GROUP_WINDOW] = "Window",   [GROUP_TALK] = "Talk",
+};
+
+const char *const option_class_names[OPTION_CLASSES] = {
+    [CLASS_NONE] = "",
+    [CLASS_EXACT] = "exact",
+    [CLASS_BOUNDED] = "bounded",
+    [CLASS_STATISTICAL] = "statistical",
+};
+
+const char *const option_class_meanings[OPTION_CLASSES] = {
+    [CLASS_NONE] = "",
+    [CLASS_EXACT] = "the same bits, whatever it is set to",
+    [CLASS_BOUNDED] = "the picture is off by no more than the bound that is stated",
+    [CLASS_STATISTICAL] = "how far off the picture is can be measured, not promised",
+};
 
 bool option_argument_is_optional(const Option *option)
 {

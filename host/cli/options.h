@@ -53,6 +53,7 @@ typedef struct {
     const char *keys;    // to play in the window, NULL for none
     uint32_t quit_after; // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;
+    bool lists_json;       // of ACTION_LIST_DEVICES
     bool json;             // of ACTION_CHECK
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;

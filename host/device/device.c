@@ -6,8 +6,6 @@
 #include <string.h>
 #include <strings.h>
 
-#define MOST_DEVICES 64
-
 typedef struct {
     cl_device_id id;
     cl_device_type type;
@@ -16,17 +14,17 @@ typedef struct {
 } Candidate;
 
 typedef struct {
-    Candidate data[MOST_DEVICES];
+    Candidate data[DEVICES_MOST];
     unsigned count;
 } Candidates;
 
 static void add_devices(Candidates *candidates, cl_platform_id platform, unsigned number)
 {
-    cl_device_id ids[MOST_DEVICES];
+    cl_device_id ids[DEVICES_MOST];
     cl_uint count = 0;
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, MOST_DEVICES, ids, &count) != CL_SUCCESS)
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, DEVICES_MOST, ids, &count) != CL_SUCCESS)
         return;
-    for (cl_uint i = 0; i < count && i < MOST_DEVICES && candidates->count < MOST_DEVICES; i++) {
+    for (cl_uint i = 0; i < count && i < DEVICES_MOST && candidates->count < DEVICES_MOST; i++) {
         Candidate *candidate = &candidates->data[candidates->count++];
         *candidate = (Candidate){.id = ids[i], .platform = number, .device = i};
         clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof candidate->platform_name - 1,
@@ -38,12 +36,12 @@ static void add_devices(Candidates *candidates, cl_platform_id platform, unsigne
 
 static bool find_candidates(Candidates *candidates, Error *error)
 {
-    cl_platform_id platforms[MOST_DEVICES];
+    cl_platform_id platforms[DEVICES_MOST];
     cl_uint count = 0;
     candidates->count = 0;
-    if (clGetPlatformIDs(MOST_DEVICES, platforms, &count) != CL_SUCCESS)
+    if (clGetPlatformIDs(DEVICES_MOST, platforms, &count) != CL_SUCCESS)
         count = 0;
-    for (cl_uint i = 0; i < count && i < MOST_DEVICES; i++)
+    for (cl_uint i = 0; i < count && i < DEVICES_MOST; i++)
         add_devices(candidates, platforms[i], i);
     if (candidates->count == 0)
         return error_set(error,
@@ -154,6 +152,31 @@ static void describe(Device *device)
     device->shares_memory = shares_memory == CL_TRUE;
     device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     device->has_fp64 = double_config != 0;
+}
+
+static const char *type_name(cl_device_type type)
+{
+    return (type & CL_DEVICE_TYPE_CPU) != 0           ? "cpu"
+           : (type & CL_DEVICE_TYPE_GPU) != 0         ? "gpu"
+           : (type & CL_DEVICE_TYPE_ACCELERATOR) != 0 ? "accelerator"
+                                                      : "other";
+}
+
+unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error)
+{
+    Candidates candidates;
+    if (!find_candidates(&candidates, error))
+        return 0;
+    for (unsigned i = 0; i < candidates.count; i++) {
+        const Candidate *candidate = &candidates.data[i];
+        entries[i] = (DeviceEntry){.platform = candidate->platform,
+                                   .number = candidate->device,
+                                   .type = type_name(candidate->type),
+                                   .device = {.id = candidate->id}};
+        memcpy(entries[i].platform_name, candidate->platform_name, sizeof candidate->platform_name);
+        describe(&entries[i].device);
+    }
+    return candidates.count;
 }
 
 bool device_open(Device *device, const char *spec, Error *error)

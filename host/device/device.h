@@ -26,3 +26,16 @@ void device_close(Device *device);
 
 // Writes all devices into text as `clinfo -l` prints them; false where there is none.
 bool device_list(char *text, size_t size, Error *error);
+
+#define DEVICES_MOST 64
+
+// A device that could be opened: what describes it, without context and queue.
+typedef struct {
+    unsigned platform, number; // PLATFORM:DEVICE
+    char platform_name[256];
+    const char *type; // cpu, gpu, accelerator or other
+    Device device;
+} DeviceEntry;
+
+// Fills entries with all devices and returns how many; 0 where there is none.
+unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);

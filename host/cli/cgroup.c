@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Version 2 has one line "0::/path" and a file cpu.max in each group; version 1 a line for each
+// controller, "4:cpu,cpuacct:/path", and two files.  A container may see a path that is not there,
+// beside a mount that begins at its own group: the way up ends at the mount either way.
+#include "cli/cgroup.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define PATH_SIZE 4096
+
+static bool read_numbers(const char *folder, const char *name, int count, double *numbers)
+{
+    char path[2 * PATH_SIZE + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    if (file == NULL)
+        return false;
+    const int found = count == 2 ? fscanf(file, "%lf %lf", &numbers[0], &numbers[1])
+                                 : fscanf(file, "%lf", &numbers[0]);
+    fclose(file);
+    return found == count;
+}
+
+// A quota that is "max" or -1 is none.
+static uint32_t group_grant(const char *folder)
+{
+    double time[2]; // quota and period
+    if (!read_numbers(folder, "cpu.max", 2, time) &&
+        !(read_numbers(folder, "cpu.cfs_quota_us", 1, &time[0]) &&
+          read_numbers(folder, "cpu.cfs_period_us", 1, &time[1])))
+        return UINT32_MAX;
+    const double processors = ceil(time[0] / time[1]);
+    return processors >= 1 && processors < 65536 ? (uint32_t)processors : UINT32_MAX;
+}
+
+static uint32_t least_grant(const char *mount, const char *group)
+{
+    char folder[2 * PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    const size_t root = strlen(mount);
+    snprintf(folder, sizeof folder, "%s%s", mount, group);
+    for (;;) {
+        const uint32_t grant = group_grant(folder);
+        if (grant < least)
+            least = grant;
+        char *slash = strrchr(folder + root, '/');
+        if (slash == NULL)
+            return least;
+        *slash = '\0';
+    }
+}
+
+static bool names_cpu(char *controllers)
+{
+    for (char *name; (name = strsep(&controllers, ",")) != NULL;)
+        if (strcmp(name, "cpu") == 0)
+            return true;
+    return false;
+}
+
+// Version 1 mounts the controller by itself, or with the one it shares its groups with.
+static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
+{
+    char folder[PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    char names[2][128] = {"cpu", ""};
+    snprintf(names[1], sizeof names[1], "%s", controllers);
+    if (!names_cpu(controllers))
+        return least;
+    for (int i = 0; i < 2; i++) {
+        snprintf(folder, sizeof folder, "%s/%s", mount, names[i]);
+        const uint32_t grant = least_grant(folder, group);
+        if (grant < least)
+            least = grant;
+    }
+    return least;
+}
+
+uint32_t cgroup_processors(const char *membership, const char *mount)
+{
+    char line[PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    FILE *file = fopen(membership, "r");
+    if (file == NULL)
+        return least;
+    while (fgets(line, sizeof line, file) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        char *group = line;
+        strsep(&group, ":");
+        char *controllers = strsep(&group, ":");
+        if (group == NULL)
+            continue;
+        const uint32_t grant = controllers[0] == '\0' ? least_grant(mount, group)
+                                                      : controller_grant(mount, controllers, group);
+        if (grant < least)
+            least = grant;
+    }
+    fclose(file);
+    return least;
+}

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Every option that --help lists changes what can be seen of a run: its exit status, its streams, its
+# picture or its statistics.  An option without a trial here fails.
+# Usage: test_effects.py CLRT
+import functools
+import hashlib
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
+# What is compiled already would decide whether kernels are special.
+PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
+FLAT = "flat.ply"
+CHECK = ["check", FLAT]
+
+# Words without the option, and words with it, which must be seen to differ: in the picture where the
+# option asks for another one, so these write no statistics, which repeat the settings.
+TRIALS = {
+    "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
+    "format": (PLAIN, PLAIN + ["--format", "png"]),
+    "encode": (PLAIN + ["--format", "png"], PLAIN + ["--format", "png", "--encode", "srgb"]),
+    "size": ([SCENE, "-o", "a.pfm"], [SCENE, "-o", "a.pfm", "-s", "24x16"]),
+    "view": (PLAIN, PLAIN + ["--view", "2"]),
+    "aa": (PLAIN, PLAIN + ["--aa=3"]),
+    "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
+    "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
+    "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),
+    "no-bvh": (PICTURE, PICTURE + ["--no-bvh"]),
+    "tile": (PICTURE, PICTURE + ["--tile", "16x8"]),
+    "work-group": (PICTURE, PICTURE + ["--work-group", "4x2"]),
+    "specialize": (PICTURE, PICTURE + ["--specialize", "always"]),
+    "kernel": (PICTURE + ["--kernel", "packet"], PICTURE + ["--kernel", "ray"]),
+    "nodes": (
+        PICTURE + ["--kernel", "ray", "--nodes", "wide"],
+        PICTURE + ["--kernel", "ray", "--nodes", "pair"],
+    ),
+    "lanes": (PICTURE + ["--lanes", "8"], PICTURE + ["--lanes", "4"]),
+    "device": (PICTURE, PICTURE + ["--device", "no such device"]),
+    "list-devices": ([], ["--list-devices"]),
+    "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
+    "warm": ([], ["--warm"]),
+    "stats": (PLAIN, PICTURE),
+    "frames": (PICTURE, PICTURE + ["--frames", "2"]),
+    "bad-geometry": (
+        [FLAT, "-s", "8x8", "-o", "a.pfm"],
+        [FLAT, "-s", "8x8", "-o", "a.pfm", "--bad-geometry", "fail"],
+    ),
+    "json": (CHECK, CHECK + ["--json"]),
+    "quiet": (CHECK, CHECK + ["-q"]),
+    "verbose": (PICTURE, PICTURE + ["-v"]),
+    "version": ([], ["--version"]),
+    "help": ([], ["--help"]),
+}
+
+# What only a window shows is tried where there is one.
+IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
+
+# What differs between two runs of the same words.
+MEASURED = ("seconds", "frame_seconds", "bytes")
+
+
+def listed_options():
+    text = subprocess.run([CLRT, "--help"], capture_output=True, text=True, check=True).stdout
+    return re.findall(r"^  (?:-\w, |    )--([a-z-]+)", text, re.MULTILINE)
+
+
+def statistics(path):
+    report = json.loads(path.read_text())
+    frames = len(report.get("frame_seconds", []))
+    return {key: value for key, value in report.items() if key not in MEASURED} | {"frames": frames}
+
+
+@functools.cache
+def observe_words(words):
+    """What can be seen of a run in a folder of its own, times left out."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / FLAT).write_text(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+            "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n"
+        )
+        done = subprocess.run([CLRT, *words], cwd=folder, capture_output=True, timeout=300)
+        streams = [re.sub(rb"\d+\.\d+ s", b"", stream) for stream in (done.stdout, done.stderr)]
+        files = {
+            file.name: statistics(file)
+            if file.suffix == ".json"
+            else hashlib.sha256(file.read_bytes()).hexdigest()
+            for file in sorted(folder.iterdir())
+        }
+        return done.returncode, streams, files
+
+
+def observe(words):
+    return observe_words(tuple(words))
+
+
+class Effects(unittest.TestCase):
+    def test_every_option_has_a_trial(self):
+        self.assertEqual(sorted(listed_options()), sorted([*TRIALS, *IN_THE_WINDOW]))
+
+    def test_the_same_words_show_the_same(self):
+        self.assertEqual(observe(PICTURE), observe_words.__wrapped__(tuple(PICTURE)))
+
+    def test_options_of_the_window_are_tried_there(self):
+        for name, file in IN_THE_WINDOW.items():
+            self.assertIn(f"--{name}", (ROOT / file).read_text())
+
+
+def add_trial(name, without, with_it):
+    def test(self):
+        self.assertNotEqual(observe(without), observe(with_it))
+
+    setattr(Effects, f"test_{name.replace('-', '_')}_has_an_effect", test)
+
+
+for trial, (without_option, with_option) in TRIALS.items():
+    add_trial(trial, without_option, with_option)
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

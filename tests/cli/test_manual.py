@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Holds man pages and completions against --help and the grammar of scenes.
+# Usage: test_manual.py CLRT FOLDER_OF_THE_MANUAL
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import shells
+
+CLRT, MANUAL = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [MANUAL / "clrt.1", ROOT / "tools/manual/clrt-scene.5"]
+ENTRY = re.compile(r"^  (?:-(\w), |    )--([a-z-]+)(\[=\S+\]| \S+)?", re.MULTILINE)
+
+
+def run(*words, **settings):
+    return subprocess.run(
+        [str(word) for word in words], capture_output=True, text=True, check=True, **settings
+    )
+
+
+def read_page(page):
+    """The page as it is read, on one line."""
+    environment = dict(os.environ, MANWIDTH="1000", LC_ALL="C.UTF-8")
+    text = run("man", "-E", "ascii", "-l", page, env=environment).stdout
+    return re.sub(r"\s+", " ", re.sub(r".\x08", "", text))
+
+
+HELP = run(CLRT, "--help").stdout
+OPTIONS = ENTRY.findall(HELP)
+COMMANDS = re.findall(r"^  ([a-z]+) SCENE", HELP, re.MULTILINE)
+
+
+class Pages(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
+    def test_pages_are_set_without_a_warning(self):
+        for page in PAGES:
+            done = run("groff", "-mandoc", "-ww", "-b", "-z", "-Tutf8", page)
+            self.assertEqual(done.stderr, "")
+
+    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
+    def test_mandoc_has_nothing_to_warn_of(self):
+        for page in PAGES:
+            done = subprocess.run(
+                ["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True
+            )
+            self.assertEqual((done.stdout, done.returncode), ("", 0))
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_every_option_is_in_the_page_as_help_writes_it(self):
+        page = read_page(PAGES[0])
+        for letter, name, value in OPTIONS:
+            start = f"-{letter}, " if letter else ""
+            self.assertIn(start + "--" + name + value.replace("|", " | "), page)
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_every_class_and_exit_status_of_help_is_in_the_page(self):
+        page = read_page(PAGES[0])
+        for name in ("exact", "bounded", "statistical"):
+            self.assertEqual(page.count(f"[{name}]"), HELP.count(f"[{name}]"))
+        status = re.search(r"Exit status: (.*)", HELP, re.DOTALL)[1]
+        for code in re.findall(r"(\d+) ", status):
+            self.assertRegex(page, rf"EXIT STATUS.* {code} ")
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_every_command_is_in_the_page(self):
+        page = read_page(PAGES[0])
+        self.assertTrue(COMMANDS)
+        for name in COMMANDS:
+            self.assertRegex(page, rf"COMMANDS .*{name} SCENE")
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_every_statement_of_scenes_is_in_their_page(self):
+        page = read_page(PAGES[1])
+        grammar = (ROOT / "host/scene/scn.c").read_text()
+        statements = re.findall(r'^    \{"(\w+)",\s*"(.*?)",', grammar, re.MULTILINE)
+        self.assertGreater(len(statements), 10)
+        for keyword, usage in statements:
+            self.assertRegex(page, rf" {keyword} [A-Z0o\[s]")
+        properties = re.search(
+            r"properties\[\] = \{(.*?)\}", (ROOT / "host/scene/define.c").read_text(), re.DOTALL
+        )[1]
+        for name in re.findall(r'"(\w+)"', properties):
+            self.assertIn(f" {name} ", page)
+
+    def test_the_scene_of_the_page_is_drawn(self):
+        text = PAGES[1].read_text()
+        scene = re.search(r"\.Bd -literal.*?\n(.*?)\.Ed", text, re.DOTALL)[1]
+        with tempfile.TemporaryDirectory() as work:
+            file = pathlib.Path(work, "a.scn")
+            file.write_text(scene)
+            done = run(CLRT, file, "-s", "16x12", "-o", f"{work}/a.pfm", "-q")
+            self.assertEqual(done.stderr, "")
+
+
+class Completions(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = folder.name
+        for name in ("room.scn", "bunny.ply", "notes.txt"):
+            pathlib.Path(self.work, name).touch()
+
+    def offered(self, shell, line):
+        return shells.complete(shell, MANUAL, line, self.work)
+
+    def check_options(self, shell):
+        text = self.offered(shell, "clrt a.scn --")
+        for _, name, _ in OPTIONS:
+            if name != "json":
+                self.assertRegex(text, rf"(?<!\w)--{name}(?![\w-])", shell)
+        self.assertRegex(self.offered(shell, "clrt check --"), r"--json(?![\w-])")
+        self.assertNotIn("--output", self.offered(shell, "clrt check --"))
+
+    def check_letters(self, shell):
+        text = self.offered(shell, "clrt a.scn -")
+        for letter in filter(None, (letter for letter, _, _ in OPTIONS)):
+            self.assertRegex(text, rf"(?<![\w-])-{letter}(?!\w)", shell)
+
+    def check_words(self, shell):
+        # The shells write what all words share themselves, and list what is left.
+        for _, name, value in OPTIONS:
+            if "|" not in value:
+                continue
+            separator = "=" if value.startswith("[") else " "
+            text = self.offered(shell, f"clrt a.scn --{name}{separator}")
+            for word in value.strip(" [=]").split("|"):
+                self.assertRegex(text, rf"(?<!\w){word}(?!\w)", f"{shell} --{name}")
+        self.assertIn("pfm", self.offered(shell, "clrt a.scn --format p"))
+
+    def check_files(self, shell):
+        text = self.offered(shell, "clrt ")
+        for word in ("room.scn", "bunny.ply", "check"):
+            self.assertIn(word, text)
+        self.assertNotIn("notes.txt", text)
+        self.assertIn("notes.txt", self.offered(shell, "clrt a.scn --stats=n"))
+        self.assertIn("notes.txt", self.offered(shell, "clrt a.scn -o n"))
+
+
+def add_tests():
+    for shell in ("bash", "zsh", "fish"):
+        for what in ("options", "letters", "words", "files"):
+
+            def test(self, shell=shell, what=what):
+                getattr(self, f"check_{what}")(shell)
+
+            here = unittest.skipUnless(shells.is_here(shell), f"{shell} is not installed")
+            setattr(Completions, f"test_{shell}_completes_{what}", here(test))
+
+
+add_tests()
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The table of options against itself and against its readers.
+#include "cli/option_help.h"
+#include "cli/option_table.h"
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_choice(const Option *option)
+{
+    return option->argument != NULL && strchr(option->argument, '|') != NULL;
+}
+
+// Without the brackets of a value that may be left out.
+static void copy_words(char words[128], const Option *option)
+{
+    const char *list = option->argument + (option->argument[0] == '[' ? 2 : 0);
+    snprintf(words, 128, "%.*s", (int)strcspn(list, "]"), list);
+}
+
+static void groups_are_in_their_order(void **state)
+{
+    (void)state;
+    for (size_t i = 1; i < option_count; i++)
+        assert_true(option_table[i - 1].group <= option_table[i].group);
+    for (size_t group = 0; group < OPTION_GROUPS; group++)
+        assert_non_null(option_group_names[group]);
+}
+
+static void names_and_letters_are_unique(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < option_count; i++)
+        for (size_t j = 0; j < i; j++) {
+            assert_string_not_equal(option_table[i].name, option_table[j].name);
+            if (option_table[i].letter != 0)
+                assert_int_not_equal(option_table[i].letter, option_table[j].letter);
+        }
+}
+
+static void settings_that_cost_or_buy_speed_are_classed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < option_count; i++) {
+        const Option *option = &option_table[i];
+        if (option->group == GROUP_SPEED)
+            assert_int_equal(option->class, CLASS_EXACT);
+        if (option->group == GROUP_QUALITY)
+            assert_true(option->class == CLASS_BOUNDED || option->class == CLASS_STATISTICAL);
+    }
+}
+
+// A bound is stated where it is promised.
+static void bounded_settings_tell_their_bound(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < option_count; i++)
+        if (option_table[i].class == CLASS_BOUNDED)
+            assert_non_null(strstr(option_table[i].help, "off by at most"));
+}
+
+static void every_listed_word_is_understood(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < option_count; i++) {
+        if (!is_choice(&option_table[i]))
+            continue;
+        char words[128], *rest = words;
+        copy_words(words, &option_table[i]);
+        for (char *word = strsep(&rest, "|"); word != NULL; word = strsep(&rest, "|")) {
+            Options options = {0};
+            Error error = {0};
+            assert_true(option_table[i].read(&options, word, &error));
+        }
+    }
+}
+
+static void every_understood_word_is_listed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < option_count; i++) {
+        if (!is_choice(&option_table[i]))
+            continue;
+        Options options = {0};
+        Error error = {0};
+        char expected[256], words[128], *rest = words;
+        const int start = snprintf(expected, sizeof expected, "--%s wants ", option_table[i].name);
+        copy_words(words, &option_table[i]);
+        for (char *word = strsep(&rest, "|"); word != NULL; word = strsep(&rest, "|")) {
+            const char *gap = strcspn(expected, "\0") == (size_t)start ? "" : rest ? ", " : " or ";
+            strcat(strcat(expected, gap), word);
+        }
+        strcat(expected, ", not 'nonsense'");
+        assert_false(option_table[i].read(&options, "nonsense", &error));
+        assert_string_equal(error.text, expected);
+    }
+}
+
+// What --help shows.
+static const char *help_text(void)
+{
+    static char text[1 << 16];
+    FILE *stream = fmemopen(text, sizeof text, "w");
+    assert_non_null(stream);
+    options_write_help(stream);
+    assert_int_equal(fclose(stream), 0);
+    return text;
+}
+
+// Where the option's sentence begins, and where it ends.
+static const char *find_entry(const char *help, const Option *option, const char **end)
+{
+    char start[80], letter[8] = "    ";
+    if (option->letter != 0)
+        snprintf(letter, sizeof letter, "-%c, ", option->letter);
+    const bool separate = option->argument != NULL && !option_argument_is_optional(option);
+    snprintf(start, sizeof start, "\n  %s--%s%s%s", letter, option->name, separate ? " " : "",
+             option->argument == NULL ? "" : option->argument);
+    const char *entry = strstr(help, start);
+    assert_non_null(entry);
+    *end = entry + 1 + strcspn(entry + 1, "\n");
+    while (strspn(*end + 1, " ") > 6) // lines that go on
+        *end += 1 + strcspn(*end + 1, "\n");
+    return entry + strlen(start);
+}
+
+static void help_names_every_option_with_its_class(void **state)
+{
+    (void)state;
+    const char *help = help_text();
+    for (size_t i = 0; i < option_count; i++) {
+        const char *end, *entry = find_entry(help, &option_table[i], &end);
+        char class[32];
+        snprintf(class, sizeof class, " [%s]", option_class_names[option_table[i].class]);
+        if (option_table[i].class != CLASS_NONE)
+            assert_memory_equal(end - strlen(class), class, strlen(class));
+        else
+            assert_null(memchr(entry, '[', (size_t)(end - entry)));
+    }
+}
+
+static void help_fits_a_wide_terminal(void **state)
+{
+    (void)state;
+    for (const char *line = help_text(); *line != '\0'; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 100);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(groups_are_in_their_order),
+        cmocka_unit_test(names_and_letters_are_unique),
+        cmocka_unit_test(settings_that_cost_or_buy_speed_are_classed),
+        cmocka_unit_test(bounded_settings_tell_their_bound),
+        cmocka_unit_test(every_listed_word_is_understood),
+        cmocka_unit_test(every_understood_word_is_listed),
+        cmocka_unit_test(help_names_every_option_with_its_class),
+        cmocka_unit_test(help_fits_a_wide_terminal),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

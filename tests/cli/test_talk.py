@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# What the program says and where: data on standard output, talk on standard error, JSON by its
+# schemas, an exit status for every outcome.
+# Usage: test_talk.py CLRT
+import json
+import os
+import pathlib
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+SMALL = [SCENE, "-s", "16x12"]
+LONG = [SCENE, "-s", "1500x1500", "--aa=16", "-j", "1"]
+OPEN_MESH = (
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+    "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n"
+)
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+        (self.work / "open.ply").write_text(OPEN_MESH)
+
+    def clrt(self, *words, **environment):
+        return subprocess.run(
+            [CLRT, *words],
+            cwd=self.work,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            env=dict(os.environ, **environment),
+            timeout=120,
+        )
+
+
+class Streams(Run):
+    def test_pictures_and_reports_go_to_standard_output_alone(self):
+        for words in (
+            SMALL + ["-o", "-"],
+            ["--list-devices"],
+            ["--help"],
+            ["--version"],
+            ["--list-devices=json"],
+            ["check", "open.ply", "--json"],
+        ):
+            done = self.clrt(*words)
+            self.assertTrue(done.stdout, words)
+            self.assertEqual(done.stderr, b"", words)
+
+    def test_talk_goes_to_standard_error_alone(self):
+        for words in (["-v"], ["--stats"], ["-v", "--frames", "2"]):
+            done = self.clrt(*SMALL, "-o", "a.pfm", *words)
+            self.assertTrue(done.stderr, words)
+            self.assertEqual(done.stdout, b"", words)
+
+    def test_a_picture_on_standard_output_is_whole_beside_talk(self):
+        done = self.clrt(*SMALL, "-o", "-", "--format", "pfm", "-v")
+        self.assertEqual(len(done.stdout), len(b"PF\n16 12\n-1.0\n") + 16 * 12 * 12)
+        self.assertIn(b"traced in", done.stderr)
+
+    def test_quiet_says_nothing_but_errors(self):
+        self.assertEqual(self.clrt("open.ply", "-s", "8x8", "-o", "a.pfm", "-q").stderr, b"")
+        self.assertNotEqual(self.clrt("open.ply", "-s", "8x8", "-o", "a.pfm").stderr, b"")
+        self.assertNotEqual(self.clrt("none.scn", "-o", "a.pfm", "-q").stderr, b"")
+
+
+class Terminals(Run):
+    def talk_on_terminal(self, **environment):
+        """What a picture that is stopped says on a terminal."""
+        talk, terminal = pty.openpty()
+        process = subprocess.Popen(
+            [CLRT, *LONG, "-o", "a.pfm"],
+            cwd=self.work,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=terminal,
+            env=dict(os.environ, **environment),
+        )
+        os.close(terminal)
+        text = b""
+        end = time.monotonic() + 60
+        while b"left" not in text and time.monotonic() < end:
+            text += os.read(talk, 4096)
+        process.send_signal(signal.SIGINT)
+        try:
+            while chunk := os.read(talk, 4096):
+                text += chunk
+        except OSError:  # the program has closed its end
+            pass
+        process.wait()
+        os.close(talk)
+        return text
+
+    def test_progress_is_one_line_that_is_cleared(self):
+        text = self.talk_on_terminal(TERM="xterm")
+        self.assertTrue(text.startswith(b"\r\x1b[Ktracing "), text)
+        self.assertTrue(text.endswith(b"\r\x1b[K"), text)
+        self.assertNotIn(b"\n", text)
+
+    def test_a_dumb_terminal_gets_plain_lines(self):
+        text = self.talk_on_terminal(TERM="dumb")
+        self.assertNotIn(b"\x1b", text)
+        self.assertNotIn(b"\r\x1b", text)
+        self.assertRegex(text, rb"^tracing \d+ %, \d+ s left\r\n")
+
+    def test_nothing_is_colored(self):
+        for setting in ({}, {"NO_COLOR": "1"}):
+            self.assertNotRegex(self.talk_on_terminal(TERM="xterm", **setting), rb"\x1b\[[0-9;]*m")
+
+    def test_a_pipe_gets_no_control_characters(self):
+        done = self.clrt(*SMALL, "-o", "a.pfm", "-v", "--stats", TERM="xterm")
+        self.assertNotIn(b"\x1b", done.stderr)
+        self.assertNotIn(b"\r", done.stderr)
+
+
+@unittest.skipUnless(jsonschema, "Python's jsonschema is not installed")
+class Schemas(Run):
+    def validate(self, name, text):
+        schema = json.loads((ROOT / f"tools/manual/{name}.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.validate(json.loads(text), schema, cls=jsonschema.Draft202012Validator)
+
+    def test_statistics_are_as_their_schema_says(self):
+        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"]):
+            done = self.clrt(*SMALL, "-o", "a.pfm", "--stats=-", *words)
+            self.validate("statistics", done.stdout)
+        mesh = ["open.ply", "-s", "8x8", "-o", "a.pfm", "--stats=-"]
+        self.validate("statistics", self.clrt(*mesh).stdout)
+
+    def test_checks_are_as_their_schema_says(self):
+        self.validate("check", self.clrt("check", "open.ply", "--json").stdout)
+        self.validate("check", self.clrt("check", SCENE, "--json").stdout)
+        without = {"OCL_ICD_VENDORS": "/nonexistent"}
+        self.validate("check", self.clrt("check", "open.ply", "--json", **without).stdout)
+        (self.work / "empty.scn").write_text("")
+        self.validate("check", self.clrt("check", "empty.scn", "--json").stdout)
+
+    def test_devices_are_as_their_schema_says(self):
+        self.validate("devices", self.clrt("--list-devices=json").stdout)
+
+    def test_what_the_schemas_do_not_name_is_refused(self):
+        statistics = json.loads(self.clrt(*SMALL, "-o", "a.pfm", "--stats=-").stdout)
+        statistics["rays"]["lost"] = 1
+        with self.assertRaises(jsonschema.ValidationError):
+            self.validate("statistics", json.dumps(statistics))
+
+
+class ExitStatus(Run):
+    def test_0_is_done(self):
+        self.assertEqual(self.clrt(*SMALL, "-o", "a.pfm").returncode, 0)
+
+    def test_1_is_a_check_that_found_faults(self):
+        self.assertEqual(self.clrt("check", "open.ply").returncode, 1)
+
+    def test_2_is_a_command_line_that_is_not_understood(self):
+        self.assertEqual(self.clrt("--nonsense").returncode, 2)
+
+    def test_3_is_a_scene_or_mesh(self):
+        (self.work / "bad.scn").write_text("ply_file nowhere.ply\n")
+        self.assertEqual(self.clrt("bad.scn", "-o", "a.pfm").returncode, 3)
+
+    def test_4_is_the_device(self):
+        done = self.clrt(*SMALL, "-o", "a.pfm", OCL_ICD_VENDORS="/nonexistent")
+        self.assertEqual(done.returncode, 4)
+        done = self.clrt("--list-devices=json", OCL_ICD_VENDORS="/nonexistent")
+        self.assertEqual((done.returncode, done.stdout), (4, b""))
+
+    def test_5_is_the_output(self):
+        self.assertEqual(self.clrt(*SMALL, "-o", "nowhere/a.pfm").returncode, 5)
+
+    def test_128_and_the_signal_is_a_stop_that_leaves_what_is_done(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            words = [CLRT, *LONG, "-o", "a.pfm"]
+            process = subprocess.Popen(words, cwd=self.work, stderr=subprocess.PIPE)
+            self.assertIn(b"tracing", process.stderr.readline())
+            process.send_signal(number)
+            process.stderr.read()
+            process.stderr.close()
+            self.assertEqual(process.wait(), 128 + number)
+            self.assertEqual((self.work / "a.pfm").stat().st_size, 1500 * 1500 * 12 + 18)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

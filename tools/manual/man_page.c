@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// mdoc: option names become .Fl, their values .Ar or, where they are words to be typed, .Cm.
+#include "man_page.h"
+
+#include "cli/command.h"
+#include "cli/show.h"
+#include "value.h"
+
+#include <ctype.h>
+#include <string.h>
+
+// A sentence of the table as text of a page: it begins with a capital and ends with a period.
+// Hyphens before words are those of options, which stay what is typed.
+static void write_sentence(FILE *stream, const char *text)
+{
+    char before = ' ';
+    fputc(toupper((unsigned char)text[0]), stream);
+    for (const char *c = text + 1; *c != '\0'; c++) {
+        if (*c == '-' && (before == ' ' || before == '-' || c[1] == '-'))
+            fputs("\\-", stream);
+        else if (*c == '\\')
+            fputs("\\e", stream);
+        else if (*c == '^')
+            fputs("\\(ha", stream);
+        else
+            fputc(*c, stream);
+        before = *c;
+    }
+    fputs(".\n", stream);
+}
+
+// The words of a choice, or the name of the value.
+static void write_words(FILE *stream, const Option *option)
+{
+    char words[VALUE_WORDS_SIZE];
+    value_name(option, words, sizeof words);
+    if (strchr(words, '|') == NULL) {
+        fprintf(stream, "Ar %s", words);
+        return;
+    }
+    char *rest = words;
+    fprintf(stream, "Cm %s", strsep(&rest, "|"));
+    while (rest != NULL)
+        fprintf(stream, " | %s", strsep(&rest, "|"));
+}
+
+static void write_value(FILE *stream, const Option *option)
+{
+    if (option->argument == NULL)
+        return;
+    const bool optional = option_argument_is_optional(option);
+    fputs(optional ? " Ns Oo = Ns " : " ", stream);
+    write_words(stream, option);
+    fputs(optional ? " Oc" : "", stream);
+}
+
+static void write_option(FILE *stream, const Option *option)
+{
+    fputs(".It ", stream);
+    if (option->letter != 0)
+        fprintf(stream, "Fl %c , ", option->letter);
+    fprintf(stream, "Fl \\-%s", option->name);
+    write_value(stream, option);
+    fputc('\n', stream);
+    write_sentence(stream, option->help);
+    if (option->class != CLASS_NONE)
+        fprintf(stream, ".Bq %s\n", option_class_names[option->class]);
+}
+
+static void write_options(FILE *stream)
+{
+    for (int group = 0; group < OPTION_GROUPS; group++) {
+        fprintf(stream, ".Ss %s\n.Bl -tag -width Ds\n", option_group_names[group]);
+        for (size_t i = 0; i < option_count; i++)
+            if (option_table[i].group == (OptionGroup)group)
+                write_option(stream, &option_table[i]);
+        fputs(".El\n", stream);
+    }
+}
+
+static void write_synopsis(FILE *stream)
+{
+    for (size_t i = 0; i < command_count; i++)
+        fprintf(stream, ".Nm\n.Cm %s\n.Ar %s\n.Op Ar options\n", command_table[i].name,
+                command_table[i].operands);
+}
+
+static void write_commands(FILE *stream)
+{
+    fputs(".Bl -tag -width Ds\n", stream);
+    for (size_t i = 0; i < command_count; i++) {
+        fprintf(stream, ".It Cm %s Ar %s\n", command_table[i].name, command_table[i].operands);
+        write_sentence(stream, command_table[i].help);
+        fputs("It takes the options\n", stream);
+        const char *const *names = command_table[i].options;
+        for (size_t j = 0; names[j] != NULL; j++)
+            fprintf(stream, ".Fl \\-%s%s\n", names[j],
+                    names[j + 1] == NULL   ? " ."
+                    : names[j + 2] == NULL ? "\nand"
+                                           : " ,");
+    }
+    fputs(".El\n", stream);
+}
+
+static void write_classes(FILE *stream)
+{
+    fputs(".Bl -tag -width Ds\n", stream);
+    for (size_t i = CLASS_NONE + 1; i < OPTION_CLASSES; i++) {
+        fprintf(stream, ".It Bq %s\n", option_class_names[i]);
+        write_sentence(stream, option_class_meanings[i]);
+    }
+    fputs(".El\n", stream);
+}
+
+// What --help says of the keys, a line each with two blanks between keys and meaning.
+static void write_keys(FILE *stream)
+{
+    char text[4096] = "";
+    FILE *lines = fmemopen(text, sizeof text, "w");
+    if (lines == NULL)
+        return;
+    show_write_keys(lines);
+    fclose(lines);
+    fputs(".Bl -tag -width \"right drag, wheel\" -compact\n", stream);
+    char *rest = text;
+    for (char *line = strsep(&rest, "\n"); line != NULL; line = strsep(&rest, "\n")) {
+        line += strspn(line, " ");
+        char *gap = strstr(line, "  ");
+        if (gap == NULL)
+            continue;
+        fprintf(stream, ".It Sy \"%.*s\"\n", (int)(gap - line), line);
+        write_sentence(stream, gap + 2);
+    }
+    fputs(".El\n", stream);
+}
+
+static void write_line(FILE *stream, const char *line)
+{
+    static const struct {
+        const char *name;
+        void (*write)(FILE *);
+    } gaps[] = {{"%SYNOPSIS%\n", write_synopsis},
+                {"%COMMANDS%\n", write_commands},
+                {"%OPTIONS%\n", write_options},
+                {"%CLASSES%\n", write_classes},
+                {"%KEYS%\n", write_keys}};
+    for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
+        if (strcmp(line, gaps[i].name) == 0) {
+            gaps[i].write(stream);
+            return;
+        }
+    fputs(line, stream);
+}
+
+bool man_page_write(FILE *stream, const char *path)
+{
+    char line[1024];
+    FILE *page = fopen(path, "r");
+    if (page == NULL) {
+        perror(path);
+        return false;
+    }
+    while (fgets(line, sizeof line, page) != NULL)
+        write_line(stream, line);
+    fclose(page);
+    return true;
+}

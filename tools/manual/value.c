@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The words are those that the table lists; those of --format are what the build writes.
+#include "value.h"
+
+#include "image/image_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void value_name(const Option *option, char *name, size_t size)
+{
+    const char *argument = option->argument;
+    if (option_argument_is_optional(option))
+        argument += strspn(argument, "[=");
+    snprintf(name, size, "%.*s", (int)strcspn(argument, "]"), argument);
+}
+
+// Separators of any length give way to one blank each.
+static void split(char words[VALUE_WORDS_SIZE], const char *list, const char *separators)
+{
+    size_t end = 0;
+    while (*list != '\0') {
+        const size_t length = strcspn(list, separators);
+        end += (size_t)snprintf(words + end, VALUE_WORDS_SIZE - end, "%s%.*s", end > 0 ? " " : "",
+                                (int)length, list);
+        list += length;
+        list += strspn(list, separators);
+    }
+}
+
+ValueKind value_kind(const Option *option, char words[VALUE_WORDS_SIZE])
+{
+    words[0] = '\0';
+    if (option->argument == NULL)
+        return VALUE_NONE;
+    if (strstr(option->argument, "FILE") != NULL)
+        return VALUE_FILE;
+    const bool is_format = option->read == read_format;
+    if (!is_format && strchr(option->argument, '|') == NULL)
+        return VALUE_OTHER;
+    if (is_format)
+        split(words, image_format_names(), ", ");
+    else {
+        char list[VALUE_WORDS_SIZE];
+        value_name(option, list, sizeof list);
+        split(words, list, "|");
+    }
+    return VALUE_WORDS;
+}
