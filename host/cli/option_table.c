@@ -13,6 +13,8 @@ const Option option_table[] = {
     {"view", 0, "N", read_view,
      "look through the scene's N-th camera (1); without any, the course's six"},
     {"aa", 0, "[=N]", read_aa, "anti-alias with N x N samples a pixel (2)"},
+    {"aa-adaptive", 0, "[=T]", read_aa_adaptive,
+     "anti-alias where neighbors differ, down to a contrast of T in a pixel (0.02)"},
     {"max-level", 0, "N", read_max_level, "rays of level N see the background (the scene's, or 3)"},
     {"bvh", 0, "KIND", read_bvh, "build the tree by sah (default) or midpoint"},
     {"no-bvh", 0, NULL, read_no_bvh, "test every triangle instead"},
