@@ -31,6 +31,9 @@
 #ifndef CLRT_PACKET
 #define CLRT_PACKET 0 // a work-item renders a block of pixels
 #endif
+#ifndef CLRT_SIGNATURES
+#define CLRT_SIGNATURES 0 // samples are told apart by what they saw
+#endif
 #ifndef CLRT_FP64
 #define CLRT_FP64 0 // Real is a double: one ray a work-item, through nodes of two children
 #endif

@@ -25,7 +25,21 @@ typedef struct {
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
+#if CLRT_SIGNATURES
+    Count signature; // of what a sample saw: surfaces, and the lights that reach them
+#endif
 } Tally;
+
+// Adds a word to the signatures of some lanes.
+static inline void sign_lanes(Tally *tally, Truth lanes, Count word)
+{
+#if CLRT_SIGNATURES
+    const Count mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
+    tally->signature = lanes ? mixed ^ mixed >> 15 : tally->signature;
+#else
+    (void)tally, (void)lanes, (void)word;
+#endif
+}
 
 #if CLRT_WIDE_NODES
 typedef BvhWide Node;

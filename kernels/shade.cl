@@ -62,6 +62,7 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
         tally->shadow_rays += lane_count(faces);
     const Ray ray = ray_from_light(light, surface, faces);
     const Truth is_lit = faces && !is_blocked(scene, frame, &ray, tally);
+    sign_lanes(tally, is_lit, (Count)(index));
     lighting->diffuse = is_lit ? lighting->diffuse + intensity * cosine : lighting->diffuse;
     const Truth shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!any_lane(shines))

@@ -145,6 +145,14 @@ typedef struct {
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 128)
 
+// What a camera ray saw: its color, and a number that differs where it met another surface or
+// other lights reach one.
+typedef struct {
+    float color[3];
+    uint signature;
+} SampleData;
+CLRT_SAME_SIZE(SampleData, 16)
+
 // What one pixel cost, where statistics are asked for.
 typedef enum {
     TALLY_CAMERA_RAYS,

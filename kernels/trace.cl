@@ -32,6 +32,13 @@ static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
     tally->shaded_points += lane_count(met);
 }
 
+// Each sphere is a surface of its own, and the triangles of one material are one together.
+static inline Count surface_word(const FrameData *frame, const Surface *surface)
+{
+    const Count of_mesh = frame->sphere_count + surface->material;
+    return surface->id < frame->sphere_count ? surface->id : of_mesh;
+}
+
 static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)
 {
     Real3 color = real3_of(0.0f, 0.0f, 0.0f);
@@ -46,6 +53,7 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
             break;
         const Surface surface = surface_at(scene, frame, &ray, &hit, met);
         const MaterialLanes material = fetch_material(scene, surface.material);
+        sign_lanes(tally, met, surface_word(frame, &surface));
         const Real3 shaded = shade(scene, frame, &surface, &material, met, tally);
         Truth ends = met;
         if (CLRT_MIRRORS)

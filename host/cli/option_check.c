@@ -14,6 +14,8 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--tile is for files: give one with -o FILE");
     if (options->bad_geometry != BAD_GEOMETRY_DROP)
         return error_set(error, "--bad-geometry is for files: give one with -o FILE");
+    if (options->contrast > 0)
+        return error_set(error, "--aa-adaptive is for files: give one with -o FILE");
     if (options->frames > 1)
         return error_set(error, "--frames is for files: give one with -o FILE");
     if (options->statistics_path != NULL)
@@ -44,6 +46,8 @@ static bool check_format(Options *options, Error *error)
 bool options_check_purpose(Options *options, Error *error)
 {
     const char *path = options->output_path;
+    if (options->contrast > 0 && options->samples > 1)
+        return error_set(error, "--aa-adaptive chooses the samples: leave out --aa");
     if (path == NULL)
         return check_window(options, error);
     if (options->keys != NULL || options->quit_after > 0)

@@ -13,6 +13,12 @@ bool read_aa(Options *options, const char *value, Error *error)
     return value == NULL || read_count(value, "aa", SAMPLES_MAX, &options->samples, error);
 }
 
+bool read_aa_adaptive(Options *options, const char *value, Error *error)
+{
+    options->contrast = OPTIONS_CONTRAST;
+    return value == NULL || read_part(value, "aa-adaptive", &options->contrast, error);
+}
+
 bool read_output(Options *options, const char *value, Error *error)
 {
     options->output_path = value;

@@ -19,6 +19,8 @@ const Option option_table[] = {
 
     {"aa", 0, "[=N]", read_aa, GROUP_QUALITY, CLASS_STATISTICAL,
      "anti-alias with N x N samples a pixel (2)"},
+    {"aa-adaptive", 0, "[=T]", read_aa_adaptive, GROUP_QUALITY, CLASS_STATISTICAL,
+     "anti-alias where neighbors differ, down to a contrast of T in a pixel (0.02)"},
     {"max-level", 0, "N", read_max_level, GROUP_QUALITY, CLASS_BOUNDED,
      "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
      "scene's highest reflectivity"},

@@ -18,6 +18,13 @@ bool read_count(const char *value, const char *option, int64_t highest, uint32_t
     return true;
 }
 
+bool read_part(const char *value, const char *option, double *part, Error *error)
+{
+    const char *end = value + strlen(value);
+    return (number_parse(value, end, part) == end && *part > 0 && *part <= 1) ||
+           error_set(error, "--%s wants a number above 0 and up to 1, not '%s'", option, value);
+}
+
 bool read_area(const char *value, const char *option, int64_t highest, uint32_t area[2],
                Error *error)
 {

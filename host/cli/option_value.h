@@ -11,6 +11,9 @@
 bool read_count(const char *value, const char *option, int64_t highest, uint32_t *count,
                 Error *error);
 
+// A number above 0 and up to 1.
+bool read_part(const char *value, const char *option, double *part, Error *error);
+
 // "WxH", each from 1 to highest.
 bool read_area(const char *value, const char *option, int64_t highest, uint32_t area[2],
                Error *error);

@@ -27,6 +27,9 @@ typedef enum {
 // Sides of tiles unless they are given; a window chooses its own.
 #define OPTIONS_TILE 128
 
+// The contrast that --aa-adaptive leaves unless it is given.
+#define OPTIONS_CONTRAST 0.02
+
 // Strings point into the command line.
 typedef struct {
     Action action;
@@ -34,6 +37,7 @@ typedef struct {
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     uint32_t samples;        // per pixel and axis
+    double contrast;         // that adaptive anti-aliasing leaves; 0: every pixel alike
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's
     int64_t max_level;       // negative: the scene's

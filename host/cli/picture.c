@@ -3,6 +3,7 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "cli/refined_picture.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
 
@@ -14,7 +15,12 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
     double moment = clock_seconds();
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
+    const RenderSettings *settings = &run->settings;
+    run->report.samples =
+        (uint64_t)settings->width * settings->height * settings->samples * settings->samples;
+    const bool ok = run->options->contrast > 0 ? refined_picture_draw(run, camera, &observer, error)
+                                               : renderer_draw(&run->renderer, camera, &observer,
+                                                               &run->framebuffer, error);
     run->stopped_by = progress_end(&progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
@@ -27,8 +33,9 @@ static bool draw(Run *run, Error *error)
 {
     const RenderSettings *settings = &run->settings;
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    const uint32_t samples = run->options->contrast > 0 ? REFINE_GRID : settings->samples;
     const CameraData camera =
-        camera_make(viewpoint, &run->normalization, settings->height, settings->samples);
+        camera_make(viewpoint, &run->normalization, settings->height, samples);
     if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
         return false;
     bool ok = true;

@@ -23,6 +23,12 @@ static double per_ray(const Report *report, TallyKind kind)
     return rays == 0 ? 0 : (double)report->tallies[kind] / (double)rays;
 }
 
+static double samples_per_pixel(const Report *report)
+{
+    const RenderSettings *settings = report->settings;
+    return (double)report->samples / ((double)settings->width * settings->height);
+}
+
 static const char *tree_name(const Report *report)
 {
     if (report->bvh_nodes == 0)
@@ -51,10 +57,14 @@ void report_make_texts(const Report *report, ReportTexts *texts)
     const RenderSettings *settings = report->settings;
     snprintf(texts->scene_hash, sizeof texts->scene_hash, "%016" PRIx64 "%016" PRIx64,
              report->scene_hash[1], report->scene_hash[0]);
+    char samples[48];
+    if (report->options->contrast > 0)
+        snprintf(samples, sizeof samples, "adaptive contrast=%g", report->options->contrast);
+    else
+        snprintf(samples, sizeof samples, "%ux%u", settings->samples, settings->samples);
     snprintf(texts->settings, sizeof texts->settings,
-             "view=%u size=%ux%u samples=%ux%u max_level=%u encode=%s precision=%s",
-             report->options->view, settings->width, settings->height, settings->samples,
-             settings->samples, settings->max_level,
+             "view=%u size=%ux%u samples=%s max_level=%u encode=%s precision=%s",
+             report->options->view, settings->width, settings->height, samples, settings->max_level,
              report->options->encoding == ENCODE_SRGB ? "srgb" : "raw",
              kernel_precision_name(report->choice->precision));
     const ImageText list[REPORT_TEXTS] = {
@@ -68,6 +78,8 @@ void report_make_texts(const Report *report, ReportTexts *texts)
 void report_write_text(const Report *report, FILE *stream)
 {
     fprintf(stream, "%.3f seconds\n", report->trace);
+    fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
+            samples_per_pixel(report));
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
             ray_count(report), report->tallies[TALLY_CAMERA_RAYS],
@@ -161,6 +173,12 @@ static json_t *settings_json(const Report *report)
                      kernel_precision_name(report->choice->precision));
 }
 
+static json_t *samples_json(const Report *report)
+{
+    return json_pack("{s:o, s:f, s:f}", "total", integer(report->samples), "per_pixel",
+                     samples_per_pixel(report), "contrast", report->options->contrast);
+}
+
 static json_t *report_json(const Report *report)
 {
     ReportTexts texts;
@@ -169,13 +187,14 @@ static json_t *report_json(const Report *report)
     getrusage(RUSAGE_SELF, &usage);
     return json_pack(
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, "
-        "s:o, s:o}",
+        "s:o, s:o, s:o}",
         "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
         "pixel_hash", report->pixel_hash, "device", "name", report->device_name, "driver",
         report->device_version, "bytes", "uploaded", integer(report->upload_size), "peak_memory",
         integer((uint64_t)usage.ru_maxrss * 1024), "scene", scene_json(report, &texts), "bvh",
-        tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "tests",
-        tests_json(report), "seconds", seconds_json(report), "frame_seconds", frames_json(report));
+        tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "samples",
+        samples_json(report), "tests", tests_json(report), "seconds", seconds_json(report),
+        "frame_seconds", frames_json(report));
 }
 
 bool report_write_json(const Report *report, const char *path, Error *error)

@@ -124,8 +124,10 @@ bool run_open_renderer(Run *run, Error *error)
 
 void run_begin(Run *run)
 {
-    const RendererSetup setup = {.cache = &run->cache,
-                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR")}};
+    const KernelEntry entry = run->options->contrast > 0 ? KERNEL_SAMPLES : KERNEL_TILE;
+    const RendererSetup setup = {
+        .cache = &run->cache,
+        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
     starter_begin(&run->starter, run->options, setup);
 }
 

@@ -12,6 +12,14 @@
 
 #define OPTIONS_SIZE 2048
 
+// kernels/samples.cl, made at build time.
+extern const char samples_source[];
+
+const char *program_entry_name(KernelEntry entry)
+{
+    return entry == KERNEL_SAMPLES ? "trace_samples" : "render_tile";
+}
+
 static bool write_options(char options[OPTIONS_SIZE], const Device *device,
                           const ProgramSource *source, const SceneTraits *traits)
 {
@@ -20,7 +28,8 @@ static bool write_options(char options[OPTIONS_SIZE], const Device *device,
     traits_write_options(traits, switches);
     kernel_write_options(&source->choice, choices);
     const int length =
-        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s%s%s%s", switches, choices,
+        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s%s%s%s%s", switches, choices,
+                 source->entry == KERNEL_SAMPLES ? " -DCLRT_SIGNATURES=1" : "",
                  device->correct_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
                  source->extra_options != NULL ? " " : "",
                  source->extra_options != NULL ? source->extra_options : "");
@@ -45,10 +54,14 @@ static bool create_program(Program *program, const Device *device, const Program
     const bool embedded = source->kernel_folder == NULL;
     if (!embedded && !write_include(include, source->kernel_folder, error))
         return false;
-    const char *texts[2] = {embedded ? kernel_source : include, source->appended};
+    const char *texts[3] = {embedded ? kernel_source : include};
+    cl_uint count = 1;
+    if (source->entry == KERNEL_SAMPLES)
+        texts[count++] = samples_source;
+    if (source->appended != NULL)
+        texts[count++] = source->appended;
     cl_int status;
-    program->handle = clCreateProgramWithSource(device->context, source->appended != NULL ? 2 : 1,
-                                                texts, NULL, &status);
+    program->handle = clCreateProgramWithSource(device->context, count, texts, NULL, &status);
     return cl_succeeded(status, "create the kernel program", error);
 }
 

@@ -10,6 +10,12 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
+// Which of the kernels is wanted; the first is in every program.
+typedef enum {
+    KERNEL_TILE,   // render_tile
+    KERNEL_SAMPLES // trace_samples
+} KernelEntry;
+
 typedef struct {
     cl_program handle;
 } Program;
@@ -19,7 +25,10 @@ typedef struct {
     const char *extra_options; // for the compiler, after clrt's own; NULL for none
     const char *appended;      // source to add behind the kernels, for tests; NULL for none
     KernelChoice choice;
+    KernelEntry entry;
 } ProgramSource;
+
+const char *program_entry_name(KernelEntry entry);
 
 // The message of a failure holds the compiler's log.  The caller holds the cache's lock around
 // this and the first run of each kernel: drivers finish compiling then.

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "render/draw.h"
+#include "render/sampler.h"
 
 #include <string.h>
 
@@ -28,7 +29,8 @@ static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error
                          .kernel = ready->handle};
     for (int place = 0; place < RENDERER_ARRAYS; place++)
         renderer.arrays[place] = nothing;
-    const bool ok = draw_warm_up(&renderer, error);
+    const bool ok = setup->source.entry == KERNEL_SAMPLES ? sampler_warm_up(&renderer, error)
+                                                          : draw_warm_up(&renderer, error);
     clReleaseMemObject(nothing);
     return ok;
 }
@@ -39,9 +41,9 @@ static bool make(ReadyKernel *ready, const RendererSetup *setup, const SceneTrai
     cl_int status;
     if (!program_build(&ready->program, setup->device, &setup->source, traits, error))
         return false;
-    ready->handle = clCreateKernel(ready->program.handle, "render_tile", &status);
-    return cl_succeeded(status, "create the kernel render_tile", error) &&
-           run_once(ready, setup, error);
+    const char *name = program_entry_name(setup->source.entry);
+    ready->handle = clCreateKernel(ready->program.handle, name, &status);
+    return cl_succeeded(status, "create the kernel", error) && run_once(ready, setup, error);
 }
 
 bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits)

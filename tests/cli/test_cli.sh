@@ -28,6 +28,8 @@ if [ "${WINDOW:-}" = ON ]; then
   check "... and it says so" says "^clrt: no window can be opened (.*): write the picture with -o FILE$"
   check "a format is for files" refuses 2 "--format is for files: give one with -o FILE" --format png "$scene"
   check "tiles are for files" refuses 2 "--tile is for files: give one with -o FILE" --tile 8x8 "$scene"
+  check "adaptive samples are for files" \
+    refuses 2 "--aa-adaptive is for files: give one with -o FILE" --aa-adaptive "$scene"
   check "repeated pictures are for files" \
     refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
   check "statistics in files are for files" \
@@ -97,6 +99,19 @@ check "--aa has an effect" pixels b.pfm --aa
 check "... on the picture" differ plain.pfm b.pfm
 check "--aa=3 has another" pixels c.pfm --aa=3
 check "... on the picture" differ c.pfm b.pfm
+check "--aa-adaptive has an effect" pixels b.pfm --aa-adaptive
+check "... on the picture" differ plain.pfm b.pfm
+check "a lower contrast has another" pixels c.pfm --aa-adaptive=0.001 --stats=c.json
+check "... on the picture" differ c.pfm b.pfm
+check "... and counts its samples" json c.json \
+  "d['samples']['total'] == d['rays']['camera'] > 1536 and d['samples']['contrast'] == 0.001"
+check "... and per pixel" json c.json "d['samples']['per_pixel'] == d['samples']['total'] / 1536"
+check "threads refine the same" pixels d.pfm --aa-adaptive=0.001 -j 1 --kernel ray --nodes pair
+check "... picture" cmp c.pfm d.pfm
+check "adaptive samples are no grid" refuses 2 \
+  "--aa-adaptive chooses the samples: leave out --aa" --aa=3 --aa-adaptive "$scene" -o a.pfm
+check "a contrast is a part of one" refuses 2 \
+  "--aa-adaptive wants a number above 0 and up to 1, not '2'" --aa-adaptive=2 "$scene" -o a.pfm
 check "--max-level has an effect" pixels b.pfm --max-level 1
 check "... on the picture" differ plain.pfm b.pfm
 for same in "--no-bvh" "--bvh midpoint" "--bvh sah" "-j 1" "-j 2" "--tile 16x8" "--work-group 4x2" \
@@ -111,6 +126,7 @@ CLRT_KERNEL_DIR=/nonexistent check "missing kernels are exit 4" run 4 "$scene" -
 
 check "statistics are printed" pixels a.pfm --stats
 check "... with the course's figures" says "rays: 1536 camera,"
+check "... and the samples of a pixel" says "^1536 samples, 1.00 per pixel$"
 check "... and tests per ray" says "box tests, .* per ray"
 check "statistics are written as JSON" pixels a.pfm --stats=a.json
 check "... with camera rays" json a.json "d['rays']['camera'] == 1536"

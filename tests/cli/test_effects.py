@@ -31,6 +31,7 @@ TRIALS = {
     "size": ([SCENE, "-o", "a.pfm"], [SCENE, "-o", "a.pfm", "-s", "24x16"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
+    "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
     "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),

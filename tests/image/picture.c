@@ -81,21 +81,52 @@ static RenderSettings settings_of(const PictureRequest *request, const Scene *sc
     };
 }
 
+static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
+{
+    bool ok = true;
+    for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
+        const Refinement refinement = {request->contrasts[step], request->cuts_outlines};
+        ok = adaptive_refine(adaptive, &refinement, NULL, error);
+    }
+    return ok;
+}
+
+static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Framebuffer *framebuffer,
+                            Error *error)
+{
+    Adaptive adaptive;
+    const PictureRequest *request = pipeline->request;
+    Crew *crew = crew_open(request->threads);
+    const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat, camera, crew};
+    const bool ok =
+        adaptive_open(&adaptive, &setup, NULL, error) && refine(&adaptive, request, error);
+    if (ok)
+        adaptive_store(&adaptive, framebuffer);
+    if (ok && request->sample_count != NULL)
+        *request->sample_count = adaptive.samples;
+    adaptive_close(&adaptive);
+    crew_close(crew);
+    return ok;
+}
+
 static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
-    const RendererSetup setup = {
-        .device = &pipeline->device,
-        .cache = &pipeline->cache,
-        .source = {.extra_options = request->extra_options, .choice = request->choice}};
+    const bool is_adaptive = request->contrasts[0] > 0;
+    const RendererSetup setup = {.device = &pipeline->device,
+                                 .cache = &pipeline->cache,
+                                 .source = {.extra_options = request->extra_options,
+                                            .choice = request->choice,
+                                            .entry = is_adaptive ? KERNEL_SAMPLES : KERNEL_TILE}};
     const CameraData camera =
         camera_make(&pipeline->scene.viewpoints.data[request->view - 1], &pipeline->normalization,
-                    settings.height, settings.samples);
+                    settings.height, is_adaptive ? REFINE_GRID : settings.samples);
     return device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) &&
            renderer_open(&pipeline->renderer, &setup, &pipeline->flat, &settings, error) &&
            framebuffer_make(framebuffer, settings.width, settings.height, error) &&
-           renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error);
+           (is_adaptive ? draw_adaptively(pipeline, &camera, framebuffer, error)
+                        : renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error));
 }
 
 bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)

@@ -2,13 +2,17 @@
 // A scene file -> its picture, by the same stages as the program's main, for tests.
 #pragma once
 
-#include "render/renderer.h"
+#include "render/adaptive.h"
 
 typedef struct {
     const char *scene_path;
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis
+    float contrasts[2];     // each above 0 refines the picture adaptively, in that order
+    bool cuts_outlines;     // adaptively
+    uint32_t threads;       // of the host, adaptively
+    uint64_t *sample_count; // left here, adaptively; or NULL
     int64_t max_level;      // negative: the scene's
     bool uses_bvh;
     BvhBuilder builder;

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+// Each pass marks the cells to be cut, threads sharing the marking; cuts them in order; and traces
+// all their samples as one list.  The groups it makes are what the next pass looks at.
+#include "render/adaptive.h"
+
+#include "render/contrast.h"
+#include "render/sampler.h"
+
+#include <stdlib.h>
+
+#define ROWS_OF_TASK   16
+#define GROUPS_OF_TASK 512
+
+#define NEW_SAMPLES (GROUP_CELLS - 1) // of a group
+
+// What one marking works on.
+typedef struct {
+    const RefineTree *tree;
+    const Footprints *footprints;
+    const Refinement *refinement;
+    uint32_t first, end; // of groups
+    uint16_t *marks;     // a bit for each cell of a group, or for a pixel
+} Marking;
+
+static uint32_t tasks_of(size_t whole, uint32_t part)
+{
+    return (uint32_t)((whole + part - 1) / part);
+}
+
+static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
+{
+    const size_t end = (size_t)(task + 1) * part;
+    return (uint32_t)(end < whole ? end : whole);
+}
+
+static bool pixel_is_cut(const Marking *marking, uint32_t x, uint32_t y)
+{
+    bool is_edge;
+    const float contrast = contrast_of_pixel(marking->tree, x, y, &is_edge);
+    return contrast > marking->refinement->threshold ||
+           (is_edge && marking->refinement->cuts_outlines);
+}
+
+static void mark_rows(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Marking *marking = context;
+    const RefineTree *tree = marking->tree;
+    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
+        for (uint32_t x = 0; x < tree->width; x++) {
+            const size_t pixel = (size_t)y * tree->width + x;
+            marking->marks[pixel] = tree->pixel_groups[pixel] == 0 && pixel_is_cut(marking, x, y);
+        }
+}
+
+// The cells to be cut for the sake of small spheres.
+static unsigned footprint_marks(const Marking *marking, const CellGroup *group)
+{
+    const Footprint *range[2];
+    const uint32_t side = refine_tree_cell_side(group->level);
+    const uint32_t pixel = group->y / REFINE_GRID * marking->tree->width + group->x / REFINE_GRID;
+    unsigned marks = 0;
+    footprints_of_pixel(marking->footprints, pixel, range);
+    for (const Footprint *footprint = range[0]; footprint < range[1]; footprint++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+            uint32_t middle[2];
+            refine_tree_cell_place(group, cell, middle);
+            if (group->groups[cell] == 0 && footprint_cuts(footprint, middle, side))
+                marks |= 1u << cell;
+        }
+    return marks;
+}
+
+static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
+{
+    const float threshold = marking->refinement->threshold;
+    float contrast[GROUP_CELLS];
+    if (group->level == REFINE_LEVELS)
+        return 0;
+    unsigned marks = footprint_marks(marking, group);
+    contrast_of_group(group, contrast);
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if (group->groups[cell] == 0 && contrast[cell] > threshold)
+            marks |= 1u << cell;
+    return (uint16_t)marks;
+}
+
+static void mark_groups(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Marking *marking = context;
+    const RefineTree *tree = marking->tree;
+    const size_t count = marking->end - marking->first;
+    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+        marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
+}
+
+static bool cut_pixels(RefineTree *tree, const uint16_t *marks, Error *error)
+{
+    for (uint32_t y = 0; y < tree->height; y++)
+        for (uint32_t x = 0; x < tree->width; x++)
+            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+                return false;
+    return true;
+}
+
+static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
+{
+    for (uint32_t number = marking->first; number < marking->end; number++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+            if ((marking->marks[number - marking->first] >> cell & 1) &&
+                !refine_tree_cut_cell(tree, number, cell, error))
+                return false;
+    return true;
+}
+
+// What a group's outer cells saw may reach into the cells around it.
+static bool cut_around(RefineTree *tree, const Refinement *refinement, uint32_t number,
+                       Error *error)
+{
+    for (CellSide side = 0; side < SIDE_COUNT; side++) {
+        CellName name;
+        bool is_edge;
+        const CellGroup *group = &tree->groups.data[number];
+        if (!refine_tree_neighbor(tree, group, side, &name))
+            continue;
+        const SampleData *sample = refine_tree_sample(tree, &name);
+        const float contrast = contrast_across(group, side, sample, name.level, &is_edge);
+        const bool is_outline = is_edge && name.level == 0 && refinement->cuts_outlines;
+        if (!is_outline && contrast <= refinement->threshold)
+            continue;
+        if (!(name.group == 0 ? refine_tree_cut_pixel(tree, name.cell % tree->width,
+                                                      name.cell / tree->width, error)
+                              : refine_tree_cut_cell(tree, name.group, name.cell, error)))
+            return false;
+    }
+    return true;
+}
+
+static bool is_whole(const Adaptive *adaptive)
+{
+    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
+}
+
+static void mark_footprints(const Marking *marking)
+{
+    for (size_t i = 0; i < marking->footprints->list.count; i++) {
+        const uint32_t pixel = marking->footprints->list.data[i].pixel;
+        marking->marks[pixel] = marking->tree->pixel_groups[pixel] == 0;
+    }
+}
+
+static bool mark_and_cut_pixels(Adaptive *adaptive, const Refinement *refinement, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    Marking marking = {tree, &adaptive->footprints, refinement, 0, 0, NULL};
+    marking.marks = memory_raw((size_t)tree->width * tree->height, sizeof *marking.marks, error);
+    if (marking.marks == NULL)
+        return false;
+    crew_run(adaptive->crew, tasks_of(tree->height, ROWS_OF_TASK), mark_rows, &marking);
+    mark_footprints(&marking);
+    const bool ok = cut_pixels(tree, marking.marks, error);
+    free(marking.marks);
+    return ok;
+}
+
+// Looks at the groups from `first` up to `end`.
+static bool mark_and_cut_groups(Adaptive *adaptive, const Refinement *refinement, uint32_t first,
+                                uint32_t end, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    Marking marking = {tree, &adaptive->footprints, refinement, first, end, NULL};
+    if (first >= end || !is_whole(adaptive))
+        return true;
+    marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
+    if (marking.marks == NULL)
+        return false;
+    crew_run(adaptive->crew, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
+    bool ok = cut_groups(tree, &marking, error);
+    for (uint32_t number = first; ok && number < end; number++)
+        ok = cut_around(tree, refinement, number, error);
+    free(marking.marks);
+    return ok;
+}
+
+static void list_places(const RefineTree *tree, uint32_t first, SamplePlace *places)
+{
+    for (size_t number = first; number < tree->groups.count; number++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+            uint32_t place[2];
+            if (cell == GROUP_MIDDLE)
+                continue;
+            refine_tree_cell_place(&tree->groups.data[number], cell, place);
+            *places++ = (SamplePlace){place[0], place[1]};
+        }
+}
+
+static void take_samples(RefineTree *tree, uint32_t first, const SampleData *samples)
+{
+    for (size_t number = first; number < tree->groups.count; number++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+            if (cell != GROUP_MIDDLE)
+                tree->groups.data[number].cells[cell] = *samples++;
+}
+
+// Traces the groups from `first` on; where the observer stops it, forgets them.
+static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserver *observer,
+                         Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    const uint32_t count = NEW_SAMPLES * ((uint32_t)tree->groups.count - first);
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    SampleData *samples = memory_raw(count, sizeof *samples, error);
+    const SampleList list = {places, samples, count};
+    bool ok = places != NULL && samples != NULL;
+    if (ok) {
+        list_places(tree, first, places);
+        ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    }
+    if (ok && is_whole(adaptive)) {
+        take_samples(tree, first, samples);
+        adaptive->samples += count;
+    } else {
+        refine_tree_uncut(tree, first);
+    }
+    free(places);
+    free(samples);
+    return ok;
+}
+
+bool adaptive_refine(Adaptive *adaptive, const Refinement *refinement,
+                     const RenderObserver *observer, Error *error)
+{
+    const RefineTree *tree = &adaptive->tree;
+    uint32_t first = (uint32_t)tree->groups.count;
+    bool ok = !is_whole(adaptive) || (mark_and_cut_pixels(adaptive, refinement, error) &&
+                                      mark_and_cut_groups(adaptive, refinement, 1, first, error));
+    while (ok && first < tree->groups.count) {
+        const uint32_t end = (uint32_t)tree->groups.count;
+        ok = trace_groups(adaptive, first, observer, error) &&
+             mark_and_cut_groups(adaptive, refinement, first, end, error);
+        first = end;
+    }
+    return ok;
+}
+
+static void list_pixels(const RefineTree *tree, SamplePlace *places)
+{
+    const uint32_t count = refine_tree_places(tree), half = REFINE_GRID / 2;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t block = i / (PACKET_SIDE * PACKET_SIDE);
+        const uint32_t column = i % PACKET_SIDE, row = i / PACKET_SIDE % PACKET_SIDE;
+        const uint32_t x = block % tree->columns * PACKET_SIDE + column;
+        const uint32_t y = block / tree->columns * PACKET_SIDE + row;
+        const bool is_there = x < tree->width && y < tree->height;
+        places[i] =
+            (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
+    }
+}
+
+static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Error *error)
+{
+    const RefineTree *tree = &adaptive->tree;
+    const uint32_t count = refine_tree_places(tree);
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    const SampleList list = {places, tree->pixels, count};
+    if (places == NULL)
+        return false;
+    list_pixels(tree, places);
+    const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    adaptive->samples = (uint64_t)tree->width * tree->height;
+    free(places);
+    return ok;
+}
+
+bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
+                   Error *error)
+{
+    Renderer *renderer = setup->renderer;
+    *adaptive = (Adaptive){.renderer = renderer, .crew = setup->crew, .frame = renderer->frame};
+    FrameData *frame = &adaptive->frame;
+    frame->camera = *setup->camera;
+    frame->samples = REFINE_GRID;
+    renderer->progress = (RenderProgress){0};
+    const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
+                    footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
+                    trace_pixels(adaptive, observer, error);
+    if (!ok)
+        adaptive_close(adaptive);
+    return ok;
+}
+
+typedef struct {
+    const RefineTree *tree;
+    Framebuffer *framebuffer;
+} Storing;
+
+static void store_rows(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Storing *storing = context;
+    const RefineTree *tree = storing->tree;
+    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
+        refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
+}
+
+void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
+{
+    Storing storing = {&adaptive->tree, framebuffer};
+    crew_run(adaptive->crew, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows, &storing);
+}
+
+void adaptive_close(Adaptive *adaptive)
+{
+    footprints_free(&adaptive->footprints);
+    refine_tree_free(&adaptive->tree);
+    *adaptive = (Adaptive){0};
+}

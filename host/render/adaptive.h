@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Adaptive anti-aliasing: a sample a pixel, and then more where neighbors differ.  What is decided
+// depends on the whole picture and on no order, so that every device draws the same.
+#pragma once
+
+#include "base/parallel.h"
+#include "render/footprint.h"
+#include "render/renderer.h"
+
+typedef struct {
+    Renderer *renderer; // of KERNEL_SAMPLES; borrowed
+    Crew *crew;         // borrowed
+    FrameData frame;
+    RefineTree tree;
+    Footprints footprints; // of small spheres, whose cells are cut in any case
+    uint64_t samples;      // taken
+} Adaptive;
+
+// What is to be refined.
+typedef struct {
+    float threshold; // contrast, in parts of one, that a cell of a whole pixel may have; a cell of
+                     // a ninth of one may have nine times as much
+    bool cuts_outlines; // pixels beside another surface or light are cut whatever their contrast
+} Refinement;
+
+// What it stands on.
+typedef struct {
+    Renderer *renderer;       // of KERNEL_SAMPLES
+    const FlatScene *flat;    // of the renderer
+    const CameraData *camera; // made for REFINE_GRID samples
+    Crew *crew;               // to share the work, NULL for none
+} AdaptiveSetup;
+
+// Takes one sample a pixel.
+bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
+                   Error *error);
+
+// Refines until nothing is left above the threshold, or the observer stops it.
+bool adaptive_refine(Adaptive *adaptive, const Refinement *refinement,
+                     const RenderObserver *observer, Error *error);
+
+// Stores the picture, as far as it is refined.
+void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
+
+void adaptive_close(Adaptive *adaptive);

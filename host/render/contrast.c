@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Contrast is how far a sample lies off the line between the two beside it, doubled so that a step
+// between two even surfaces counts as what it is; and where the surfaces differ no less than the
+// difference itself.
+#include "render/contrast.h"
+
+#include <math.h>
+#include <string.h>
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+// Off the line, where `before` weighs weight and `after` the rest.
+static float bend(const SampleData *before, const SampleData *at, const SampleData *after,
+                  float weight)
+{
+    float most = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const float line = weight * before->color[channel] + (1 - weight) * after->color[channel];
+        most = larger(most, fabsf(at->color[channel] - line));
+    }
+    return 2 * most;
+}
+
+// Between samples that did not see the same.
+static float step(const SampleData *at, const SampleData *other)
+{
+    float most = 0;
+    if (at->signature == other->signature)
+        return 0;
+    for (int channel = 0; channel < 3; channel++)
+        most = larger(most, fabsf(at->color[channel] - other->color[channel]));
+    return most;
+}
+
+static float contrast_between(const SampleData *before, const SampleData *at,
+                              const SampleData *after, float weight)
+{
+    const float sides = larger(step(at, before), step(at, after));
+    return larger(sides, bend(before, at, after, weight));
+}
+
+float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y, bool *is_edge)
+{
+    const SampleData *pixels = tree->pixels, *at = &pixels[refine_tree_place(tree, x, y)];
+    const bool is_left = x == 0, is_right = x + 1 == tree->width;
+    const bool is_top = y == 0, is_bottom = y + 1 == tree->height;
+    const SampleData *left = is_left ? at : &pixels[refine_tree_place(tree, x - 1, y)];
+    const SampleData *right = is_right ? at : &pixels[refine_tree_place(tree, x + 1, y)];
+    const SampleData *above = is_top ? at : &pixels[refine_tree_place(tree, x, y - 1)];
+    const SampleData *below = is_bottom ? at : &pixels[refine_tree_place(tree, x, y + 1)];
+    *is_edge = at->signature != left->signature || at->signature != right->signature ||
+               at->signature != above->signature || at->signature != below->signature;
+    float contrast = 0;
+    if (*is_edge)
+        contrast = larger(larger(step(at, left), step(at, right)),
+                          larger(step(at, above), step(at, below)));
+    if (!is_left && !is_right)
+        contrast = larger(contrast, bend(left, at, right, 0.5f));
+    if (!is_top && !is_bottom)
+        contrast = larger(contrast, bend(above, at, below, 0.5f));
+    return contrast;
+}
+
+// The three cells of a line between what lies beyond its ends, twice as far away.
+static void contrast_of_line(const CellGroup *group, uint32_t first, uint32_t stride,
+                             CellSide start, float contrast[GROUP_CELLS])
+{
+    const SampleData *cells = &group->cells[first], *before = &group->beyond[start],
+                     *after = &group->beyond[start + 1];
+    const SampleData *middle = cells + stride, *last = middle + stride;
+    const float values[GROUP_SIDE] = {contrast_between(before, cells, middle, 1 / 3.0f),
+                                      contrast_between(cells, middle, last, 0.5f),
+                                      contrast_between(middle, last, after, 2 / 3.0f)};
+    for (uint32_t i = 0; i < GROUP_SIDE; i++)
+        contrast[first + i * stride] = larger(contrast[first + i * stride], values[i]);
+}
+
+// Of a pixel, by level.
+static const float parts[REFINE_LEVELS + 1] = {1, 1 / 9.0f, 1 / 81.0f, 1 / 729.0f, 1 / 6561.0f};
+
+float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
+                      uint32_t level, bool *is_edge)
+{
+    static const uint32_t first[SIDE_COUNT] = {0, 2, 0, 6}, stride[SIDE_COUNT] = {3, 3, 1, 1};
+    float most = 0;
+    *is_edge = false;
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        const SampleData *cell = &group->cells[first[side] + i * stride[side]];
+        *is_edge = *is_edge || cell->signature != other->signature;
+        most = larger(most, step(cell, other));
+    }
+    return parts[level] * most;
+}
+
+void contrast_of_group(const CellGroup *group, float contrast[GROUP_CELLS])
+{
+    memset(contrast, 0, GROUP_CELLS * sizeof *contrast);
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        contrast_of_line(group, i * GROUP_SIDE, 1, SIDE_LEFT, contrast);
+        contrast_of_line(group, i, GROUP_SIDE, SIDE_ABOVE, contrast);
+    }
+    for (uint32_t i = 0; i < GROUP_CELLS; i++)
+        contrast[i] *= parts[group->level];
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The samples of a picture whose pixels are refined where that pays.  A cell is a square with a
+// sample at its middle: a pixel is one, and refining a cell cuts it into a group of 3 x 3, of which
+// the middle keeps the sample it has.  So sets of samples are nested, and none is thrown away.
+#pragma once
+
+#include "image/framebuffer.h"
+#include "scene/scene.h"
+
+#define REFINE_LEVELS 4  // how often a cell of a pixel's size can be cut
+#define REFINE_GRID   81 // cells of the last level along a pixel's side
+#define GROUP_SIDE    3
+#define GROUP_CELLS   9
+#define GROUP_MIDDLE  4
+
+typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellSide;
+
+// Cells are numbered row by row.
+typedef struct {
+    uint32_t x, y;                 // of its middle, in cells of the last level
+    uint32_t level;                // of its cells, from 1
+    SampleData beyond[SIDE_COUNT]; // what was seen from the next cell of the size that was cut
+    SampleData cells[GROUP_CELLS];
+    uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
+} CellGroup;
+
+typedef struct {
+    uint32_t width, height, columns; // the last of blocks
+    SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
+    uint32_t *pixel_groups;          // in rows; 0 where the pixel is not cut
+    ARRAY(CellGroup) groups;         // from 1
+} RefineTree;
+
+// A tree with nothing seen yet.
+bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *error);
+void refine_tree_free(RefineTree *tree);
+
+// Elements of pixels: blocks may reach beyond the picture.
+static inline uint32_t refine_tree_places(const RefineTree *tree)
+{
+    const uint32_t rows = (tree->height + PACKET_SIDE - 1) / PACKET_SIDE;
+    return tree->columns * rows * PACKET_SIDE * PACKET_SIDE;
+}
+
+// The place of a pixel in pixels.
+static inline uint32_t refine_tree_place(const RefineTree *tree, uint32_t x, uint32_t y)
+{
+    const uint32_t block = y / PACKET_SIDE * tree->columns + x / PACKET_SIDE;
+    return block * (PACKET_SIDE * PACKET_SIDE) + y % PACKET_SIDE * PACKET_SIDE + x % PACKET_SIDE;
+}
+
+// A cell by its group, or a pixel by group 0 and its number in rows.
+typedef struct {
+    uint32_t group, cell, level;
+} CellName;
+
+// The cell that is not cut next to the one that a group cuts, and no smaller; false where there is
+// none.
+bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSide side,
+                          CellName *name);
+const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
+
+// Cuts a pixel, or a cell of a group: appends the group, of which the middle alone is known.
+bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
+bool refine_tree_cut_cell(RefineTree *tree, uint32_t group, uint32_t cell, Error *error);
+
+// Forgets the groups from `first` on, none of which has been cut.
+void refine_tree_uncut(RefineTree *tree, uint32_t first);
+
+// Cells of the last level along the side of a level's.
+uint32_t refine_tree_cell_side(uint32_t level);
+
+// Where the sample of a group's cell lies, in cells of the last level.
+void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);
+
+// The mean over the samples of a row of pixels, weighted by their cells.
+void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3]);

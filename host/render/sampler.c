@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// A list is cut into launches, of which two wait in the queue, so that the device always has the
+// next.  Launches are small enough to count as one kind of grid for PoCL, which compiles a kernel
+// again for another.
+#include "render/sampler.h"
+
+#include <stdlib.h>
+
+#define LAUNCH_ITEMS 32768
+
+// The fewest lanes of wide kernels, whose number the host may not know.
+#define FEWEST_LANES 4
+
+// Samples that a launch takes at most, however few lanes there are.
+static uint32_t launch_samples(const Renderer *renderer)
+{
+    return renderer->nodes == NODES_WIDE ? LAUNCH_ITEMS * FEWEST_LANES : LAUNCH_ITEMS;
+}
+
+typedef struct {
+    Renderer *renderer;
+    const SampleList *list;
+    cl_mem places, samples, tallies;
+    uint32_t *host_tallies;
+    cl_event done[2]; // of launches by turns
+} Sampling;
+
+static bool share(const Sampling *sampling, cl_mem_flags access, const void *data, size_t size,
+                  cl_mem *buffer, Error *error)
+{
+    cl_int status;
+    *buffer = clCreateBuffer(sampling->renderer->device->context, access | CL_MEM_USE_HOST_PTR,
+                             size, (void *)data, &status);
+    return cl_succeeded(status, "share the samples with the device", error);
+}
+
+static bool open_buffers(Sampling *sampling, Error *error)
+{
+    const SampleList *list = sampling->list;
+    const size_t tallies =
+        sampling->renderer->settings.statistics ? (size_t)list->count * TALLY_KINDS : 16;
+    sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
+    return sampling->host_tallies != NULL &&
+           share(sampling, CL_MEM_READ_ONLY, list->places, list->count * sizeof *list->places,
+                 &sampling->places, error) &&
+           share(sampling, CL_MEM_READ_WRITE, list->samples, list->count * sizeof *list->samples,
+                 &sampling->samples, error) &&
+           share(sampling, CL_MEM_READ_WRITE, sampling->host_tallies,
+                 tallies * sizeof *sampling->host_tallies, &sampling->tallies, error);
+}
+
+static void close_buffers(Sampling *sampling)
+{
+    const cl_mem buffers[] = {sampling->places, sampling->samples, sampling->tallies};
+    for (int i = 0; i < 3; i++)
+        if (buffers[i] != NULL)
+            clReleaseMemObject(buffers[i]);
+    free(sampling->host_tallies);
+}
+
+static bool set_arguments(const Sampling *sampling, const FrameData *frame, Error *error)
+{
+    const Renderer *renderer = sampling->renderer;
+    cl_kernel kernel = renderer->kernel;
+    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
+    for (cl_uint place = 0; place < RENDERER_ARRAYS; place++)
+        status |= clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
+    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &sampling->places);
+    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 4, sizeof(cl_mem), &sampling->samples);
+    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 5, sizeof(cl_mem), &sampling->tallies);
+    return cl_succeeded(status, "set the kernel's arguments", error);
+}
+
+static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
+{
+    const Renderer *renderer = sampling->renderer;
+    const uint32_t most = launch_samples(renderer);
+    const cl_uint first = number * most, left = sampling->list->count - first;
+    const cl_uint count = left < most ? left : most, end = first + count;
+    const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
+    const size_t lanes = renderer->nodes == NODES_WIDE ? FEWEST_LANES : 1;
+    const size_t grid = ((count + lanes - 1) / lanes + group - 1) / group * group;
+    cl_int status = clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof first, &first);
+    status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 3, sizeof end, &end);
+    if (status == CL_SUCCESS)
+        status = clEnqueueNDRangeKernel(renderer->device->queue, renderer->kernel, 1, NULL, &grid,
+                                        &group, 0, NULL, &sampling->done[number % 2]);
+    if (status == CL_SUCCESS)
+        status = clFlush(renderer->device->queue);
+    return cl_succeeded(status, "run the kernel trace_samples", error);
+}
+
+static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
+{
+    cl_event *done = &sampling->done[number % 2];
+    const cl_int status = clWaitForEvents(1, done);
+    clReleaseEvent(*done);
+    *done = NULL;
+    sampling->renderer->progress.tiles_done++;
+    return cl_succeeded(status, "trace samples", error);
+}
+
+static bool observed(const RenderObserver *observer, const RenderProgress *progress)
+{
+    return observer == NULL || observer->tile_done == NULL ||
+           observer->tile_done(observer->context, progress);
+}
+
+static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
+{
+    RenderProgress *progress = &sampling->renderer->progress;
+    const uint32_t most = launch_samples(sampling->renderer), count = sampling->list->count;
+    const uint32_t launches = count / most + (count % most > 0);
+    uint32_t started = 0, finished = 0;
+    bool wanted = true;
+    progress->tiles += launches;
+    while (finished < (wanted ? launches : started)) {
+        for (; wanted && started < launches && started < finished + 2; started++)
+            if (!start_launch(sampling, started, error))
+                return false;
+        if (!finish_launch(sampling, finished++, error))
+            return false;
+        wanted = observed(observer, progress) && wanted;
+    }
+    return true;
+}
+
+// Makes what the device wrote visible to the host.
+static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Error *error)
+{
+    cl_command_queue queue = sampling->renderer->device->queue;
+    cl_int status;
+    void *seen =
+        clEnqueueMapBuffer(queue, buffer, CL_TRUE, CL_MAP_READ, 0, size, 0, NULL, NULL, &status);
+    if (status == CL_SUCCESS)
+        status = clEnqueueUnmapMemObject(queue, buffer, seen, 0, NULL, NULL);
+    if (status == CL_SUCCESS)
+        status = clFinish(queue);
+    return cl_succeeded(status, "read samples back", error);
+}
+
+static bool read_tallies(Sampling *sampling, Error *error)
+{
+    Renderer *renderer = sampling->renderer;
+    const size_t tallies = (size_t)sampling->list->count * TALLY_KINDS;
+    if (!renderer->settings.statistics)
+        return true;
+    if (!read_back(sampling, sampling->tallies, tallies * sizeof *sampling->host_tallies, error))
+        return false;
+    for (size_t i = 0; i < tallies; i++)
+        renderer->progress.tallies[i % TALLY_KINDS] += sampling->host_tallies[i];
+    return true;
+}
+
+bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
+                   const RenderObserver *observer, Error *error)
+{
+    Sampling sampling = {.renderer = renderer, .list = list};
+    if (list->count == 0)
+        return true;
+    bool ok = open_buffers(&sampling, error) && set_arguments(&sampling, frame, error) &&
+              run_launches(&sampling, observer, error) && read_tallies(&sampling, error) &&
+              read_back(&sampling, sampling.samples, list->count * sizeof *list->samples, error);
+    close_buffers(&sampling);
+    return ok;
+}
+
+bool sampler_warm_up(Renderer *renderer, Error *error)
+{
+    static const SamplePlace nowhere = {NOTHING, 0};
+    SampleData sample;
+    const SampleList list = {&nowhere, &sample, 1};
+    return sampler_trace(renderer, &renderer->frame, &list, NULL, error);
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The kernel of adaptive anti-aliasing: samples at listed places instead of those of a tile.  It is
+// compiled behind render.cl, and only where it is wanted.
+
+static inline void store_sample(global SampleData *sample, const Real3 *color, Count signature,
+                                uint lane)
+{
+    const Scalar *red = (const Scalar *)&color->x, *green = (const Scalar *)&color->y,
+                 *blue = (const Scalar *)&color->z;
+    sample->color[0] = (float)red[lane];
+    sample->color[1] = (float)green[lane];
+    sample->color[2] = (float)blue[lane];
+    sample->signature = ((const uint *)&signature)[lane];
+}
+
+// Places first to end - 1, each two coordinates in sub-pixels, are sampled into the same elements
+// of samples; the coordinate NOTHING leaves one out.  A work-item takes as many that follow each
+// other as it has lanes; tallies are written where it begins, and only where statistics are
+// compiled in.
+kernel void trace_samples(const FrameData frame, global const PointLight *lights,
+                          global const Material *materials, global const SphereData *spheres,
+                          global const Node *nodes, global const Triangles *triangles,
+                          global const TriangleLook *looks, global const CornerNormals *normals,
+                          global const uint *places, uint first, uint end,
+                          global SampleData *samples, global uint *tallies)
+{
+    const uint start = first + CLRT_LANES * (uint)get_global_id(0);
+    if (start >= end)
+        return;
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
+    const Count word = 2 * min(number, (Count)(end - 1));
+    const Count x = gather(places, word), y = gather(places, word + 1);
+    const Places asked = {x, y, number < end && x != NOTHING};
+    Tally tally = {0};
+    const Real3 color = scaled3(0x1p-32f, sample_color(&scene, &frame, &asked, &tally));
+    for (uint lane = 0; lane < min((uint)CLRT_LANES, end - start); lane++)
+        store_sample(samples + start + lane, &color, tally.signature, lane);
+    if (CLRT_STATISTICS)
+        store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Adaptive anti-aliasing: what it reaches, what it costs, and that it is one picture.
+#include "image/form.h"
+#include "image/picture.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define SCENES CLRT_SOURCE_FOLDER "/scenes/"
+
+static Framebuffer rendered(const PictureRequest *request)
+{
+    Framebuffer picture;
+    Error error = {0};
+    if (!picture_render(&picture, request, &error))
+        fail_msg("%s", error.text);
+    return picture;
+}
+
+static PictureRequest square(const char *scene, uint32_t side)
+{
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = side;
+    return request;
+}
+
+static PictureRequest adaptive(PictureRequest request, float contrast)
+{
+    request.contrasts[0] = contrast;
+    request.cuts_outlines = true;
+    return request;
+}
+
+static double error_between(const Framebuffer *one, const Framebuffer *other)
+{
+    const size_t values = (size_t)one->width * one->height * 3;
+    const float *first = &one->pixels[0][0], *second = &other->pixels[0][0];
+    double sum = 0;
+    for (size_t i = 0; i < values; i++)
+        sum += pow((double)first[i] - (double)second[i], 2);
+    return sqrt(sum / (double)values);
+}
+
+static void expect_same(const PictureRequest *one, const PictureRequest *other)
+{
+    Framebuffer first = rendered(one), second = rendered(other);
+    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
+    assert_memory_equal(first.pixels, second.pixels, size);
+    framebuffer_free(&first);
+    framebuffer_free(&second);
+}
+
+static const char *const scenes[] = {SCENES "simple.scn", SCENES "reflections.scn",
+                                     SCENES "blinn_phong.scn",
+                                     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
+#define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
+
+static void every_form_threads_and_tree_refine_the_same(void **state)
+{
+    (void)state;
+    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        PictureRequest usual = adaptive(square(scenes[scene], 97), 0.02f);
+        usual.height = 61;
+        for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+            PictureRequest other = usual;
+            other.choice = choices[i];
+            other.group_width = other.group_height = form_group(&choices[i]);
+            other.threads = (uint32_t)i;
+            other.builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
+            other.specialization = i == 4 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+            expect_same(&usual, &other);
+        }
+    }
+}
+
+// The second step looks at more than one would have, but throws nothing away.
+static void refining_in_steps_takes_few_more_samples_than_at_once(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        uint64_t samples[2];
+        PictureRequest once = adaptive(square(scenes[scene], 120), 0.01f);
+        PictureRequest steps = once;
+        steps.contrasts[0] = 0.1f;
+        steps.contrasts[1] = 0.01f;
+        once.sample_count = &samples[0];
+        steps.sample_count = &samples[1];
+        Framebuffer first = rendered(&once), second = rendered(&steps);
+        assert_true(samples[1] >= samples[0] && 100 * samples[1] < 101 * samples[0]);
+        assert_true(error_between(&first, &second) < 0.0005);
+        framebuffer_free(&first);
+        framebuffer_free(&second);
+    }
+}
+
+#define SIDE 240
+
+// Against a grid that none of the others is part of.
+static void expect_error_of_uniform(const char *scene, float contrast, uint32_t side)
+{
+    uint64_t samples;
+    PictureRequest many = square(scene, SIDE), uniform = many;
+    PictureRequest few = adaptive(many, contrast);
+    few.sample_count = &samples;
+    many.samples = 32;
+    uniform.samples = side;
+    Framebuffer reference = rendered(&many), plain = rendered(&uniform), refined = rendered(&few);
+    const double allowed = error_between(&plain, &reference);
+    const double reached = error_between(&refined, &reference);
+    if (reached > 1.1 * allowed)
+        fail_msg("%s: error %g, of %ux%u samples %g", scene, reached, side, side, allowed);
+    if (5 * samples > (uint64_t)SIDE * SIDE * side * side)
+        fail_msg("%s: %llu samples", scene, (unsigned long long)samples);
+    framebuffer_free(&reference);
+    framebuffer_free(&plain);
+    framebuffer_free(&refined);
+}
+
+static void a_contrast_of_4_percent_reaches_16_samples_with_a_fifth_of_them(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        expect_error_of_uniform(scenes[scene], 0.04f, 4);
+}
+
+static void a_contrast_of_1_percent_reaches_64_samples_with_a_fifth_of_them(void **state)
+{
+    (void)state;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        expect_error_of_uniform(scenes[scene], 0.01f, 8);
+}
+
+static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
+{
+    (void)state;
+    uint64_t samples;
+    PictureRequest request = adaptive(square(scenes[0], 30), 0.001f);
+    request.max_level = 0;
+    request.sample_count = &samples;
+    Framebuffer picture = rendered(&request);
+    assert_int_equal(samples, 900);
+    framebuffer_free(&picture);
+}
+
+#define SPHERES 60 // along a side
+
+// A wall of bright spheres on black, of these radii in pixels by turns.
+static const char *write_spheres(const double radii[], int count)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "%s", "/tmp/clrt-adaptive-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 1 1 1\nmaterial it\n"
+                    "camera 0 -100 0 0 0 0 60\n");
+    const double pixel = 2 * 100 * tan(acos(-1) / 6) / 181;
+    for (int y = 0; y < SPHERES; y++)
+        for (int x = 0; x < SPHERES; x++)
+            fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
+                    (2.971 * (y - 30) + 1.5) * pixel, radii[(y * 7 + x) % count] * pixel);
+    assert_int_equal(fclose(stream), 0);
+    return path;
+}
+
+// Each of the spheres keeps a distance of three pixels from the next.
+static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
+{
+    (void)state;
+    static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
+    double expected = 0, sum = 0;
+    PictureRequest request = adaptive(square(write_spheres(radii, 6), 181), 1);
+    Framebuffer picture = rendered(&request);
+    int seen = 0;
+    for (int y = 0; y < SPHERES; y++)
+        for (int x = 0; x < SPHERES; x++) {
+            const double column = 90.5 + 3.013 * (x - 30) + 0.5;
+            const double row = 90.5 - 2.971 * (y - 30) - 1.5;
+            double light = 0;
+            for (int dy = -1; dy <= 1; dy++)
+                for (int dx = -1; dx <= 1; dx++)
+                    light += (double)picture.pixels[((int)row + dy) * 181 + (int)column + dx][0];
+            seen += light > 0;
+            sum += light;
+            expected += acos(-1) * pow(radii[(y * 7 + x) % 6], 2);
+        }
+    assert_int_equal(seen, SPHERES * SPHERES);
+    assert_true(fabs(sum / expected - 1) < 0.1);
+    framebuffer_free(&picture);
+    remove(request.scene_path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
+        cmocka_unit_test(refining_in_steps_takes_few_more_samples_than_at_once),
+        cmocka_unit_test(a_contrast_of_4_percent_reaches_16_samples_with_a_fifth_of_them),
+        cmocka_unit_test(a_contrast_of_1_percent_reaches_64_samples_with_a_fifth_of_them),
+        cmocka_unit_test(a_picture_of_one_color_takes_a_sample_a_pixel),
+        cmocka_unit_test(thousands_of_spheres_smaller_than_pixels_are_all_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
