@@ -35,7 +35,7 @@ TRIALS = {
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
     "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),
-    "no-bvh": (PICTURE, PICTURE + ["--no-bvh"]),
+    "no-bvh": (PICTURE + ["--bvh", "sah"], PICTURE + ["--no-bvh"]),
     "tile": (PICTURE, PICTURE + ["--tile", "16x8"]),
     "work-group": (PICTURE, PICTURE + ["--work-group", "4x2"]),
     "specialize": (PICTURE, PICTURE + ["--specialize", "always"]),
