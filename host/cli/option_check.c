@@ -54,3 +54,16 @@ bool options_check_purpose(Options *options, Error *error)
            (!both || error_set(error, "the picture and the statistics cannot both go to standard "
                                       "output"));
 }
+
+bool options_check_compare(Options *options, Error *error)
+{
+    if (options->output_path == NULL)
+        return options->format == NULL ||
+               error_set(error,
+                         "--format is for the picture of differences: give one with -o FILE");
+    const bool json_told =
+        options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
+    if (strcmp(options->output_path, "-") == 0 && (json_told || !options->quiet))
+        return error_set(error, "the picture and the report cannot both go to standard output");
+    return check_format(options, error);
+}

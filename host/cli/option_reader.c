@@ -127,6 +127,13 @@ bool read_json(Options *options, const char *value, Error *error)
            error_set(error, "--json= wants the name of a file");
 }
 
+bool read_fail(Options *options, const char *value, Error *error)
+{
+    Error cause = {0};
+    return limits_parse(&options->limits, value, &cause) ||
+           error_set(error, "--fail %s", cause.text);
+}
+
 bool read_quiet(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;

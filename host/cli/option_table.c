@@ -58,8 +58,11 @@ const Option option_table[] = {
 
     {"bad-geometry", 0, "drop|fail", read_bad_geometry, GROUP_GEOMETRY, CLASS_NONE,
      "triangles of no area: drop (default) or fail, naming the first"},
-    {"json", 0, "[=FILE]", read_json, GROUP_GEOMETRY, CLASS_NONE,
-     "write the report of check as JSON, to FILE or instead of the text"},
+
+    {"fail", 0, "LIMITS", read_fail, GROUP_REPORT, CLASS_NONE,
+     "compare: exit 1 past rmse=V, max=V, share1=V, share4=V, hits=V or below psnr=V"},
+    {"json", 0, "[=FILE]", read_json, GROUP_REPORT, CLASS_NONE,
+     "write the report of check or compare as JSON, to FILE or instead of the text"},
 
     {"keys", 0, "KEYS", read_keys, GROUP_WINDOW, CLASS_NONE,
      "press these keys in the window, each once the one before is shown"},
@@ -77,9 +80,11 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "who walks the table keeps room for OPTIONS_MOST");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture", [GROUP_QUALITY] = "Quality",
-    [GROUP_SPEED] = "Speed",       [GROUP_DEVICE] = "Device",   [GROUP_STATISTICS] = "Statistics",
-    [GROUP_GEOMETRY] = "Geometry", [GROUP_WINDOW] = "Window",   [GROUP_TALK] = "Talk",
+    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture",
+    [GROUP_QUALITY] = "Quality",   [GROUP_SPEED] = "Speed",
+    [GROUP_DEVICE] = "Device",     [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports of check and compare",
+    [GROUP_WINDOW] = "Window",     [GROUP_TALK] = "Talk",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {

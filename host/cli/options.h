@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/renderer.h"
 
@@ -13,7 +14,8 @@ typedef enum {
     ACTION_LIST_DEVICES,
     ACTION_WARM,
     ACTION_VIEW,
-    ACTION_CHECK
+    ACTION_CHECK,
+    ACTION_COMPARE
 } Action;
 
 // What happens to triangles of no area, which no ray can meet.
@@ -30,7 +32,8 @@ typedef enum {
 // Strings point into the command line.
 typedef struct {
     Action action;
-    const char *scene_path;  // NULL where ACTION_WARM was given none
+    const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
+    const char *other_path; // ACTION_COMPARE's second
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     uint32_t samples;        // per pixel and axis
@@ -54,7 +57,8 @@ typedef struct {
     uint32_t quit_after; // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
-    bool json;             // of ACTION_CHECK
+    Limits limits;         // of ACTION_COMPARE
+    bool json;             // of ACTION_CHECK and ACTION_COMPARE
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;
