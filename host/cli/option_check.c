@@ -14,6 +14,8 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--tile is for files: give one with -o FILE");
     if (options->bad_geometry != BAD_GEOMETRY_DROP)
         return error_set(error, "--bad-geometry is for files: give one with -o FILE");
+    if (options->reference)
+        return error_set(error, "--reference is for files: give one with -o FILE");
     if (options->frames > 1)
         return error_set(error, "--frames is for files: give one with -o FILE");
     if (options->statistics_path != NULL)

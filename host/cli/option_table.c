@@ -53,6 +53,10 @@ const Option option_table[] = {
 
     {"stats", 0, "[=FILE]", read_stats, GROUP_STATISTICS, CLASS_NONE,
      "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
+    {"reference", 0, "[=FILE]", read_reference, GROUP_STATISTICS, CLASS_NONE,
+     "measure the picture against one in fp64 with many samples; write that to FILE"},
+    {"reference-samples", 0, "N", read_reference_samples, GROUP_STATISTICS, CLASS_NONE,
+     "samples a pixel of the reference, an even number (256)"},
     {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
 

@@ -101,6 +101,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     *options = (Options){.samples = 1,
                          .view = 1,
                          .frames = 1,
+                         .reference_samples = REFERENCE_SAMPLES,
                          .max_level = -1,
                          .uses_bvh = true,
                          .tile_width = OPTIONS_TILE,

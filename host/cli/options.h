@@ -26,6 +26,10 @@ typedef enum {
 
 #define FRAMES_MAX 1000
 
+// Samples a pixel of a reference: unless they are given, and at most.
+#define REFERENCE_SAMPLES     256
+#define REFERENCE_SAMPLES_MAX 65536
+
 // Sides of tiles unless they are given; a window chooses its own.
 #define OPTIONS_TILE 128
 
@@ -43,9 +47,12 @@ typedef struct {
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
-    const char *device; // NULL: the best
-    uint32_t threads;   // 0: all that the process may use
-    uint32_t frames;    // how often the picture is drawn, from 1
+    const char *device;         // NULL: the best
+    uint32_t threads;           // 0: all that the process may use
+    bool reference;             // the picture is measured against one
+    const char *reference_path; // where that is written, NULL for nowhere
+    uint32_t reference_samples; // a pixel; an odd number is one more
+    uint32_t frames;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
     KernelWish kernel;

@@ -78,6 +78,24 @@ void report_write_text(const Report *report, FILE *stream)
             per_ray(report, TALLY_BOX_TESTS));
 }
 
+void report_write_error(const Report *report, FILE *stream)
+{
+    const ReferenceResult *result = &report->reference;
+    const Difference *difference = &result->difference;
+    const double pixels = (double)difference->pixels;
+    if (result->samples == 0)
+        return;
+    fprintf(
+        stream,
+        "RMSE %.4g (%.3g %%), largest difference %.4g at %u,%u; off by more than 1/255: %.4g %% "
+        "of the pixels, 4/255: %.4g %%\n",
+        difference->rmse, 100 * difference->rmse, difference->maximum, difference->maximum_x,
+        difference->maximum_y, 100 * (double)difference->off_by_1 / pixels,
+        100 * (double)difference->off_by_4 / pixels);
+    fprintf(stream, "reference: fp64, %u samples a pixel, RMSE %.2g by itself, %.2f s\n",
+            result->samples, result->own_error, result->seconds);
+}
+
 static json_t *integer(uint64_t value)
 {
     return json_integer((json_int_t)value);
@@ -161,6 +179,20 @@ static json_t *settings_json(const Report *report)
                      kernel_precision_name(report->choice->precision));
 }
 
+static json_t *reference_json(const Report *report)
+{
+    const ReferenceResult *result = &report->reference;
+    const Difference *difference = &result->difference;
+    const double pixels = (double)difference->pixels;
+    if (result->samples == 0)
+        return json_null();
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", integer(result->samples),
+                     "rmse", difference->rmse, "own_error", result->own_error, "maximum",
+                     difference->maximum, "share_off_by_1", (double)difference->off_by_1 / pixels,
+                     "share_off_by_4", (double)difference->off_by_4 / pixels, "seconds",
+                     result->seconds);
+}
+
 static json_t *report_json(const Report *report)
 {
     ReportTexts texts;
@@ -169,13 +201,14 @@ static json_t *report_json(const Report *report)
     getrusage(RUSAGE_SELF, &usage);
     return json_pack(
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, "
-        "s:o, s:o}",
+        "s:o, s:o, s:o}",
         "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
         "pixel_hash", report->pixel_hash, "device", "name", report->device_name, "driver",
         report->device_version, "bytes", "uploaded", integer(report->upload_size), "peak_memory",
         integer((uint64_t)usage.ru_maxrss * 1024), "scene", scene_json(report, &texts), "bvh",
         tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "tests",
-        tests_json(report), "seconds", seconds_json(report), "frame_seconds", frames_json(report));
+        tests_json(report), "seconds", seconds_json(report), "frame_seconds", frames_json(report),
+        "reference", reference_json(report));
 }
 
 bool report_write_json(const Report *report, const char *path, Error *error)

@@ -51,6 +51,8 @@ TRIALS = {
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
     "warm": ([], ["--warm"]),
     "stats": (PLAIN, PICTURE),
+    "reference": (PICTURE, PICTURE + ["--reference"]),
+    "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
     "frames": (PICTURE, PICTURE + ["--frames", "2"]),
     "bad-geometry": (
         [FLAT, "-s", "8x8", "-o", "a.pfm"],

@@ -137,7 +137,7 @@ class Schemas(Run):
         jsonschema.validate(json.loads(text), schema, cls=jsonschema.Draft202012Validator)
 
     def test_statistics_are_as_their_schema_says(self):
-        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"]):
+        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"], ["--reference"]):
             done = self.clrt(*SMALL, "-o", "a.pfm", "--stats=-", *words)
             self.validate("statistics", done.stdout)
         mesh = ["open.ply", "-s", "8x8", "-o", "a.pfm", "--stats=-"]
