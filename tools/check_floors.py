@@ -12,12 +12,13 @@ import sys
 BELOW = {
     "base": [],
     "image": ["base"],
+    "compare": ["base", "image"],
     "scene": ["base"],
     "accel": ["base", "scene"],
     "device": ["base", "scene", "accel"],
     "render": ["base", "scene", "accel", "device", "image"],
     "view": ["base", "scene", "accel", "device", "image", "render"],
-    "cli": ["base", "scene", "accel", "device", "image", "render", "view"],
+    "cli": ["base", "scene", "accel", "device", "image", "compare", "render", "view"],
 }
 
 # The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.

@@ -2,18 +2,24 @@
 // The table of commands.  A scene file with the name of one is reached by ./NAME.
 #include "cli/command.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "threads",
                                             "kernel", "nodes",  "lanes",   "precision",
                                             "json",   "quiet",  "verbose", NULL};
 
+static const char *const compare_options[] = {"output", "format",  "fail", "json",
+                                              "quiet",  "verbose", NULL};
+
 // What no picture needs.
-static const char *const command_options[] = {"json", NULL};
+static const char *const command_options[] = {"fail", "json", NULL};
 
 const Command command_table[] = {
     {"check", ACTION_CHECK, check_options, "SCENE",
-     "look for what is wrong in the scene's geometry, and draw nothing"},
+     "look for what is wrong in the scene's geometry, and draw nothing", false},
+    {"compare", ACTION_COMPARE, compare_options, "PICTURE PICTURE",
+     "tell how much two pictures differ; -o draws a map of it", true},
 };
 
 const size_t command_count = sizeof command_table / sizeof command_table[0];
@@ -37,4 +43,13 @@ bool command_takes(const Command *command, const char *option)
 {
     return command != NULL ? is_among(option, command->options)
                            : !is_among(option, command_options);
+}
+
+void command_list_takers(const char *option, char *text, size_t size)
+{
+    size_t length = 0;
+    for (size_t i = 0; i < command_count; i++)
+        if (is_among(option, command_table[i].options) && length < size)
+            length += (size_t)snprintf(text + length, size - length, "%sclrt %s",
+                                       length > 0 ? " or " : "", command_table[i].name);
 }

@@ -10,6 +10,7 @@ typedef struct {
     const char *const *options; // that it takes, NULL behind the last
     const char *operands;       // what follows its name
     const char *help;
+    bool wants_two; // pictures, in place of a scene
 } Command;
 
 extern const Command command_table[];
@@ -21,3 +22,6 @@ const Command *command_named(const char *word);
 // Whether the option of that name is for the command; NULL draws, and takes all options but those
 // of commands alone.
 bool command_takes(const Command *command, const char *option);
+
+// Writes "clrt check or clrt compare": the commands that take the option.
+void command_list_takers(const char *option, char *text, size_t size);

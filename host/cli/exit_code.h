@@ -4,9 +4,9 @@
 
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // that a check was to find
+    EXIT_FAULTS = 1, // that a check was to find, limits that a comparison breaks
     EXIT_USAGE = 2,
-    EXIT_SCENE = 3,
+    EXIT_SCENE = 3, // or a picture that is read
     EXIT_DEVICE = 4,
     EXIT_OUTPUT = 5
 } ExitCode;

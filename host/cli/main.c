@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program: does what the command line asks for, and words what went wrong.
 #include "cli/check.h"
+#include "cli/compare.h"
 #include "cli/device_report.h"
 #include "cli/option_help.h"
 #include "cli/picture.h"
@@ -57,6 +58,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return perform_run(&options, show, error);
     case ACTION_CHECK:
         return perform_run(&options, check, error);
+    case ACTION_COMPARE:
+        return compare_files(&options, error);
     case ACTION_RENDER:
         break;
     }

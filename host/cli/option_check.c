@@ -16,6 +16,8 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--bad-geometry is for files: give one with -o FILE");
     if (options->contrast > 0)
         return error_set(error, "--aa-adaptive is for files: give one with -o FILE");
+    if (options->reference)
+        return error_set(error, "--reference is for files: give one with -o FILE");
     if (options->frames > 1)
         return error_set(error, "--frames is for files: give one with -o FILE");
     if (options->statistics_path != NULL)
@@ -57,4 +59,17 @@ bool options_check_purpose(Options *options, Error *error)
     return check_format(options, error) &&
            (!both || error_set(error, "the picture and the statistics cannot both go to standard "
                                       "output"));
+}
+
+bool options_check_compare(Options *options, Error *error)
+{
+    if (options->output_path == NULL)
+        return options->format == NULL ||
+               error_set(error,
+                         "--format is for the picture of differences: give one with -o FILE");
+    const bool json_told =
+        options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
+    if (strcmp(options->output_path, "-") == 0 && (json_told || !options->quiet))
+        return error_set(error, "the picture and the report cannot both go to standard output");
+    return check_format(options, error);
 }

@@ -7,3 +7,6 @@
 // Decides whether the scene goes to a file, in which format, or to the window, and refuses options
 // that are for the other.
 bool options_check_purpose(Options *options, Error *error);
+
+// The same of clrt compare, whose picture may be left out.
+bool options_check_compare(Options *options, Error *error);

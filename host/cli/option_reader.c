@@ -113,6 +113,22 @@ bool read_stats(Options *options, const char *value, Error *error)
            error_set(error, "--stats= wants the name of a file");
 }
 
+bool read_reference(Options *options, const char *value, Error *error)
+{
+    options->reference = true;
+    options->reference_path = value;
+    return value == NULL || image_format_of_path(value) != NULL ||
+           error_set(error, "--reference= wants the name of a picture whose ending is one of %s",
+                     image_format_names());
+}
+
+bool read_reference_samples(Options *options, const char *value, Error *error)
+{
+    options->reference = true;
+    return read_count(value, "reference-samples", REFERENCE_SAMPLES_MAX,
+                      &options->reference_samples, error);
+}
+
 bool read_keys(Options *options, const char *value, Error *error)
 {
     (void)error;
@@ -131,6 +147,13 @@ bool read_json(Options *options, const char *value, Error *error)
     options->json_path = value;
     return value == NULL || value[0] != '\0' ||
            error_set(error, "--json= wants the name of a file");
+}
+
+bool read_fail(Options *options, const char *value, Error *error)
+{
+    Error cause = {0};
+    return limits_parse(&options->limits, value, &cause) ||
+           error_set(error, "--fail %s", cause.text);
 }
 
 bool read_quiet(Options *options, const char *value, Error *error)

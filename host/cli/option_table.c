@@ -56,13 +56,20 @@ const Option option_table[] = {
 
     {"stats", 0, "[=FILE]", read_stats, GROUP_STATISTICS, CLASS_NONE,
      "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
+    {"reference", 0, "[=FILE]", read_reference, GROUP_STATISTICS, CLASS_NONE,
+     "measure the picture against one in fp64 with many samples; write that to FILE"},
+    {"reference-samples", 0, "N", read_reference_samples, GROUP_STATISTICS, CLASS_NONE,
+     "samples a pixel of the reference, an even number (256)"},
     {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
 
     {"bad-geometry", 0, "drop|fail", read_bad_geometry, GROUP_GEOMETRY, CLASS_NONE,
      "triangles of no area: drop (default) or fail, naming the first"},
-    {"json", 0, "[=FILE]", read_json, GROUP_GEOMETRY, CLASS_NONE,
-     "write the report of check as JSON, to FILE or instead of the text"},
+
+    {"fail", 0, "LIMITS", read_fail, GROUP_REPORT, CLASS_NONE,
+     "compare: exit 1 past rmse=V, max=V, share1=V, share4=V, hits=V or below psnr=V"},
+    {"json", 0, "[=FILE]", read_json, GROUP_REPORT, CLASS_NONE,
+     "write the report of check or compare as JSON, to FILE or instead of the text"},
 
     {"keys", 0, "KEYS", read_keys, GROUP_WINDOW, CLASS_NONE,
      "press these keys in the window, each once the one before is shown"},
@@ -80,9 +87,11 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "who walks the table keeps room for OPTIONS_MOST");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture", [GROUP_QUALITY] = "Quality",
-    [GROUP_SPEED] = "Speed",       [GROUP_DEVICE] = "Device",   [GROUP_STATISTICS] = "Statistics",
-    [GROUP_GEOMETRY] = "Geometry", [GROUP_WINDOW] = "Window",   [GROUP_TALK] = "Talk",
+    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture",
+    [GROUP_QUALITY] = "Quality",   [GROUP_SPEED] = "Speed",
+    [GROUP_DEVICE] = "Device",     [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports of check and compare",
+    [GROUP_WINDOW] = "Window",     [GROUP_TALK] = "Talk",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {

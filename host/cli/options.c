@@ -56,13 +56,26 @@ static size_t option_of(int found)
 
 static bool check_purposes(uint64_t given, const Command *command, Error *error)
 {
-    for (size_t i = 0; i < option_count; i++)
-        if ((given >> i & 1) != 0 && !command_takes(command, option_table[i].name))
-            return command == NULL
-                       ? error_set(error, "--%s is for clrt check", option_table[i].name)
-                       : error_set(error, "clrt %s takes no --%s", command->name,
-                                   option_table[i].name);
+    char takers[256];
+    for (size_t i = 0; i < option_count; i++) {
+        const char *name = option_table[i].name;
+        if ((given >> i & 1) == 0 || command_takes(command, name))
+            continue;
+        if (command != NULL)
+            return error_set(error, "clrt %s takes no --%s", command->name, name);
+        command_list_takers(name, takers, sizeof takers);
+        return error_set(error, "--%s is for %s", name, takers);
+    }
     return true;
+}
+
+static bool read_pictures(Options *options, int count, char **words, Error *error)
+{
+    if (optind + 2 != count)
+        return error_set(error, "clrt compare wants the names of two pictures");
+    options->scene_path = words[optind];
+    options->other_path = words[optind + 1];
+    return options_check_compare(options, error);
 }
 
 static bool read_scene(Options *options, int count, char **words, Error *error)
@@ -88,6 +101,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     *options = (Options){.samples = 1,
                          .view = 1,
                          .frames = 1,
+                         .reference_samples = REFERENCE_SAMPLES,
                          .max_level = -1,
                          .uses_bvh = true,
                          .tile_width = OPTIONS_TILE,
@@ -117,5 +131,8 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         optind++;
         options->action = command->action;
     }
-    return check_purposes(given, command, error) && read_scene(options, count, words, error);
+    if (!check_purposes(given, command, error))
+        return false;
+    return command != NULL && command->wants_two ? read_pictures(options, count, words, error)
+                                                 : read_scene(options, count, words, error);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/renderer.h"
 
@@ -13,7 +14,8 @@ typedef enum {
     ACTION_LIST_DEVICES,
     ACTION_WARM,
     ACTION_VIEW,
-    ACTION_CHECK
+    ACTION_CHECK,
+    ACTION_COMPARE
 } Action;
 
 // What happens to triangles of no area, which no ray can meet.
@@ -24,6 +26,10 @@ typedef enum {
 
 #define FRAMES_MAX 1000
 
+// Samples a pixel of a reference: unless they are given, and at most.
+#define REFERENCE_SAMPLES     256
+#define REFERENCE_SAMPLES_MAX 65536
+
 // Sides of tiles unless they are given; a window chooses its own.
 #define OPTIONS_TILE 128
 
@@ -33,7 +39,8 @@ typedef enum {
 // Strings point into the command line.
 typedef struct {
     Action action;
-    const char *scene_path;  // NULL where ACTION_WARM was given none
+    const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
+    const char *other_path; // ACTION_COMPARE's second
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     uint32_t samples;        // per pixel and axis
@@ -44,9 +51,12 @@ typedef struct {
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
-    const char *device; // NULL: the best
-    uint32_t threads;   // 0: all that the process may use
-    uint32_t frames;    // how often the picture is drawn, from 1
+    const char *device;         // NULL: the best
+    uint32_t threads;           // 0: all that the process may use
+    bool reference;             // the picture is measured against one
+    const char *reference_path; // where that is written, NULL for nowhere
+    uint32_t reference_samples; // a pixel; an odd number is one more
+    uint32_t frames;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
     KernelWish kernel;
@@ -58,7 +68,8 @@ typedef struct {
     uint32_t quit_after; // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
-    bool json;             // of ACTION_CHECK
+    Limits limits;         // of ACTION_COMPARE
+    bool json;             // of ACTION_CHECK and ACTION_COMPARE
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;

@@ -3,6 +3,7 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "cli/reference.h"
 #include "cli/refined_picture.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
@@ -49,6 +50,22 @@ static bool draw(Run *run, Error *error)
     for (int kind = 0; kind < TALLY_KINDS; kind++)
         run->report.tallies[kind] = done->tallies[kind];
     return ok;
+}
+
+static bool measure_error(Run *run, Error *error)
+{
+    if (!run->options->reference)
+        return true;
+    const bool ok = reference_measure(run, error);
+    if (ok && !run->options->quiet)
+        report_write_error(&run->report, stderr);
+    return ok;
+}
+
+static bool write_reference(const Run *run, Error *error)
+{
+    const char *path = run->options->reference_path;
+    return path == NULL || run->reference.pixels == NULL || reference_write(run, path, error);
 }
 
 static bool write_picture(Run *run, Error *error)
@@ -105,6 +122,9 @@ ExitCode picture_make(Run *run, Error *error)
     const double start = clock_seconds();
     if (!image_check_path(run->options->output_path, error))
         return EXIT_OUTPUT;
+    const char *reference_path = run->options->reference_path;
+    if (reference_path != NULL && !image_check_path(reference_path, error))
+        return EXIT_OUTPUT;
     image_prepare(run->options->format);
     run_begin(run);
     if (!run_load_scene(run, error)) {
@@ -120,9 +140,10 @@ ExitCode picture_make(Run *run, Error *error)
     if (!run_open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    if (!draw(run, error))
+    if (!draw(run, error) || !measure_error(run, error))
         return EXIT_DEVICE;
-    if (!write_picture(run, error) || !write_statistics(run, start, error))
+    if (!write_picture(run, error) || !write_reference(run, error) ||
+        !write_statistics(run, start, error))
         return EXIT_OUTPUT;
     return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
 }

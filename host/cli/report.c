@@ -90,6 +90,24 @@ void report_write_text(const Report *report, FILE *stream)
             per_ray(report, TALLY_BOX_TESTS));
 }
 
+void report_write_error(const Report *report, FILE *stream)
+{
+    const ReferenceResult *result = &report->reference;
+    const Difference *difference = &result->difference;
+    const double pixels = (double)difference->pixels;
+    if (result->samples == 0)
+        return;
+    fprintf(
+        stream,
+        "RMSE %.4g (%.3g %%), largest difference %.4g at %u,%u; off by more than 1/255: %.4g %% "
+        "of the pixels, 4/255: %.4g %%\n",
+        difference->rmse, 100 * difference->rmse, difference->maximum, difference->maximum_x,
+        difference->maximum_y, 100 * (double)difference->off_by_1 / pixels,
+        100 * (double)difference->off_by_4 / pixels);
+    fprintf(stream, "reference: fp64, %u samples a pixel, RMSE %.2g by itself, %.2f s\n",
+            result->samples, result->own_error, result->seconds);
+}
+
 static json_t *integer(uint64_t value)
 {
     return json_integer((json_int_t)value);
@@ -179,22 +197,48 @@ static json_t *samples_json(const Report *report)
                      samples_per_pixel(report), "contrast", report->options->contrast);
 }
 
+static json_t *reference_json(const Report *report)
+{
+    const ReferenceResult *result = &report->reference;
+    const Difference *difference = &result->difference;
+    const double pixels = (double)difference->pixels;
+    if (result->samples == 0)
+        return json_null();
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", integer(result->samples),
+                     "rmse", difference->rmse, "own_error", result->own_error, "maximum",
+                     difference->maximum, "share_off_by_1", (double)difference->off_by_1 / pixels,
+                     "share_off_by_4", (double)difference->off_by_4 / pixels, "seconds",
+                     result->seconds);
+}
+
+// The parts of the report, each under its name.
+static void add_parts(json_t *json, const Report *report, const ReportTexts *texts)
+{
+    json_object_set_new(json, "scene", scene_json(report, texts));
+    json_object_set_new(json, "bvh", tree_json(report));
+    json_object_set_new(json, "settings", settings_json(report));
+    json_object_set_new(json, "samples", samples_json(report));
+    json_object_set_new(json, "rays", rays_json(report));
+    json_object_set_new(json, "tests", tests_json(report));
+    json_object_set_new(json, "seconds", seconds_json(report));
+    json_object_set_new(json, "frame_seconds", frames_json(report));
+    json_object_set_new(json, "reference", reference_json(report));
+}
+
 static json_t *report_json(const Report *report)
 {
     ReportTexts texts;
     struct rusage usage;
     report_make_texts(report, &texts);
     getrusage(RUSAGE_SELF, &usage);
-    return json_pack(
-        "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, "
-        "s:o, s:o, s:o}",
-        "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
-        "pixel_hash", report->pixel_hash, "device", "name", report->device_name, "driver",
-        report->device_version, "bytes", "uploaded", integer(report->upload_size), "peak_memory",
-        integer((uint64_t)usage.ru_maxrss * 1024), "scene", scene_json(report, &texts), "bvh",
-        tree_json(report), "settings", settings_json(report), "rays", rays_json(report), "samples",
-        samples_json(report), "tests", tests_json(report), "seconds", seconds_json(report),
-        "frame_seconds", frames_json(report));
+    json_t *json = json_pack(
+        "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema", SCHEMA_VERSION, "version",
+        CLRT_VERSION, "complete", report->complete, "pixel_hash", report->pixel_hash, "device",
+        "name", report->device_name, "driver", report->device_version, "bytes", "uploaded",
+        integer(report->upload_size), "peak_memory", integer((uint64_t)usage.ru_maxrss * 1024));
+    if (json != NULL)
+        add_parts(json, report, &texts);
+    return json;
 }
 
 bool report_write_json(const Report *report, const char *path, Error *error)

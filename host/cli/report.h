@@ -3,10 +3,19 @@
 #pragma once
 
 #include "cli/options.h"
+#include "compare/difference.h"
 
 #include <stdio.h>
 
 #define REPORT_TEXTS 6
+
+// What a picture differs by from its reference.
+typedef struct {
+    uint32_t samples; // of the reference, a pixel; 0 where none was drawn
+    Difference difference;
+    double own_error; // of the reference: RMSE, as two independent halves of it tell
+    double seconds;
+} ReferenceResult;
 
 // Everything about one run that is told to the user.
 typedef struct {
@@ -28,6 +37,7 @@ typedef struct {
     double parse, load, build, device, upload, kernel_build, trace, write, total;
     double frame_seconds[FRAMES_MAX]; // of every picture drawn; the first is trace
     uint32_t frame_count;
+    ReferenceResult reference;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 
@@ -42,6 +52,9 @@ typedef struct {
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
 
 void report_make_texts(const Report *report, ReportTexts *texts);
+
+// The error of a picture that was measured against a reference, on stream.
+void report_write_error(const Report *report, FILE *stream);
 
 // The figures the course prints, on stream.
 void report_write_text(const Report *report, FILE *stream);

@@ -20,6 +20,7 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
+    Framebuffer reference; // empty unless one was asked for
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

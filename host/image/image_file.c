@@ -53,6 +53,11 @@ const char *image_format_of_path(const char *path)
     return dot == NULL || strchr(dot, '/') != NULL ? NULL : image_format_named(dot + 1);
 }
 
+bool image_format_is_float(const char *format)
+{
+    return find_format(format)->is_float;
+}
+
 const char *image_format_names(void)
 {
 #ifdef CLRT_WITH_OPENIMAGEIO

@@ -26,6 +26,9 @@ const char *image_format_of_path(const char *path);
 // The format called name (also jpeg, tiff), NULL where clrt does not write it.
 const char *image_format_named(const char *name);
 
+// Whether a format that clrt writes holds floats.
+bool image_format_is_float(const char *format);
+
 // All format names this build writes, for messages.
 const char *image_format_names(void);
 

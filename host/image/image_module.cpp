@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -52,7 +53,72 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     return message.empty() && ok;
 }
 
+bool check_head(const OIIO::ImageSpec &spec, uint64_t values_max, std::string &message)
+{
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1)
+        message = "it holds no flat picture";
+    else if (spec.deep)
+        message = "deep pictures are not read";
+    else if (spec.nchannels > IMAGE_MODULE_CHANNELS ||
+             uint64_t(spec.width) * uint64_t(spec.height) > values_max / uint64_t(spec.nchannels))
+        message = "it is too large";
+    return message.empty();
+}
+
+void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
+{
+    content.width = uint32_t(spec.width);
+    content.height = uint32_t(spec.height);
+    content.channel_count = uint32_t(spec.nchannels);
+    content.is_8_bit = spec.format == OIIO::TypeDesc::UINT8;
+    for (int i = 0; i < spec.nchannels; i++)
+        std::snprintf(content.names[i], sizeof content.names[i], "%s",
+                      spec.channel_name(i).c_str());
+    std::snprintf(content.settings, sizeof content.settings, "%s",
+                  std::string(spec.get_string_attribute("clrt:settings")).c_str());
+}
+
+bool read_picture(const char *path, const char *format, ImageModuleContent &content,
+                  std::string &message)
+{
+    auto input = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec spec;
+    if (!input || !input->open(path, spec)) {
+        message = input ? input->geterror() : OIIO::geterror();
+        return false;
+    }
+    if (!check_head(spec, content.values_max, message))
+        return false;
+    fill_head(spec, content);
+    const OIIO::TypeDesc type = content.is_8_bit ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+    content.values = std::malloc(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels) *
+                                 type.size());
+    if (content.values == nullptr) {
+        message = "memory ran out";
+        return false;
+    }
+    const bool ok = input->read_image(0, 0, 0, spec.nchannels, type, content.values);
+    message = input->geterror();
+    return ok;
+}
+
 } // namespace
+
+int clrt_image_module_read(const char *path, const char *format, ImageModuleContent *content,
+                           char *message, size_t message_size)
+{
+    std::string text;
+    bool ok = false;
+    try {
+        ok = read_picture(path, format, *content, text);
+    } catch (const std::exception &failure) {
+        text = failure.what();
+    } catch (...) {
+        text = "an unknown exception";
+    }
+    std::snprintf(message, message_size, "%s", text.c_str());
+    return ok;
+}
 
 int clrt_image_module_write(const ImageModulePicture *picture, char *message, size_t message_size)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,6 +23,27 @@ typedef struct {
 typedef int ImageModuleWrite(const ImageModulePicture *picture, char *message, size_t message_size);
 #define IMAGE_MODULE_WRITE "clrt_image_module_write"
 ImageModuleWrite clrt_image_module_write;
+
+#define IMAGE_MODULE_CHANNELS      64
+#define IMAGE_MODULE_NAME_SIZE     32
+#define IMAGE_MODULE_SETTINGS_SIZE 512
+
+/* What a file holds. */
+typedef struct {
+    uint64_t values_max; /* larger pictures are refused */
+    uint32_t width, height, channel_count;
+    int is_8_bit;
+    char names[IMAGE_MODULE_CHANNELS][IMAGE_MODULE_NAME_SIZE];
+    char settings[IMAGE_MODULE_SETTINGS_SIZE]; /* the text clrt:settings */
+    void *values; /* unsigned char or float, all channels of a pixel together, top row first */
+} ImageModuleContent;
+
+/* Reads the file of OpenImageIO's format; 0 and a message where it cannot.  The values stay for as
+   long as the process, which reads nothing else. */
+typedef int ImageModuleRead(const char *path, const char *format, ImageModuleContent *content,
+                            char *message, size_t message_size);
+#define IMAGE_MODULE_READ "clrt_image_module_read"
+ImageModuleRead clrt_image_module_read;
 
 #ifdef __cplusplus
 }

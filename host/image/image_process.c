@@ -4,12 +4,11 @@
 #include "image/image_process.h"
 
 #include "base/array.h"
+#include "image/open_module.h"
+#include "image/socket.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <libgen.h>
-#include <limits.h>
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -33,56 +32,6 @@ typedef struct {
 } Answer;
 
 static int channel = -1; // to the process, in the one that started it
-
-// The module lies beside the program in a build tree and under the library folder once installed.
-static ImageModuleWrite *open_module(Error *cause)
-{
-    char program[PATH_MAX], path[2 * PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = '\0';
-    const char *folder = dirname(program);
-    snprintf(path, sizeof path, "%s/%s", folder, CLRT_IMAGE_MODULE);
-    if (access(path, R_OK) != 0)
-        snprintf(path, sizeof path, "%s/%s/%s", folder, CLRT_IMAGE_MODULE_FOLDER,
-                 CLRT_IMAGE_MODULE);
-    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    ImageModuleWrite *write = NULL;
-    if (module != NULL)
-        *(void **)&write = dlsym(module, IMAGE_MODULE_WRITE);
-    if (write == NULL)
-        error_set(cause, "the picture module cannot be opened: %s", dlerror());
-    return write;
-}
-
-static bool send_bytes(int socket, const void *bytes, size_t size)
-{
-    const char *next = bytes;
-    while (size > 0) {
-        const ssize_t sent = send(socket, next, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR)
-            continue;
-        if (sent <= 0)
-            return false;
-        next += sent;
-        size -= (size_t)sent;
-    }
-    return true;
-}
-
-static bool receive_bytes(int socket, void *bytes, size_t size)
-{
-    char *next = bytes;
-    while (size > 0) {
-        const ssize_t received = recv(socket, next, size, 0);
-        if (received < 0 && errno == EINTR)
-            continue;
-        if (received <= 0)
-            return false;
-        next += received;
-        size -= (size_t)received;
-    }
-    return true;
-}
 
 static size_t pixel_size(const ImageModulePicture *picture)
 {
@@ -110,10 +59,10 @@ static bool send_request(const ImageModulePicture *picture)
                        .pixel_size = pixel_size(picture)};
     for (size_t i = 0; i < string_count(picture); i++)
         request.string_size += strlen(string_at(picture, i)) + 1;
-    bool ok = send_bytes(channel, &request, sizeof request);
+    bool ok = socket_send(channel, &request, sizeof request);
     for (size_t i = 0; ok && i < string_count(picture); i++)
-        ok = send_bytes(channel, string_at(picture, i), strlen(string_at(picture, i)) + 1);
-    return ok && send_bytes(channel, picture->pixels, request.pixel_size);
+        ok = socket_send(channel, string_at(picture, i), strlen(string_at(picture, i)) + 1);
+    return ok && socket_send(channel, picture->pixels, request.pixel_size);
 }
 
 // Gives the picture its pointers into the strings; texts has room for all of them.
@@ -142,14 +91,14 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     void *pixels = memory_raw(request->pixel_size, 1, &error);
     const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
     const bool held = strings != NULL && pixels != NULL && texts != NULL;
-    bool ok = held && receive_bytes(socket, strings, request->string_size) &&
-              receive_bytes(socket, pixels, request->pixel_size);
+    bool ok = held && socket_receive(socket, strings, request->string_size) &&
+              socket_receive(socket, pixels, request->pixel_size);
     if (ok) {
         place_strings(&picture, strings, texts);
         picture.pixels = pixels;
         snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
         answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
-        ok = send_bytes(socket, &answer, sizeof answer);
+        ok = socket_send(socket, &answer, sizeof answer);
     }
     free(strings);
     free(pixels);
@@ -171,8 +120,8 @@ static _Noreturn void serve(int socket, pid_t parent)
     const int nothing = open("/dev/null", O_RDWR);
     dup2(nothing, STDIN_FILENO);
     dup2(nothing, STDOUT_FILENO);
-    ImageModuleWrite *write = open_module(&failure);
-    while (receive_bytes(socket, &request, sizeof request) &&
+    ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, &failure);
+    while (socket_receive(socket, &request, sizeof request) &&
            answer_request(socket, &request, write, &failure))
         continue;
     _exit(0);
@@ -199,7 +148,7 @@ void image_process_start(void)
 static bool write_here(const ImageModulePicture *picture, Error *cause)
 {
     char message[512] = "";
-    ImageModuleWrite *write = open_module(cause);
+    ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, cause);
     return write != NULL &&
            (write(picture, message, sizeof message) || error_set(cause, "%s", message));
 }
@@ -209,7 +158,7 @@ bool image_process_write(const ImageModulePicture *picture, Error *cause)
     Answer answer;
     if (channel < 0 || pixel_size(picture) > LARGEST_SENT)
         return write_here(picture, cause);
-    if (!send_request(picture) || !receive_bytes(channel, &answer, sizeof answer))
+    if (!send_request(picture) || !socket_receive(channel, &answer, sizeof answer))
         return error_set(cause, "the process that writes pictures has ended");
     return answer.ok || error_set(cause, "%s", answer.message);
 }

@@ -2,6 +2,10 @@
 // Needs no library, so it is there in every build.
 #include "image/pfm.h"
 
+#include "base/number.h"
+
+#include <string.h>
+
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream)
 {
     fprintf(stream, "PF\n%u %u\n-1.0\n", framebuffer->width, framebuffer->height);
@@ -9,4 +13,75 @@ bool pfm_write(const Framebuffer *framebuffer, FILE *stream)
         fwrite(framebuffer->pixels[(size_t)row * framebuffer->width], sizeof(float[3]),
                framebuffer->width, stream);
     return fflush(stream) == 0 && !ferror(stream);
+}
+
+static bool is_space(int c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+// A word of the header, and the one white character that ends it.
+static bool read_word(FILE *stream, char word[32])
+{
+    size_t length = 0;
+    int c = getc(stream);
+    while (is_space(c))
+        c = getc(stream);
+    while (c != EOF && !is_space(c) && length < 31) {
+        word[length++] = (char)c;
+        c = getc(stream);
+    }
+    word[length] = '\0';
+    return length > 0 && is_space(c);
+}
+
+static bool read_header(StoredImage *image, FILE *stream, double *scale, Error *cause)
+{
+    char kind[32], words[3][32];
+    int64_t sides[2];
+    bool ok = read_word(stream, kind) && (strcmp(kind, "PF") == 0 || strcmp(kind, "Pf") == 0);
+    for (int i = 0; ok && i < 3; i++) {
+        ok = read_word(stream, words[i]);
+        const char *end = words[i] + strlen(words[i]);
+        ok = ok && (i < 2 ? integer_parse(words[i], end, &sides[i]) == end && sides[i] > 0
+                          : number_parse(words[i], end, scale) == end && *scale != 0);
+    }
+    if (!ok)
+        return error_set(cause, "its header is not that of a PFM");
+    const uint32_t channels = kind[1] == 'F' ? 3 : 1;
+    if (!stored_image_check_size((uint64_t)sides[0], (uint64_t)sides[1], channels, cause))
+        return false;
+    *image = (StoredImage){.width = (uint32_t)sides[0],
+                           .height = (uint32_t)sides[1],
+                           .channel_count = channels,
+                           .names = {"Y"}};
+    for (uint32_t i = 0; channels == 3 && i < 3; i++)
+        image->names[i][0] = "RGB"[i];
+    return true;
+}
+
+static void swap_bytes(float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        bits = __builtin_bswap32(bits);
+        memcpy(&values[i], &bits, sizeof bits);
+    }
+}
+
+bool pfm_read(StoredImage *image, FILE *stream, Error *cause)
+{
+    double scale;
+    if (!read_header(image, stream, &scale, cause) || !stored_image_allocate(image, cause))
+        return false;
+    const size_t row_values = (size_t)image->width * image->channel_count;
+    for (uint32_t row = image->height; row-- > 0;) {
+        float *values = image->values + row * row_values;
+        if (fread(values, sizeof *values, row_values, stream) != row_values)
+            return error_set(cause, "it ends early");
+        if (scale > 0)
+            swap_bytes(values, row_values);
+    }
+    return true;
 }

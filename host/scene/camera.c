@@ -29,3 +29,12 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
     store(camera.down_step, vec3_scale(down, half_step));
     return camera;
 }
+
+void camera_shift(CameraData *camera, double right, double down)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double step =
+            right * (double)camera->right_step[axis] + down * (double)camera->down_step[axis];
+        camera->forward[axis] = (float)((double)camera->forward[axis] + 2 * step);
+    }
+}

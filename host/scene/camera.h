@@ -10,3 +10,6 @@
 // pixel and axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t height, uint32_t samples);
+
+// Moves all samples right and down, by parts of the distance between two.
+void camera_shift(CameraData *camera, double right, double down);

@@ -8,6 +8,7 @@ import hashlib
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -21,6 +22,7 @@ PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
+COMPARE = ["compare", "black.pfm", "white.pfm"]
 
 # Words without the option, and words with it, which must be seen to differ: in the picture where the
 # option asks for another one, so these write no statistics, which repeat the settings.
@@ -50,11 +52,14 @@ TRIALS = {
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
     "warm": ([], ["--warm"]),
     "stats": (PLAIN, PICTURE),
+    "reference": (PICTURE, PICTURE + ["--reference"]),
+    "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
     "frames": (PICTURE, PICTURE + ["--frames", "2"]),
     "bad-geometry": (
         [FLAT, "-s", "8x8", "-o", "a.pfm"],
         [FLAT, "-s", "8x8", "-o", "a.pfm", "--bad-geometry", "fail"],
     ),
+    "fail": (COMPARE, COMPARE + ["--fail", "max=0.5"]),
     "json": (CHECK, CHECK + ["--json"]),
     "quiet": (CHECK, CHECK + ["-q"]),
     "verbose": (PICTURE, PICTURE + ["-v"]),
@@ -76,6 +81,7 @@ def listed_options():
 
 def statistics(path):
     report = json.loads(path.read_text())
+    (report.get("reference") or {}).pop("seconds", None)
     frames = len(report.get("frame_seconds", []))
     return {key: value for key, value in report.items() if key not in MEASURED} | {"frames": frames}
 
@@ -90,6 +96,9 @@ def observe_words(words):
             "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
             "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n"
         )
+        for color, value in ("black", 0), ("white", 1):
+            pixel = struct.pack("<3f", *[value] * 3)
+            (folder / f"{color}.pfm").write_bytes(b"PF\n1 1\n-1.0\n" + pixel)
         done = subprocess.run([CLRT, *words], cwd=folder, capture_output=True, timeout=300)
         streams = [re.sub(rb"\d+\.\d+ s", b"", stream) for stream in (done.stdout, done.stderr)]
         files = {

@@ -137,7 +137,7 @@ class Schemas(Run):
         jsonschema.validate(json.loads(text), schema, cls=jsonschema.Draft202012Validator)
 
     def test_statistics_are_as_their_schema_says(self):
-        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"]):
+        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"], ["--reference"]):
             done = self.clrt(*SMALL, "-o", "a.pfm", "--stats=-", *words)
             self.validate("statistics", done.stdout)
         mesh = ["open.ply", "-s", "8x8", "-o", "a.pfm", "--stats=-"]
@@ -150,6 +150,13 @@ class Schemas(Run):
         self.validate("check", self.clrt("check", "open.ply", "--json", **without).stdout)
         (self.work / "empty.scn").write_text("")
         self.validate("check", self.clrt("check", "empty.scn", "--json").stdout)
+
+    def test_comparisons_are_as_their_schema_says(self):
+        for file, words in ("a.pfm", []), ("b.pfm", ["--aa"]):
+            self.clrt(*SMALL, "-o", file, *words)
+        limits = ["--json", "--fail", "rmse=1,psnr=99,max=0,share1=0,share4=0"]
+        for other in "a.pfm", "b.pfm":
+            self.validate("compare", self.clrt("compare", "a.pfm", other, *limits).stdout)
 
     def test_devices_are_as_their_schema_says(self):
         self.validate("devices", self.clrt("--list-devices=json").stdout)
@@ -167,6 +174,11 @@ class ExitStatus(Run):
 
     def test_1_is_a_check_that_found_faults(self):
         self.assertEqual(self.clrt("check", "open.ply").returncode, 1)
+
+    def test_1_is_a_comparison_whose_limits_are_broken(self):
+        for file, words in ("a.pfm", []), ("b.pfm", ["--aa"]):
+            self.clrt(*SMALL, "-o", file, *words)
+        self.assertEqual(self.clrt("compare", "a.pfm", "b.pfm", "--fail", "max=0").returncode, 1)
 
     def test_2_is_a_command_line_that_is_not_understood(self):
         self.assertEqual(self.clrt("--nonsense").returncode, 2)

@@ -34,11 +34,23 @@ static void the_eye_moves_with_the_frame_and_directions_do_not(void **state)
     assert_true(camera.forward[0] == -1);
 }
 
+static void a_shift_moves_samples_by_parts_of_their_distance(void **state)
+{
+    (void)state;
+    CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
+    camera_shift(&camera, 0.5, -0.25);
+    // Samples lie two half steps apart.
+    assert_float_equal(camera.forward[1], 0.01, 1e-9);
+    assert_float_equal(camera.forward[2], 0.005, 1e-9);
+    assert_true(camera.forward[0] == -1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(right_and_down_span_the_image_plane),
         cmocka_unit_test(samples_divide_the_step),
+        cmocka_unit_test(a_shift_moves_samples_by_parts_of_their_distance),
         cmocka_unit_test(the_eye_moves_with_the_frame_and_directions_do_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

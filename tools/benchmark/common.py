@@ -13,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 COURSE = ROOT.parent / "shared" / "course" / "scenes"
 BUILD = ROOT / "build" / "release"
-CLRT = str(BUILD / "clrt")
+CLRT = os.environ.get("CLRT", str(BUILD / "clrt"))
 
 
 def compile_ahead():

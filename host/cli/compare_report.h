@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What a comparison measured, as text and as JSON.
+#pragma once
+
+#include "compare/limits.h"
+
+#include <stdio.h>
+
+typedef struct {
+    const ImagePair *pair;
+    const Difference *difference;
+    const Limits *limits;
+} CompareReport;
+
+// Whether the difference keeps within all limits.
+bool compare_report_is_kept(const CompareReport *report);
+
+void compare_report_write_text(const CompareReport *report, FILE *stream);
+
+// Versioned JSON with sorted keys, at path ("-": standard output).
+bool compare_report_write_json(const CompareReport *report, const char *path, Error *error);

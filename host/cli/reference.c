@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// A pass draws one sample a pixel, all shifted alike: half of the passes make each of two pictures,
+// whose difference tells the reference's own error.  Shifts follow two additive recurrences by the
+// powers of the plastic number (Roberts's R2), one for each half with a start of its own, so that
+// the halves' errors are independent, and neither shares samples with an N x N grid of sub-pixel
+// centers.  A shift is the camera's: the kernels are those of every picture.
+#include "cli/reference.h"
+
+#include "base/clock.h"
+#include "image/image_file.h"
+#include "scene/camera.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define ACROSS 0.7548776662466927
+#define DOWN   0.5698402909980532
+
+// The second run, of which the halves are made.
+typedef struct {
+    Options options;
+    Run run;
+    double (*halves[2])[3]; // sums of the passes
+    Progress progress;
+    uint32_t passes, passes_done;
+    bool stopped;
+} Reference;
+
+static const double starts[2][2] = {{0.1327, 0.6180}, {0.8241, 0.2936}};
+
+static double part(double value)
+{
+    return value - floor(value);
+}
+
+static Options options_of(const Options *picture)
+{
+    Options options = *picture;
+    options.kernel = (KernelWish){.choice.precision = PRECISION_FP64};
+    options.samples = 1;
+    options.group_width = options.group_height = 0;
+    options.statistics = false;
+    options.quiet = true;
+    return options;
+}
+
+static bool open_run(Reference *reference, const Run *picture, Error *error)
+{
+    Run *run = &reference->run;
+    reference->options = options_of(picture->options);
+    run->options = &reference->options;
+    run->cache = picture->cache;
+    run_begin(run);
+    if (!run_load_scene(run, error)) {
+        starter_decide(&run->starter, false);
+        return false;
+    }
+    if (run->settings.max_level < run->scene.max_level)
+        run->settings.max_level = run->scene.max_level;
+    return run_await_device(run, error) && run_build_scene(run, error) &&
+           run_open_renderer(run, error) &&
+           framebuffer_make(&run->framebuffer, run->settings.width, run->settings.height, error);
+}
+
+// All passes are one progress.
+static bool tile_done(void *context, const RenderProgress *progress)
+{
+    Reference *reference = context;
+    const RenderProgress whole = {.tiles_done = reference->passes_done * progress->tiles +
+                                                progress->tiles_done,
+                                  .tiles = reference->passes * progress->tiles};
+    reference->stopped = !progress_tile_done(&reference->progress, &whole);
+    return !reference->stopped;
+}
+
+static bool draw_pass(Reference *reference, uint32_t pass, Error *error)
+{
+    Run *run = &reference->run;
+    const int half = (int)(pass % 2);
+    const double place = pass / 2; // in its half
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    CameraData camera = camera_make(viewpoint, &run->normalization, run->settings.height, 1);
+    camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
+                 part(starts[half][1] + place * DOWN) - 0.5);
+    const RenderObserver observer = {tile_done, reference};
+    if (!renderer_draw(&run->renderer, &camera, &observer, &run->framebuffer, error))
+        return false;
+    const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        for (int color = 0; color < 3; color++)
+            reference->halves[half][pixel][color] += (double)run->framebuffer.pixels[pixel][color];
+    return true;
+}
+
+static bool draw_passes(Reference *reference, Run *picture, Error *error)
+{
+    bool ok = true;
+    reference->progress = progress_begin(picture->options->quiet);
+    for (uint32_t pass = 0; ok && !reference->stopped && pass < reference->passes; pass++) {
+        ok = draw_pass(reference, pass, error);
+        reference->passes_done++;
+    }
+    picture->stopped_by = progress_end(&reference->progress);
+    return ok;
+}
+
+// Stores the mean of the halves, and returns the error of it that their difference tells.
+static double join_halves(const Reference *reference, Framebuffer *mean)
+{
+    const size_t pixels = (size_t)mean->width * mean->height;
+    const double passes = reference->passes;
+    double squares = 0;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        for (int color = 0; color < 3; color++) {
+            const double one = reference->halves[0][pixel][color],
+                         other = reference->halves[1][pixel][color];
+            mean->pixels[pixel][color] = (float)((one + other) / passes);
+            squares += (one - other) * (one - other) / (passes * passes);
+        }
+    return sqrt(squares / (3 * (double)pixels));
+}
+
+// The picture's values, borrowed.
+static StoredImage stored_view(const Framebuffer *framebuffer)
+{
+    return (StoredImage){.width = framebuffer->width,
+                         .height = framebuffer->height,
+                         .channel_count = 3,
+                         .names = {"R", "G", "B"},
+                         .values = framebuffer->pixels[0]};
+}
+
+static bool measure(Reference *reference, Run *picture, Error *error)
+{
+    ReferenceResult *result = &picture->report.reference;
+    const StoredImage drawn = stored_view(&picture->framebuffer);
+    if (!framebuffer_make(&picture->reference, drawn.width, drawn.height, error))
+        return false;
+    result->own_error = join_halves(reference, &picture->reference);
+    result->samples = reference->passes;
+    const StoredImage truth = stored_view(&picture->reference);
+    ImagePair pair = {{&truth, &drawn}, {"the reference", "the picture"}, {{0}}};
+    if (!image_pair_check(&pair, error))
+        return false;
+    difference_measure(&result->difference, &pair);
+    return true;
+}
+
+static bool draw_and_measure(Reference *reference, Run *picture, Error *error)
+{
+    const size_t pixels = (size_t)picture->settings.width * picture->settings.height;
+    for (int half = 0; half < 2; half++) {
+        reference->halves[half] = memory_zeroed(pixels, sizeof *reference->halves[half], error);
+        if (reference->halves[half] == NULL)
+            return false;
+    }
+    return open_run(reference, picture, error) && draw_passes(reference, picture, error) &&
+           (picture->stopped_by != 0 || measure(reference, picture, error));
+}
+
+bool reference_measure(Run *run, Error *error)
+{
+    if (run->stopped_by != 0)
+        return true;
+    const double start = clock_seconds();
+    Reference *reference = memory_zeroed(1, sizeof *reference, error);
+    if (reference == NULL)
+        return false;
+    reference->passes = (run->options->reference_samples + 1) / 2 * 2;
+    const bool ok = draw_and_measure(reference, run, error);
+    run->report.reference.seconds = clock_seconds() - start;
+    for (int half = 0; half < 2; half++)
+        free(reference->halves[half]);
+    run_free(&reference->run);
+    free(reference);
+    return ok;
+}
+
+bool reference_write(const Run *run, const char *path, Error *error)
+{
+    const ImageSettings settings = {.format = image_format_of_path(path),
+                                    .encoding = run->options->encoding};
+    return image_write(&run->reference, path, &settings, error);
+}

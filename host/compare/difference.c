@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// One pass, in doubles: rows are summed apart, so that sums of millions stay exact to 12 digits.
+#include "compare/difference.h"
+
+#include <math.h>
+#include <string.h>
+
+static float value_at(const StoredImage *image, size_t pixel, uint32_t channel)
+{
+    return image->values[pixel * image->channel_count + channel];
+}
+
+double image_pair_difference(const ImagePair *pair, size_t pixel, int color)
+{
+    return (double)value_at(pair->images[1], pixel, pair->colors[1][color]) -
+           (double)value_at(pair->images[0], pixel, pair->colors[0][color]);
+}
+
+static bool check_finite(const ImagePair *pair, int side, Error *error)
+{
+    const StoredImage *image = pair->images[side];
+    const size_t pixels = (size_t)image->width * image->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        for (int color = 0; color < 3; color++)
+            if (!isfinite(value_at(image, pixel, pair->colors[side][color])))
+                return error_set(error, "%s: %s of pixel %zu,%zu is not finite", pair->paths[side],
+                                 image->names[pair->colors[side][color]], pixel % image->width,
+                                 pixel / image->width);
+    return true;
+}
+
+bool image_pair_check(ImagePair *pair, Error *error)
+{
+    const StoredImage *a = pair->images[0], *b = pair->images[1];
+    if (a->width != b->width || a->height != b->height)
+        return error_set(error, "%s has %u x %u pixels and %s has %u x %u", pair->paths[0],
+                         a->width, a->height, pair->paths[1], b->width, b->height);
+    for (int side = 0; side < 2; side++) {
+        if (!stored_image_colors(pair->images[side], pair->colors[side]))
+            return error_set(error, "%s: it has no channels R, G and B", pair->paths[side]);
+        if (!check_finite(pair, side, error))
+            return false;
+    }
+    return true;
+}
+
+// Adds a pixel, and returns the sum of its squares.
+static double add_pixel(Difference *difference, const ImagePair *pair, size_t pixel)
+{
+    double squares = 0, largest = 0;
+    for (int color = 0; color < 3; color++) {
+        const double off = fabs(image_pair_difference(pair, pixel, color));
+        squares += off * off;
+        largest = fmax(largest, off);
+        if (off > difference->maximum) {
+            difference->maximum = off;
+            difference->maximum_x = (uint32_t)(pixel % difference->width);
+            difference->maximum_y = (uint32_t)(pixel / difference->width);
+            difference->maximum_color = (uint32_t)color;
+        }
+    }
+    difference->off_by_1 += largest > 1 / 255.0 + DIFFERENCE_ROUNDING;
+    difference->off_by_4 += largest > 4 / 255.0 + DIFFERENCE_ROUNDING;
+    return squares;
+}
+
+// Ids are compared, not measured: by their bits, whatever type they had.
+static void count_hits(Difference *difference, const ImagePair *pair)
+{
+    int places[2];
+    for (int side = 0; side < 2; side++)
+        places[side] = stored_image_channel(pair->images[side], DIFFERENCE_HITS);
+    difference->has_hits = places[0] >= 0 && places[1] >= 0;
+    for (size_t pixel = 0; difference->has_hits && pixel < difference->pixels; pixel++) {
+        const float ids[] = {value_at(pair->images[0], pixel, (uint32_t)places[0]),
+                             value_at(pair->images[1], pixel, (uint32_t)places[1])};
+        difference->wrong_hits += memcmp(&ids[0], &ids[1], sizeof ids[0]) != 0;
+    }
+}
+
+void difference_measure(Difference *difference, const ImagePair *pair)
+{
+    const StoredImage *image = pair->images[0];
+    *difference = (Difference){.width = image->width,
+                               .height = image->height,
+                               .pixels = (uint64_t)image->width * image->height};
+    double squares = 0;
+    for (size_t row = 0; row < image->height; row++) {
+        double row_squares = 0;
+        for (size_t column = 0; column < image->width; column++)
+            row_squares += add_pixel(difference, pair, row * image->width + column);
+        squares += row_squares;
+    }
+    difference->rmse = sqrt(squares / (3 * (double)difference->pixels));
+    count_hits(difference, pair);
+}
+
+double difference_psnr(const Difference *difference)
+{
+    return -20 * log10(difference->rmse);
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Only formats that clrt writes come near a decoder: OpenImageIO has many more, and each is a way
+// in for hostile files.
+#include "image/image_read.h"
+
+#include "image/image_reader.h"
+#include "image/pfm.h"
+#include "image/png_load.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    const char *start;
+    size_t length;
+    const char *module; // OpenImageIO's name of the format
+} Signature;
+
+#ifdef CLRT_WITH_OPENIMAGEIO
+static const Signature signatures[] = {
+    {"\xff\xd8\xff", 3, "jpeg"},
+    {"II*\0", 4, "tiff"},
+    {"MM\0*", 4, "tiff"},
+    {"\x76\x2f\x31\x01", 4, "openexr"},
+    {"#?", 2, "hdr"},
+    {"P3", 2, "pnm"},
+    {"P6", 2, "pnm"},
+    {"P5", 2, "pnm"},
+    {"P2", 2, "pnm"},
+};
+#define READABLE "PNG, JPEG, TIFF, PPM, EXR, HDR or PFM"
+#else
+static const Signature signatures[] = {{"", SIZE_MAX, NULL}};
+#define READABLE "PNG or PFM, which is all that this build reads"
+#endif
+
+static const char *module_format(const char *start, size_t length)
+{
+    for (size_t i = 0; i < sizeof signatures / sizeof signatures[0]; i++)
+        if (length >= signatures[i].length &&
+            memcmp(start, signatures[i].start, signatures[i].length) == 0)
+            return signatures[i].module;
+    return NULL;
+}
+
+static bool read_stream(StoredImage *image, FILE *stream, const char *path, Error *cause)
+{
+    char start[8];
+    const size_t length = fread(start, 1, sizeof start, stream);
+    if (ferror(stream) || fseek(stream, 0, SEEK_SET) != 0)
+        return error_set(cause, "%s", strerror(errno));
+    if (length == 8 && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0)
+        return png_load(image, stream, cause);
+    if (length >= 2 && start[0] == 'P' && (start[1] == 'F' || start[1] == 'f'))
+        return pfm_read(image, stream, cause);
+    const char *format = module_format(start, length);
+    if (format == NULL)
+        return error_set(cause, "it is no %s", READABLE);
+    return image_reader_run(image, path, format, cause);
+}
+
+bool image_read(StoredImage *image, const char *path, Error *error)
+{
+    *image = (StoredImage){0};
+    Error cause = {0};
+    FILE *stream = fopen(path, "rb");
+    const bool ok = stream != NULL ? read_stream(image, stream, path, &cause)
+                                   : error_set(&cause, "%s", strerror(errno));
+    if (stream != NULL)
+        fclose(stream);
+    if (ok)
+        return true;
+    stored_image_free(image);
+    return error_set(error, "%s: cannot be read: %s", path, cause.text);
+}

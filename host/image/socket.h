@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Whole messages between two processes over a pair of sockets.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// False where the other side is gone.
+bool socket_send(int socket, const void *bytes, size_t size);
+bool socket_receive(int socket, void *bytes, size_t size);

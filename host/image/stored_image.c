@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Sizes are checked before anything is allocated for them: they come from files.
+#include "image/stored_image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void stored_image_free(StoredImage *image)
+{
+    free(image->values);
+    *image = (StoredImage){0};
+}
+
+bool stored_image_check_size(uint64_t width, uint64_t height, uint64_t channels, Error *cause)
+{
+    if (width < 1 || height < 1 || channels < 1)
+        return error_set(cause, "it has no pixels");
+    if (width > STORED_SIDE_MAX || height > STORED_SIDE_MAX || channels > STORED_CHANNELS_MAX ||
+        width * height > STORED_VALUES_MAX / channels)
+        return error_set(cause, "%llu x %llu pixels of %llu channels are too many",
+                         (unsigned long long)width, (unsigned long long)height,
+                         (unsigned long long)channels);
+    return true;
+}
+
+bool stored_image_allocate(StoredImage *image, Error *cause)
+{
+    if (!stored_image_check_size(image->width, image->height, image->channel_count, cause))
+        return false;
+    const size_t pixels = (size_t)image->width * image->height;
+    image->values = memory_raw(pixels * image->channel_count, sizeof *image->values, cause);
+    return image->values != NULL;
+}
+
+int stored_image_channel(const StoredImage *image, const char *name)
+{
+    for (uint32_t i = 0; i < image->channel_count; i++)
+        if (strcmp(image->names[i], name) == 0)
+            return (int)i;
+    return -1;
+}
+
+bool stored_image_colors(const StoredImage *image, uint32_t places[3])
+{
+    const char *const names[] = {"R", "G", "B"};
+    const int gray = stored_image_channel(image, "Y");
+    for (int i = 0; i < 3; i++) {
+        const int place = stored_image_channel(image, names[i]);
+        if (place < 0 && gray < 0)
+            return false;
+        places[i] = (uint32_t)(place < 0 ? gray : place);
+    }
+    return true;
+}
+
+void stored_image_values(const unsigned char *bytes, size_t count, float *values)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = (float)bytes[i] / 255;
+}

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# --reference: what it says of pictures whose error is known to fall, and of itself.
+# Usage: CLRT=path/to/clrt test_reference.sh SOURCE_FOLDER WORK_FOLDER
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+source=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+# shellcheck source=tests/cli/checks.sh
+. "$here/checks.sh"
+
+# An expression over the reports that follow it: r, s, t.
+holds() {
+  python3 - "$@" <<'END'
+import json, sys
+reports = [json.load(open(name))["reference"] for name in sys.argv[2:]]
+sys.exit(not eval(sys.argv[1], dict(zip("rst", reports))))
+END
+}
+same() { run 0 compare "$1" "$2" --fail max=0; }
+
+scene="$source/scenes/reflections.scn"
+small=(-s 96x72 -o a.pfm)
+check "a picture is measured" run 0 "$scene" "${small[@]}" --reference=one.pfm --stats=one.json
+check "... which is said" grep -q "^RMSE .* largest difference .* 1/255: .* 4/255: " err
+check "... with the reference's samples and own error" grep -q "^reference: fp64, 256 samples a pixel, RMSE .* by itself" err
+"$CLRT" "$scene" -s 96x72 -q -o plain.pfm
+check "... and is the same picture" same a.pfm plain.pfm
+run 0 compare a.pfm one.pfm --json
+check "... whose error is the difference of the two files" python3 -c "
+import json
+r, d = json.load(open('one.json'))['reference'], json.load(open('out'))
+assert abs(r['rmse'] - d['rmse']) < 1e-12 and abs(r['maximum'] - d['maximum']['value']) < 1e-12
+assert r['share_off_by_1'] == d['off_by_1']['share'] and r['share_off_by_4'] == d['off_by_4']['share']"
+check "more samples are measured too" run 0 "$scene" "${small[@]}" --aa=2 --reference=two.pfm --stats=two.json
+check "... against the same reference" same one.pfm two.pfm
+check "and more" run 0 "$scene" "${small[@]}" --aa=4 --reference --stats=four.json
+check "the error falls as samples grow" holds "r['rmse'] > 1.8 * s['rmse'] > 3 * t['rmse'] > 0" one.json two.json four.json
+check "the reference is better by itself" holds "t['own_error'] < 0.4 * t['rmse']" one.json two.json four.json
+check "a finer reference is drawn" run 0 "$scene" "${small[@]}" --aa=4 --reference=fine.pfm --reference-samples 2047 --stats=fine.json
+check "... of an even number of samples" holds "r['samples'] == 2048" fine.json
+check "... that tells the same error" holds "abs(r['rmse'] / s['rmse'] - 1) < 0.08" fine.json four.json
+check "... and less of its own" holds "r['own_error'] < 0.4 * s['own_error']" fine.json four.json
+run 0 compare one.pfm fine.pfm --json=own.json
+check "the error it tells of itself is the error it has" python3 -c "
+import json
+told, found = json.load(open('one.json'))['reference']['own_error'], json.load(open('own.json'))['rmse']
+assert 0.6 < found / told < 1.6, (found, told)"
+check "another grid of samples agrees" run 0 "$scene" -s 96x72 -q -o grid.pfm --aa=24 --precision fp64
+check "... within what both are off by" run 0 compare grid.pfm fine.pfm --fail rmse=0.0006
+
+check "bounces left out are an error" run 0 "$scene" "${small[@]}" --aa=4 --max-level 1 --reference --stats=level.json
+check "... large enough to be seen" holds "r['rmse'] > 3 * s['rmse']" level.json four.json
+check "a quiet run says nothing" run 0 "$scene" "${small[@]}" -q --reference --reference-samples 2
+check "... at all" test ! -s err
+check "without one the report has none" run 0 "$scene" "${small[@]}" -q --stats=none.json
+check "... and says so" python3 -c "import json; assert json.load(open('none.json'))['reference'] is None"
+check "the reference's file is checked before" run 5 "$scene" "${small[@]}" --reference=none/a.pfm
+check "... and its ending" run 2 "$scene" "${small[@]}" --reference=a.nothing
+check "samples are counted from 1" run 2 "$scene" "${small[@]}" --reference-samples 0
+
+echo "$checks checks, $failures failures"
+[ "$failures" = 0 ]

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""The Python packages that the perceptual figures and the page want, pinned, in a virtual
+environment of their own under build/."""
+
+import hashlib
+import os
+import pathlib
+import subprocess
+import sys
+
+from benchmark import common
+
+REQUIREMENTS = pathlib.Path(__file__).with_name("requirements.txt")
+FOLDER = common.ROOT / "build" / "trade-venv"
+
+
+def is_inside():
+    return pathlib.Path(sys.prefix) == FOLDER
+
+
+def install():
+    """Makes the environment; the reason where that fails, None where it stands."""
+    stamp = FOLDER / "installed"
+    wanted = hashlib.sha256(REQUIREMENTS.read_bytes()).hexdigest()
+    if stamp.exists() and stamp.read_text() == wanted:
+        return None
+    steps = [[sys.executable, "-m", "venv", "--clear", str(FOLDER)],
+             [str(FOLDER / "bin" / "pip"), "install", "-q", "--disable-pip-version-check",
+              "--only-binary", ":all:", "-r", str(REQUIREMENTS)]]
+    for step in steps:
+        try:
+            done = subprocess.run(step, capture_output=True, text=True, check=False)
+        except OSError as fault:
+            return str(fault)
+        if done.returncode != 0:
+            return (done.stderr or done.stdout).strip().splitlines()[-1]
+    stamp.write_text(wanted)
+    return None
+
+
+def enter():
+    """Goes on in the environment; returns the reason where there is none."""
+    if is_inside():
+        return None
+    reason = install()
+    if reason is None:
+        python = str(FOLDER / "bin" / "python")
+        os.execv(python, [python, *sys.argv])
+    return reason

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""Everything on one page that needs no other file."""
+
+import base64
+import datetime
+import html
+import importlib.metadata
+import io
+
+import matplotlib.image
+import numpy
+
+from benchmark import common
+from tradeoff import front, grid, perception, plot
+
+STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; color: #111827; margin: 2rem auto; max-width: 76rem;
+       padding: 0 1rem; }
+h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 3rem; border-top: 1px solid #e5e7eb;
+       padding-top: 1.5rem; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem; }
+th, td { padding: 0.2rem 0.7rem; text-align: right; border-bottom: 1px solid #e5e7eb; }
+th:first-child, td:first-child { text-align: left; } td:first-child { white-space: nowrap; }
+tr.beaten { color: #6b7280; } tr.front td:first-child { font-weight: 600; }
+.wide { overflow-x: auto; } .wide svg { max-width: 100%; height: auto; }
+.pictures { display: flex; flex-wrap: wrap; gap: 1rem; } figure { margin: 0; width: 17.5rem; }
+figure img { width: 100%; image-rendering: pixelated; display: block; margin-bottom: 0.3rem; }
+figcaption, .note { font-size: 0.85rem; color: #4b5563; }
+"""
+
+GOALS = [0.01, 0.005, 0.002, 0.001]
+
+COLUMNS = [
+    ("setting", "setting", str),
+    ("ms", "milliseconds", lambda v: f"{v:.2f}"),
+    ("spread, ms", None, None),
+    ("RMSE %", "rmse", lambda v: f"{100 * v:.4f}"),
+    ("PSNR dB", "psnr", lambda v: "-" if v is None else f"{v:.1f}"),
+    ("largest", "maximum", lambda v: f"{v:.3f}"),
+    ("off &gt; 1/255, %", "share_off_by_1", lambda v: f"{100 * v:.2f}"),
+    ("off &gt; 4/255, %", "share_off_by_4", lambda v: f"{100 * v:.2f}"),
+    ("SSIM", "ssim", lambda v: f"{v:.5f}"),
+    ("mean FLIP", "flip", lambda v: f"{v:.5f}"),
+    ("Mrays/s", "megarays_per_second", lambda v: f"{v:.1f}"),
+    ("MB on the device", "bytes", lambda v: f"{v / 1e6:.2f}"),
+]
+
+
+def cell(row, column):
+    _, key, words = column
+    if key is None:
+        return f"{row['fastest']:.2f}&ndash;{row['slowest']:.2f}"
+    return words(row[key]) if key != "setting" else html.escape(row[key])
+
+
+def table(rows):
+    head = "".join(f"<th>{column[0]}</th>" for column in COLUMNS)
+    body = "".join(
+        f'<tr class="{"front" if row["front"] else "beaten"}">'
+        + "".join(f"<td>{cell(row, column)}</td>" for column in COLUMNS) + "</tr>"
+        for row in sorted(rows, key=lambda row: row["milliseconds"]))
+    return f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>'
+
+
+def embed(data):
+    return "data:image/png;base64," + base64.b64encode(data).decode("ascii")
+
+
+def png_of_pfm(path):
+    data = io.BytesIO()
+    values = numpy.round(perception.read_pfm(path) * 255).astype("uint8")
+    matplotlib.image.imsave(data, values, format="png")
+    return data.getvalue()
+
+
+def shown_rows(rows):
+    """The fastest, the base, the least wrong that is as fast as the base, and the least wrong."""
+    best = front.front(rows)
+    base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
+    rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]
+    chosen = [best[0], base, *rival[-1:], best[-1]]
+    return [row for place, row in enumerate(chosen) if row not in chosen[:place]]
+
+
+def pictures(scene, folder):
+    parts = [f'<figure><img alt="the reference" src="{embed(png_of_pfm(folder / "reference.pfm"))}">'
+             "<figcaption>the reference</figcaption></figure>"]
+    for row in shown_rows(scene["rows"]):
+        picture = embed(png_of_pfm(folder / row["picture"]))
+        difference = embed((folder / row["map"]).read_bytes())
+        name = html.escape(row["setting"])
+        parts.append(f'<figure><img alt="{name}" src="{picture}">'
+                     f'<img alt="difference of {name}" src="{difference}">'
+                     f"<figcaption>{name}: {row['milliseconds']:.1f} ms, RMSE "
+                     f"{100 * row['rmse']:.3f} %</figcaption></figure>")
+    return f'<div class="pictures">{"".join(parts)}</div>'
+
+
+def goal_cell(scene, goal):
+    row = front.time_at(scene["rows"], goal)
+    if row is None:
+        return "<td>none</td>"
+    base = next((r for r in scene["rows"] if r["setting"] == grid.BASE), None)
+    times = f", {row['milliseconds'] / base['milliseconds']:.2f} x" if base else ""
+    return f"<td>{row['milliseconds']:.1f} ms{times}<br>{html.escape(row['setting'])}</td>"
+
+
+def goals(scenes):
+    """What an error costs: the fastest setting within it."""
+    head = "".join(f"<th>RMSE &le; {100 * goal:g} %</th>" for goal in GOALS)
+    body = "".join(f"<tr><td>{html.escape(scene['scene'])}</td>"
+                   + "".join(goal_cell(scene, goal) for goal in GOALS) + "</tr>"
+                   for scene in scenes)
+    return f"<table><tr><th>scene</th>{head}</tr>{body}</table>"
+
+
+def section(scene, folder):
+    reference, settings = scene["reference"], scene["settings"]
+    beaten = sum(not row["front"] for row in scene["rows"])
+    return (
+        f"<h2>{html.escape(scene['scene'])}</h2>"
+        f"<p>{scene['triangles']} triangles, {settings['width']} x {settings['height']} pixels, "
+        f"rays up to level {settings['max_level']}. The reference has {reference['samples']} "
+        f"samples a pixel in fp64; two independent halves of it put its own RMSE at "
+        f"{100 * reference['own_error']:.4f} %. Of {len(scene['rows'])} settings {beaten} are "
+        "beaten by one that is as fast and less wrong; they stand in gray.</p>"
+        f'<div class="wide">{plot.svg([scene])}</div>{table(scene["rows"])}'
+        "<h3>Pictures, and where they differ from the reference</h3>"
+        '<p class="note">Brightness of a difference is its square root: 1/255 shows as 1/8, 4/255 '
+        f"as 1/4, 64/255 and more as full.</p>{pictures(scene, folder)}")
+
+
+def method(scenes):
+    device, machine = scenes[0]["device"], common.machine()
+    packages = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in
+                         ["flip-evaluator", "scikit-image", "matplotlib", "numpy"])
+    runs = len(scenes[0]["rows"][0]["times"])
+    return (
+        f"<p>clrt {html.escape(scenes[0]['version'])} on {html.escape(device['name'])} "
+        f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
+        f"threads; {packages}; {datetime.date.today()}.</p>"
+        f'<p class="note">Times are medians of {runs} rounds in which all settings draw by turns; '
+        "a round's figure is the faster of two frames after a first that is not counted, tracing "
+        "alone. RMSE is of the values as stored, over all three colors. SSIM and FLIP (mean, 67 "
+        "pixels a degree) tell what an eye makes of it. What is faster than the base "
+        f"({html.escape(grid.BASE)}, the course's) has a factor below 1.</p>")
+
+
+def write(path, scenes, folder):
+    """Writes the page; folder holds a folder of pictures for each scene."""
+    sections = "".join(section(scene, folder / scene["scene"]) for scene in scenes)
+    path.write_text(
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width"><title>clrt: time against error</title>'
+        f"<style>{STYLE}</style></head><body><h1>Time against error</h1>{method(scenes)}"
+        "<h2>What an error costs</h2><p>The fastest setting within each error, and its time as a "
+        f"multiple of the base's.</p>{goals(scenes)}{sections}</body></html>\n",
+        encoding="utf-8")
+    (folder / "trade.svg").write_text(plot.svg(scenes) + "\n", encoding="utf-8")
