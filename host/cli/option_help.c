@@ -5,6 +5,14 @@
 #include "cli/option_table.h"
 #include "cli/show.h"
 
+static void write_channels(FILE *stream)
+{
+    fprintf(stream, "\nChannels of --aov, of the ray through each pixel's center where not said "
+                    "otherwise:\n");
+    for (size_t i = 0; i < aov_count; i++)
+        fprintf(stream, "  %-10s %s\n", aov_table[i].name, aov_table[i].help);
+}
+
 void options_write_help(FILE *stream)
 {
     fprintf(stream,
@@ -24,6 +32,7 @@ void options_write_help(FILE *stream)
                  option->argument == NULL ? "" : option->argument);
         fprintf(stream, "  %s%-20s %s\n", letter, name, option->help);
     }
+    write_channels(stream);
     show_write_keys(stream);
     fprintf(stream, "\nExit status: 0 done, 1 check found faults, 2 usage, 3 scene or mesh, "
                     "4 device, 5 output,\n"

@@ -13,6 +13,11 @@ bool read_aa(Options *options, const char *value, Error *error)
     return value == NULL || read_count(value, "aa", SAMPLES_MAX, &options->samples, error);
 }
 
+bool read_aov(Options *options, const char *value, Error *error)
+{
+    return aov_read_list(value, &options->aovs, error);
+}
+
 bool read_output(Options *options, const char *value, Error *error)
 {
     options->output_path = value;

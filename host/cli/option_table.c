@@ -13,6 +13,7 @@ const Option option_table[] = {
     {"view", 0, "N", read_view,
      "look through the scene's N-th camera (1); without any, the course's six"},
     {"aa", 0, "[=N]", read_aa, "anti-alias with N x N samples a pixel (2)"},
+    {"aov", 0, "LIST", read_aov, "add channels to an EXR file; the names are below"},
     {"max-level", 0, "N", read_max_level, "rays of level N see the background (the scene's, or 3)"},
     {"bvh", 0, "KIND", read_bvh, "build the tree by sah (default) or midpoint"},
     {"no-bvh", 0, NULL, read_no_bvh, "test every triangle instead"},

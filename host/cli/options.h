@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "image/image_file.h"
+#include "render/aov.h"
 #include "render/renderer.h"
 
 typedef enum {
@@ -33,6 +34,7 @@ typedef struct {
     const char *scene_path;  // NULL where ACTION_WARM was given none
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
+    AovSet aovs;             // channels beside the colors
     uint32_t samples;        // per pixel and axis
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's

@@ -121,6 +121,7 @@ void run_begin(Run *run)
 void run_free(Run *run)
 {
     framebuffer_free(&run->framebuffer);
+    layers_free(&run->layers);
     starter_wait_kernel(&run->starter);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);

@@ -20,6 +20,7 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
+    Layers layers; // beside the colors
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

@@ -2,6 +2,7 @@
 // A scene file -> its picture, by the same stages as the program's main, for tests.
 #pragma once
 
+#include "render/aov.h"
 #include "render/renderer.h"
 
 typedef struct {
@@ -17,6 +18,8 @@ typedef struct {
     KernelChoice choice;
     const char *extra_options; // for the kernels' compiler, NULL for none
     uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
+    AovSet aovs;               // channels to be left in layers
+    Layers *layers;            // which the caller frees; NULL where there are none
 } PictureRequest;
 
 // What the program does without options, but always with the general kernels, since which of them
