@@ -38,6 +38,26 @@ static inline Real3 half_vector_of(const Surface *surface, Real3 toward_light)
     return choose3(has_length(half_vector), half_vector, surface->normal);
 }
 
+// A light as seen from a surface.
+typedef struct {
+    Real3 position, toward; // toward it: unit
+    float intensity;
+    Real cosine;
+    Truth faces; // the surface is turned to it
+} SeenLight;
+
+static inline SeenLight see_light(const SceneView *scene, uint index, const Surface *surface,
+                                  Truth wanted)
+{
+    SeenLight light;
+    light.position = load3(scene->lights[index].position);
+    light.intensity = scene->lights[index].intensity;
+    light.toward = unit_vector(difference(light.position, surface->point));
+    light.cosine = dot_product(surface->normal, light.toward);
+    light.faces = wanted && light.cosine > 0.0f;
+    return light;
+}
+
 // What is lit, in which lanes, and the light received so far.
 typedef struct {
     const Surface *surface;
@@ -51,24 +71,22 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
                                  Lighting *lighting, Tally *tally)
 {
     const Surface *surface = lighting->surface;
-    const Real3 light = load3(scene->lights[index].position);
-    const float intensity = scene->lights[index].intensity;
-    const Real3 toward_light = unit_vector(difference(light, surface->point));
-    const Real cosine = dot_product(surface->normal, toward_light);
-    const Truth faces = lighting->wanted && cosine > 0.0f;
-    if (!any_lane(faces))
+    const SeenLight light = see_light(scene, index, surface, lighting->wanted);
+    if (!any_lane(light.faces))
         return;
     if (CLRT_STATISTICS)
-        tally->shadow_rays += lane_count(faces);
-    const Ray ray = ray_from_light(light, surface, faces);
-    const Truth is_lit = faces && !is_blocked(scene, frame, &ray, tally);
+        tally->shadow_rays += lane_count(light.faces);
+    const Ray ray = ray_from_light(light.position, surface, light.faces);
+    const Truth is_lit = light.faces && !is_blocked(scene, frame, &ray, tally);
     sign_lanes(tally, is_lit, (Count)(index));
-    lighting->diffuse = is_lit ? lighting->diffuse + intensity * cosine : lighting->diffuse;
+    const Real diffuse = lighting->diffuse + light.intensity * light.cosine;
+    lighting->diffuse = is_lit ? diffuse : lighting->diffuse;
     const Truth shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!any_lane(shines))
         return;
-    const Real3 half_vector = half_vector_of(surface, toward_light);
-    const Real shine = intensity * highlight(lighting->material, surface->normal, half_vector);
+    const Real3 half_vector = half_vector_of(surface, light.toward);
+    const Real shine =
+        light.intensity * highlight(lighting->material, surface->normal, half_vector);
     lighting->specular = shines ? lighting->specular + shine : lighting->specular;
 }
 

@@ -166,4 +166,19 @@ typedef enum {
     TALLY_KINDS
 } TallyKind;
 
+// What the ray through a pixel's center meets first and where it goes, where channels beside the
+// color are asked for.  Where it meets nothing, depth is INFINITY, the indices are NOTHING and all
+// else is zero.
+typedef struct {
+    float point[3];
+    float depth;     // along the camera's axis
+    float normal[3]; // unit, what is shaded with
+    uint primitive;  // id
+    uint material;   // index
+    uint lights;     // that reach the point
+    uint bounces;    // reflected rays followed from there
+    uint padding;
+} PathData;
+CLRT_SAME_SIZE(PathData, 48)
+
 #endif

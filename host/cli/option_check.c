@@ -18,6 +18,8 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--aa-adaptive is for files: give one with -o FILE");
     if (options->reference)
         return error_set(error, "--reference is for files: give one with -o FILE");
+    if (options->aovs != 0)
+        return error_set(error, "--aov is for files: give one with -o FILE.exr");
     if (options->frames > 1)
         return error_set(error, "--frames is for files: give one with -o FILE");
     if (options->statistics_path != NULL)
@@ -45,6 +47,13 @@ static bool check_format(Options *options, Error *error)
                      image_format_names());
 }
 
+static bool check_aovs(const Options *options, Error *error)
+{
+    return options->aovs == 0 || image_format_takes_layers(options->format) ||
+           error_set(error, "--aov needs an EXR file (-o FILE.exr): %s holds colors alone",
+                     options->format);
+}
+
 bool options_check_purpose(Options *options, Error *error)
 {
     const char *path = options->output_path;
@@ -56,7 +65,7 @@ bool options_check_purpose(Options *options, Error *error)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
                       strcmp(options->statistics_path, "-") == 0;
-    return check_format(options, error) &&
+    return check_format(options, error) && check_aovs(options, error) &&
            (!both || error_set(error, "the picture and the statistics cannot both go to standard "
                                       "output"));
 }

@@ -84,11 +84,23 @@ static void write_usage(FILE *stream)
     }
 }
 
+static void write_channels(FILE *stream)
+{
+    fputs("\nChannels of --aov, of the ray through each pixel's center unless said otherwise:\n",
+          stream);
+    for (size_t i = 0; i < aov_count; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "  %s", aov_table[i].name);
+        write_item(stream, name, aov_table[i].help);
+    }
+}
+
 void options_write_help(FILE *stream)
 {
     write_usage(stream);
     for (int group = 0; group < OPTION_GROUPS; group++)
         write_group(stream, (OptionGroup)group);
+    write_channels(stream);
     write_classes(stream);
     show_write_keys(stream);
     fprintf(stream,

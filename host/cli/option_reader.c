@@ -19,6 +19,11 @@ bool read_aa_adaptive(Options *options, const char *value, Error *error)
     return value == NULL || read_part(value, "aa-adaptive", &options->contrast, error);
 }
 
+bool read_aov(Options *options, const char *value, Error *error)
+{
+    return aov_read_list(value, &options->aovs, error);
+}
+
 bool read_output(Options *options, const char *value, Error *error)
 {
     options->output_path = value;

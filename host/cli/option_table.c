@@ -11,6 +11,8 @@ const Option option_table[] = {
      "write this format, whatever the ending (png for standard output)"},
     {"encode", 0, "raw|srgb", read_encode, GROUP_OUTPUT, CLASS_NONE,
      "8-bit files: raw values (default) or srgb"},
+    {"aov", 0, "LIST", read_aov, GROUP_OUTPUT, CLASS_NONE,
+     "add channels to an EXR file; the names are below"},
 
     {"size", 's', "WxH", read_size, GROUP_PICTURE, CLASS_NONE,
      "size of the picture in pixels (the scene's, or 512x512)"},

@@ -5,6 +5,7 @@
 #include "accel/bvh.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
+#include "render/aov.h"
 #include "render/renderer.h"
 
 typedef enum {
@@ -43,6 +44,7 @@ typedef struct {
     const char *other_path; // ACTION_COMPARE's second
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
+    AovSet aovs;             // channels beside the colors
     uint32_t samples;        // per pixel and axis
     double contrast;         // that adaptive anti-aliasing leaves; 0: every pixel alike
     uint32_t view;           // from 1

@@ -6,6 +6,7 @@
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
 #include "image/image_file.h"
+#include "render/aov_pass.h"
 #include "scene/camera.h"
 
 #include <stdio.h>
@@ -30,13 +31,17 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
     return ok;
 }
 
+static CameraData camera_of(const Run *run, uint32_t samples)
+{
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    return camera_make(viewpoint, &run->normalization, run->settings.height, samples);
+}
+
 static bool draw(Run *run, Error *error)
 {
     const RenderSettings *settings = &run->settings;
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    const uint32_t samples = run->options->contrast > 0 ? REFINE_GRID : settings->samples;
     const CameraData camera =
-        camera_make(viewpoint, &run->normalization, settings->height, samples);
+        camera_of(run, run->options->contrast > 0 ? REFINE_GRID : settings->samples);
     if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
         return false;
     bool ok = true;
@@ -49,6 +54,39 @@ static bool draw(Run *run, Error *error)
     run->report.complete = ok && done->tiles_done == done->tiles;
     for (int kind = 0; kind < TALLY_KINDS; kind++)
         run->report.tallies[kind] = done->tallies[kind];
+    return ok;
+}
+
+static bool trace_layers(Run *run, const AovPass *pass, Error *error)
+{
+    Progress progress = progress_begin(run->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok = aov_pass_draw(pass, &observer, &run->layers, error);
+    run->stopped_by = progress_end(&progress);
+    run->report.complete = run->report.complete && run->stopped_by == 0;
+    return ok;
+}
+
+// The channels beside the colors.  A picture that was stopped has none of their values.
+static bool draw_layers(Run *run, Error *error)
+{
+    AovPass pass;
+    const AovSet aovs = run->options->aovs;
+    const RenderSettings *settings = &run->settings;
+    const AovSource source = {.setup = &run->starter.setup,
+                              .renderer = &run->renderer,
+                              .camera = camera_of(run, settings->samples),
+                              .center = camera_of(run, 1),
+                              .scene = {&run->normalization, run->flat.light_count}};
+    aov_name_layers(aovs, &run->layers);
+    if (!layers_make(&run->layers, settings->width, settings->height, error))
+        return false;
+    if (aovs == 0 || run->stopped_by != 0)
+        return true;
+    if (!aov_pass_open(&pass, aovs, &source, error))
+        return false;
+    const bool ok = trace_layers(run, &pass, error);
+    aov_pass_close(&pass);
     return ok;
 }
 
@@ -77,7 +115,8 @@ static bool write_picture(Run *run, Error *error)
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
                                     .texts = texts.texts,
-                                    .text_count = REPORT_TEXTS};
+                                    .text_count = REPORT_TEXTS,
+                                    .layers = options->aovs != 0 ? &run->layers : NULL};
     const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
     run->report.write = run_lap(&moment);
     return ok;
@@ -140,7 +179,7 @@ ExitCode picture_make(Run *run, Error *error)
     if (!run_open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    if (!draw(run, error) || !measure_error(run, error))
+    if (!draw(run, error) || !draw_layers(run, error) || !measure_error(run, error))
         return EXIT_DEVICE;
     if (!write_picture(run, error) || !write_reference(run, error) ||
         !write_statistics(run, start, error))

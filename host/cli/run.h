@@ -21,6 +21,7 @@ typedef struct {
     Renderer renderer;
     Framebuffer framebuffer;
     Framebuffer reference; // empty unless one was asked for
+    Layers layers;         // beside the colors
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

@@ -58,6 +58,11 @@ bool image_format_is_float(const char *format)
     return find_format(format)->is_float;
 }
 
+bool image_format_takes_layers(const char *name)
+{
+    return strcmp(name, "exr") == 0;
+}
+
 const char *image_format_names(void)
 {
 #ifdef CLRT_WITH_OPENIMAGEIO
@@ -135,6 +140,16 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
            error_set(error, "a JPEG has at most %d pixels a side", JPEG_SIZE_MAX);
 }
 
+static void place_layers(ImageModulePicture *picture, const Layers *layers)
+{
+    picture->layers = layers->values;
+    picture->layer_count = layers->count;
+    for (uint32_t layer = 0; layer < layers->count; layer++) {
+        picture->layer_names[layer] = layers->list[layer].name;
+        picture->layer_is_integer[layer] = layers->list[layer].is_integer;
+    }
+}
+
 // These name the reason alone; image_write names the picture.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
@@ -145,7 +160,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         if (bytes == NULL)
             return false;
     }
-    const ImageModulePicture picture = {
+    ImageModulePicture picture = {
         .path = path,
         .format = format->module,
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
@@ -155,6 +170,8 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .texts = (const char *const *)settings->texts,
         .text_count = settings->text_count,
     };
+    if (settings->layers != NULL)
+        place_layers(&picture, settings->layers);
     const bool ok = image_process_write(&picture, cause);
     free(bytes);
     return ok;

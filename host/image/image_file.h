@@ -5,6 +5,7 @@
 #pragma once
 
 #include "image/framebuffer.h"
+#include "image/layers.h"
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
@@ -18,6 +19,7 @@ typedef struct {
     Encoding encoding;  // of 8-bit formats; floats are written as they are
     const ImageText *texts;
     size_t text_count;
+    const Layers *layers; // channels beside the colors, in formats that take them; NULL for none
 } ImageSettings;
 
 // The format a path's ending names, NULL where there is none or clrt does not write it.
@@ -28,6 +30,8 @@ const char *image_format_named(const char *name);
 
 // Whether a format that clrt writes holds floats.
 bool image_format_is_float(const char *format);
+// Whether files of that format take layers: EXR alone.
+bool image_format_takes_layers(const char *name);
 
 // All format names this build writes, for messages.
 const char *image_format_names(void);

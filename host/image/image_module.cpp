@@ -5,7 +5,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -27,6 +29,49 @@ bool write_bytes(const std::vector<unsigned char> &bytes, const char *path)
     return std::fclose(file) == 0 && written;
 }
 
+void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
+{
+    spec.nchannels += static_cast<int>(picture.layer_count);
+    spec.channelformats.assign(3, OIIO::TypeDesc::FLOAT);
+    for (size_t i = 0; i < picture.layer_count; i++) {
+        spec.channelnames.push_back(picture.layer_names[i]);
+        spec.channelformats.push_back(picture.layer_is_integer[i] ? OIIO::TypeDesc::UINT32
+                                                                  : OIIO::TypeDesc::FLOAT);
+    }
+}
+
+// Colors and layers lie apart and are joined a strip of rows at a time: a picture's own memory is
+// large enough once.
+bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
+{
+    constexpr int strip = 32; // of which OpenEXR's own chunks, of 16 rows with ZIP, are a part
+    constexpr size_t color_size = 3 * sizeof(float);
+    const size_t width = static_cast<size_t>(picture.width);
+    const size_t layer_size = picture.layer_count * sizeof(uint32_t);
+    std::vector<char> rows(strip * width * (color_size + layer_size));
+    for (int top = 0; top < picture.height; top += strip) {
+        const int bottom = std::min(top + strip, picture.height);
+        const size_t first = static_cast<size_t>(top) * width;
+        const char *color = static_cast<const char *>(picture.pixels) + first * color_size;
+        const char *layer = static_cast<const char *>(picture.layers) + first * layer_size;
+        char *next = rows.data();
+        for (size_t i = 0; i < static_cast<size_t>(bottom - top) * width; i++) {
+            std::memcpy(next, color + i * color_size, color_size);
+            std::memcpy(next + color_size, layer + i * layer_size, layer_size);
+            next += color_size + layer_size;
+        }
+        if (!output.write_scanlines(top, bottom, 0, OIIO::TypeDesc::UNKNOWN, rows.data()))
+            return false;
+    }
+    return true;
+}
+
+bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, OIIO::TypeDesc type)
+{
+    return picture.layer_count > 0 ? write_strips(output, picture)
+                                   : output.write_image(type, picture.pixels);
+}
+
 bool write_picture(const ImageModulePicture &picture, std::string &message)
 {
     std::vector<unsigned char> bytes;
@@ -38,14 +83,16 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     }
     const auto type = picture.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
+    if (picture.layer_count > 0)
+        describe_layers(spec, picture);
     // Without it OpenEXR and TIFF write the time, and no two files would be equal.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     for (size_t i = 0; i < picture.text_count; i++)
         spec.attribute(picture.texts[2 * i], picture.texts[2 * i + 1]);
     const bool in_memory = output->supports("ioproxy") && output->set_ioproxy(&memory);
-    const bool ok = output->open(picture.path, spec) && output->write_image(type, picture.pixels) &&
-                    output->close();
+    const bool ok =
+        output->open(picture.path, spec) && write_pixels(*output, picture, type) && output->close();
     if (!ok)
         message = output->geterror();
     else if (in_memory && !write_bytes(bytes, picture.path))

@@ -9,6 +9,8 @@
 extern "C" {
 #endif
 
+#define IMAGE_MODULE_LAYERS 64
+
 typedef struct {
     const char *path;
     const char *format; /* OpenImageIO's name of the format */
@@ -17,6 +19,10 @@ typedef struct {
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */
     size_t text_count;
+    const void *layers; /* layer_count values of 32 bits for each pixel, of float pictures alone */
+    size_t layer_count;
+    const char *layer_names[IMAGE_MODULE_LAYERS];
+    int layer_is_integer[IMAGE_MODULE_LAYERS]; /* unsigned; else float */
 } ImageModulePicture;
 
 /* Writes the picture; 0 and a message of at most message_size bytes where it cannot. */

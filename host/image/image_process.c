@@ -20,10 +20,12 @@
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
-// Strings follow it, each with its zero, and then the pixels.
+// Strings follow it, each with its zero, then the pixels and then the layers.
 typedef struct {
     uint64_t width, height, is_float, text_count;
     uint64_t string_size, pixel_size;
+    uint64_t layer_count, layer_size;
+    int32_t layer_is_integer[IMAGE_MODULE_LAYERS];
 } Request;
 
 typedef struct {
@@ -39,14 +41,23 @@ static size_t pixel_size(const ImageModulePicture *picture)
     return (size_t)picture->width * (size_t)picture->height * 3 * channel_size;
 }
 
-// The path, the format and the texts, in this order.
+static size_t layer_size(const ImageModulePicture *picture)
+{
+    return (size_t)picture->width * (size_t)picture->height * picture->layer_count *
+           sizeof(uint32_t);
+}
+
+// The path, the format, the texts and the layers' names, in this order.
 static size_t string_count(const ImageModulePicture *picture)
 {
-    return 2 + 2 * picture->text_count;
+    return 2 + 2 * picture->text_count + picture->layer_count;
 }
 
 static const char *string_at(const ImageModulePicture *picture, size_t place)
 {
+    const size_t names = 2 + 2 * picture->text_count;
+    if (place >= names)
+        return picture->layer_names[place - names];
     return place == 0 ? picture->path : place == 1 ? picture->format : picture->texts[place - 2];
 }
 
@@ -56,13 +67,18 @@ static bool send_request(const ImageModulePicture *picture)
                        .height = (uint64_t)picture->height,
                        .is_float = picture->is_float != 0,
                        .text_count = picture->text_count,
-                       .pixel_size = pixel_size(picture)};
+                       .pixel_size = pixel_size(picture),
+                       .layer_count = picture->layer_count,
+                       .layer_size = layer_size(picture)};
+    for (size_t i = 0; i < picture->layer_count; i++)
+        request.layer_is_integer[i] = picture->layer_is_integer[i];
     for (size_t i = 0; i < string_count(picture); i++)
         request.string_size += strlen(string_at(picture, i)) + 1;
     bool ok = socket_send(channel, &request, sizeof request);
     for (size_t i = 0; ok && i < string_count(picture); i++)
         ok = socket_send(channel, string_at(picture, i), strlen(string_at(picture, i)) + 1);
-    return ok && socket_send(channel, picture->pixels, request.pixel_size);
+    return ok && socket_send(channel, picture->pixels, request.pixel_size) &&
+           socket_send(channel, picture->layers, request.layer_size);
 }
 
 // Gives the picture its pointers into the strings; texts has room for all of them.
@@ -76,6 +92,22 @@ static void place_strings(ImageModulePicture *picture, const char *strings, cons
         next += strlen(next) + 1;
     }
     picture->texts = texts;
+    for (size_t i = 0; i < picture->layer_count; i++) {
+        picture->layer_names[i] = next;
+        next += strlen(next) + 1;
+    }
+}
+
+static ImageModulePicture picture_of(const Request *request)
+{
+    ImageModulePicture picture = {.width = (int)request->width,
+                                  .height = (int)request->height,
+                                  .is_float = request->is_float != 0,
+                                  .text_count = request->text_count,
+                                  .layer_count = request->layer_count};
+    for (size_t i = 0; i < request->layer_count; i++)
+        picture.layer_is_integer[i] = request->layer_is_integer[i];
+    return picture;
 }
 
 static bool answer_request(int socket, const Request *request, ImageModuleWrite *write,
@@ -83,25 +115,26 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
 {
     Error error = {0};
     Answer answer = {0};
-    ImageModulePicture picture = {.width = (int)request->width,
-                                  .height = (int)request->height,
-                                  .is_float = request->is_float != 0,
-                                  .text_count = request->text_count};
+    ImageModulePicture picture = picture_of(request);
     char *strings = memory_raw(request->string_size, 1, &error);
     void *pixels = memory_raw(request->pixel_size, 1, &error);
+    void *layers = memory_raw(request->layer_size, 1, &error);
     const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
-    const bool held = strings != NULL && pixels != NULL && texts != NULL;
+    const bool held = strings != NULL && pixels != NULL && layers != NULL && texts != NULL;
     bool ok = held && socket_receive(socket, strings, request->string_size) &&
-              socket_receive(socket, pixels, request->pixel_size);
+              socket_receive(socket, pixels, request->pixel_size) &&
+              socket_receive(socket, layers, request->layer_size);
     if (ok) {
         place_strings(&picture, strings, texts);
         picture.pixels = pixels;
+        picture.layers = layers;
         snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
         answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
         ok = socket_send(socket, &answer, sizeof answer);
     }
     free(strings);
     free(pixels);
+    free(layers);
     free(texts);
     return ok;
 }
@@ -156,7 +189,7 @@ static bool write_here(const ImageModulePicture *picture, Error *cause)
 bool image_process_write(const ImageModulePicture *picture, Error *cause)
 {
     Answer answer;
-    if (channel < 0 || pixel_size(picture) > LARGEST_SENT)
+    if (channel < 0 || pixel_size(picture) + layer_size(picture) > LARGEST_SENT)
         return write_here(picture, cause);
     if (!send_request(picture) || !socket_receive(channel, &answer, sizeof answer))
         return error_set(cause, "the process that writes pictures has ended");

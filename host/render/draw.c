@@ -26,14 +26,6 @@ typedef struct {
     Slot slots[SLOTS];
 } Drawing;
 
-// Work-items along a side of a tile, padded to whole work-groups.
-static size_t grid_side(const Renderer *renderer, uint32_t tile_side, uint32_t group)
-{
-    const uint32_t pixels = renderer->nodes == NODES_WIDE ? PACKET_SIDE : 1;
-    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
-    return (items + group - 1) / group * group;
-}
-
 static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
 {
     const RenderSettings *settings = &renderer->settings;
@@ -89,9 +81,8 @@ static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameDa
     if (!cl_succeeded(status, "set the kernel's arguments", error))
         return false;
     const size_t group[2] = {settings->group_width, settings->group_height};
-    const Tile largest = tile_at(settings, 0);
-    const size_t grid[2] = {grid_side(renderer, largest.width, settings->group_width),
-                            grid_side(renderer, largest.height, settings->group_height)};
+    size_t grid[2];
+    tile_grid(settings, renderer->nodes, grid);
     status = clEnqueueNDRangeKernel(slot->queue, kernel, 2, NULL, grid, group, 0, NULL, NULL);
     return cl_succeeded(status, "run the kernel", error);
 }

@@ -26,3 +26,17 @@ Tile tile_at(const RenderSettings *settings, uint64_t number)
     return (Tile){x, y, smaller(settings->tile_width, settings->width - x),
                   smaller(settings->tile_height, settings->height - y)};
 }
+
+static size_t grid_side(NodeLayout nodes, uint32_t tile_side, uint32_t group)
+{
+    const uint32_t pixels = nodes == NODES_WIDE ? PACKET_SIDE : 1;
+    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
+    return (items + group - 1) / group * group;
+}
+
+void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2])
+{
+    const Tile largest = tile_at(settings, 0);
+    grid[0] = grid_side(nodes, largest.width, settings->group_width);
+    grid[1] = grid_side(nodes, largest.height, settings->group_height);
+}

@@ -12,3 +12,7 @@ uint64_t tile_count(const RenderSettings *settings);
 
 // The first is as large as any.
 Tile tile_at(const RenderSettings *settings, uint64_t number);
+
+// Work-items along the sides of a tile, padded to whole work-groups: the same for all tiles, those
+// that the picture's edge cuts off among them.
+void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);

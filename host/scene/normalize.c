@@ -45,6 +45,11 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point)
     return vec3_scale(vec3_sub(point, normalization->center), normalization->scale);
 }
 
+Vec3 denormalize_point(const Normalization *normalization, Vec3 point)
+{
+    return vec3_add(vec3_scale(point, 1 / normalization->scale), normalization->center);
+}
+
 static bool is_near(const Normalization *normalization, Vec3 point)
 {
     return vec3_extent(normalize_point(normalization, point)) <= LARGEST_RATIO;

@@ -19,6 +19,9 @@ Normalization normalization_of(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 
+// The point in the scene's own coordinates of one in the frame.
+Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
+
 // Fails where a light, an eye or a sphere is so far from the geometry, or a sphere so much smaller
 // or larger than it, that float arithmetic would overflow (a ratio past 2^40).
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

@@ -32,6 +32,8 @@ if [ "${WINDOW:-}" = ON ]; then
     refuses 2 "--aa-adaptive is for files: give one with -o FILE" --aa-adaptive "$scene"
   check "repeated pictures are for files" \
     refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
+  check "channels are for files" \
+    refuses 2 "--aov is for files: give one with -o FILE.exr" --aov depth "$scene"
   check "statistics in files are for files" \
     refuses 2 "--stats=FILE is for files: give one with -o FILE" --stats=a.json "$scene"
 else
@@ -320,6 +322,28 @@ if [ "${FORMATS:-}" != "png, pfm" ]; then
   check "... with the precision" grep -aq "precision=fp32" a.exr
   check "... fp64's too" pixels b.exr --precision fp64
   check "... with the precision" grep -aq "precision=fp64" b.exr
+  exr() { "$here/read_exr.py" "$@" 2>>err; }
+  check "EXR takes channels" pixels c.exr --aa --aov depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests
+  check "... named by the field's conventions" exr c.exr "sorted(types) == sorted('R G B Z N.X N.Y N.Z P.X P.Y P.Z primitive material shadow bounces samples boxtests tritests'.split())"
+  check "... of which names of things are integers" exr c.exr "{t for t in types if types[t] == 'uint'} == {'primitive', 'material'}"
+  check "... beside the same colors" pixels b.exr --aa
+  check "... bit for bit" python3 -c "import sys; sys.path.insert(0, '$here'); from read_exr import read_exr as r; a, b = r('b.exr')[1], r('c.exr')[1]; sys.exit(any(a[n] != b[n] for n in 'RGB'))"
+  check "the background is infinitely far" exr c.exr "c['Z'][0] == inf and c['primitive'][0] == c['material'][0] == 2**32 - 1"
+  check "... and zero else" exr c.exr "all(c[n][0] == 0 for n in 'N.X N.Y N.Z P.X P.Y P.Z shadow bounces'.split())"
+  check "every channel has an effect" exr c.exr "all(len(set(v)) > 1 for n, v in c.items() if n != 'samples')"
+  check "samples are those of --aa" exr c.exr "set(c['samples']) == {4}"
+  check "channels are one sample's, whatever --aa" pixels d.exr --aov depth,primitive,normal
+  check "... bit for bit" python3 -c "import sys; sys.path.insert(0, '$here'); from read_exr import read_exr as r; a, b = r('d.exr')[1], r('c.exr')[1]; sys.exit(any(a[n] != b[n] for n in ['Z', 'primitive', 'N.X']))"
+  for change in "-j 1" "--tile 16x8" "--kernel packet" "--kernel ray --nodes wide"; do
+    # shellcheck disable=SC2086
+    check "channels with $change" pixels e.exr --aa --nodes wide $change --aov normal,position,bounces,tritests
+    [ -e f.exr ] || cp e.exr f.exr
+    check "... are the same" cmp e.exr f.exr
+  done
+  check "a large picture with channels goes past the process beside" \
+    run 0 "$source/scenes/simple.scn" -s 1600x1600 -o large.exr --aov primitive,normal,position
+  check "... whole" exr large.exr "len(set(c['primitive'])) > 1 and len(c['P.Z']) % 1600 == 0" 1590
+  check "channels are for EXR" refuses 2 "--aov needs an EXR file (-o FILE.exr): png holds colors alone" "$scene" -o a.png --aov depth
   check "/dev/full takes no picture of OpenImageIO's either" run 5 "$scene" -s 8x8 -o /dev/full --format ppm
 fi
 

@@ -30,6 +30,7 @@ TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
     "format": (PLAIN, PLAIN + ["--format", "png"]),
     "encode": (PLAIN + ["--format", "png"], PLAIN + ["--format", "png", "--encode", "srgb"]),
+    "aov": (PLAIN + ["--format", "exr"], PLAIN + ["--format", "exr", "--aov", "depth"]),
     "size": ([SCENE, "-o", "a.pfm"], [SCENE, "-o", "a.pfm", "-s", "24x16"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),

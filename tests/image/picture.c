@@ -3,6 +3,7 @@
 #include "image/picture.h"
 
 #include "image/form.h"
+#include "render/aov_pass.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
 
@@ -81,6 +82,13 @@ static RenderSettings settings_of(const PictureRequest *request, const Scene *sc
     };
 }
 
+static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
+{
+    const uint32_t view = pipeline->request->view;
+    return camera_make(&pipeline->scene.viewpoints.data[view - 1], &pipeline->normalization,
+                       pipeline->renderer.settings.height, samples);
+}
+
 static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
 {
     bool ok = true;
@@ -109,6 +117,29 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
     return ok;
 }
 
+static bool draw_layers(const Pipeline *pipeline, const RendererSetup *setup, Error *error)
+{
+    AovPass pass;
+    Layers *layers = pipeline->request->layers;
+    const AovSet aovs = pipeline->request->aovs;
+    const RenderSettings *settings = &pipeline->renderer.settings;
+    const AovSource source = {.setup = setup,
+                              .renderer = &pipeline->renderer,
+                              .camera = camera_of(pipeline, settings->samples),
+                              .center = camera_of(pipeline, 1),
+                              .scene = {&pipeline->normalization, pipeline->flat.light_count}};
+    if (layers == NULL)
+        return true;
+    *layers = (Layers){0};
+    aov_name_layers(aovs, layers);
+    if (!layers_make(layers, settings->width, settings->height, error) ||
+        !aov_pass_open(&pass, aovs, &source, error))
+        return false;
+    const bool ok = aov_pass_draw(&pass, NULL, layers, error);
+    aov_pass_close(&pass);
+    return ok;
+}
+
 static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
@@ -119,14 +150,14 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
                                  .source = {.extra_options = request->extra_options,
                                             .choice = request->choice,
                                             .entry = is_adaptive ? KERNEL_SAMPLES : KERNEL_TILE}};
-    const CameraData camera =
-        camera_make(&pipeline->scene.viewpoints.data[request->view - 1], &pipeline->normalization,
-                    settings.height, is_adaptive ? REFINE_GRID : settings.samples);
-    return device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) &&
-           renderer_open(&pipeline->renderer, &setup, &pipeline->flat, &settings, error) &&
-           framebuffer_make(framebuffer, settings.width, settings.height, error) &&
+    if (!device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) ||
+        !renderer_open(&pipeline->renderer, &setup, &pipeline->flat, &settings, error))
+        return false;
+    const CameraData camera = camera_of(pipeline, is_adaptive ? REFINE_GRID : settings.samples);
+    return framebuffer_make(framebuffer, settings.width, settings.height, error) &&
            (is_adaptive ? draw_adaptively(pipeline, &camera, framebuffer, error)
-                        : renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error));
+                        : renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error)) &&
+           draw_layers(pipeline, &setup, error);
 }
 
 bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/adaptive.h"
+#include "render/aov.h"
 
 typedef struct {
     const char *scene_path;
@@ -21,6 +22,8 @@ typedef struct {
     KernelChoice choice;
     const char *extra_options; // for the kernels' compiler, NULL for none
     uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
+    AovSet aovs;               // channels to be left in layers
+    Layers *layers;            // which the caller frees; NULL where there are none
 } PictureRequest;
 
 // What the program does without options, but always with the general kernels, since which of them

@@ -4,8 +4,6 @@
 // surface is mirrored out of it.
 #include "oracle/oracle.h"
 
-#include "oracle/surface.h"
-
 // The sine of a light's height over a true surface below which it grazes.  A float tracer lifts a
 // point off its face by up to 2^-20 of the scene; so low a light then sees it across the edge of
 // a neighbor 2^-12 of the scene away.
@@ -178,15 +176,56 @@ static Vec3 trace(const OracleView *view, OracleRay ray, uint32_t level, OracleD
     return vec3_add(vec3_scale(shaded, 1 - reflectivity), vec3_scale(mirrored, reflectivity));
 }
 
-OracleSample oracle_sample(const OracleView *view, double x, double y)
+static OracleRay ray_through(const OracleView *view, double x, double y)
 {
-    OracleSample sample = {.color = {0, 0, 0}};
     const Vec3 across = vec3_add(vec3_scale(view->right, x - view->width / 2.0),
                                  vec3_scale(view->down, y - view->height / 2.0));
     const Vec3 direction = vec3_normalize(vec3_add(view->forward, across));
-    const OracleRay ray = {view->eye, direction, 0, INFINITY, NOTHING};
-    sample.color = trace(view, ray, 0, &sample.decisions);
+    return (OracleRay){view->eye, direction, 0, INFINITY, NOTHING};
+}
+
+OracleSample oracle_sample(const OracleView *view, double x, double y)
+{
+    OracleSample sample = {.color = {0, 0, 0}};
+    sample.color = trace(view, ray_through(view, x, y), 0, &sample.decisions);
     return sample;
+}
+
+static uint32_t lights_reaching(const Oracle *oracle, const OracleSurface *surface)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < oracle->scene->lights.count; i++) {
+        const Vec3 apart = vec3_sub(oracle->scene->lights.data[i].position, surface->point);
+        const Vec3 toward_light = vec3_normalize(apart);
+        count += vec3_dot(surface->normal, toward_light) > 0 &&
+                 light_reaches(oracle, surface, toward_light, sqrt(vec3_dot(apart, apart)));
+    }
+    return count;
+}
+
+OraclePath oracle_path(const OracleView *view, double x, double y)
+{
+    const Oracle *oracle = view->oracle;
+    OraclePath path = {.depth = INFINITY};
+    OracleRay ray = ray_through(view, x, y);
+    const double slope = vec3_dot(ray.direction, view->forward);
+    for (uint32_t level = 0; level < view->max_level; level++) {
+        path.bounces = level;
+        OracleHit hit = meet_spheres(oracle->scene, &ray);
+        blocks_meet(&oracle->blocks, &ray, &hit);
+        if (hit.id == NOTHING)
+            break;
+        const OracleSurface surface = surface_at(oracle->scene, &ray, hit);
+        if (level == 0) {
+            path.depth = hit.t * slope;
+            path.surface = surface;
+            path.lights = lights_reaching(oracle, &surface);
+        }
+        if (!(oracle->scene->materials.data[surface.material].reflectivity > 0))
+            break;
+        ray = (OracleRay){surface.point, reflected(&surface), surface.near, INFINITY, surface.id};
+    }
+    return path;
 }
 
 typedef struct {

@@ -7,6 +7,7 @@
 
 #include "image/framebuffer.h"
 #include "oracle/blocks.h"
+#include "oracle/surface.h"
 
 typedef struct {
     const Scene *scene; // borrowed
@@ -42,6 +43,16 @@ typedef struct {
 
 // The sample at x and y pixels from the picture's top left corner.
 OracleSample oracle_sample(const OracleView *view, double x, double y);
+
+// What the sample's ray meets first, and where it goes.
+typedef struct {
+    double depth;          // along the view's axis; INFINITY where nothing is met
+    OracleSurface surface; // zero there
+    uint32_t lights;       // that reach it
+    uint32_t bounces;      // reflected rays followed
+} OraclePath;
+
+OraclePath oracle_path(const OracleView *view, double x, double y);
 
 // Makes a picture of every step-th pixel of every step-th row, each the mean of samples * samples.
 bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Framebuffer *framebuffer,

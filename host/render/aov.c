@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The table, and how a pixel's values are made.  Names are those that compositors expect: Z, N and
+// P.  Names of primitives and materials are integers, exact however many there are; counts are
+// floats, which every program shows as they are.
+#include "render/aov.h"
+
+#include "base/word.h"
+
+#include <string.h>
+
+static uint32_t float_bits(double value)
+{
+    uint32_t bits;
+    const float rounded = (float)value;
+    memcpy(&bits, &rounded, sizeof bits);
+    return bits;
+}
+
+static void take_vector(uint32_t *values, Vec3 v)
+{
+    values[0] = float_bits(v.x);
+    values[1] = float_bits(v.y);
+    values[2] = float_bits(v.z);
+}
+
+static Vec3 vector_of(const float v[3])
+{
+    return vec3((double)v[0], (double)v[1], (double)v[2]);
+}
+
+static void take_depth(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    values[0] = float_bits((double)pixel->path->depth / scene->normalization->scale);
+}
+
+static void take_normal(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    take_vector(values, vector_of(pixel->path->normal));
+}
+
+static void take_position(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    const Vec3 point = denormalize_point(scene->normalization, vector_of(pixel->path->point));
+    take_vector(values, pixel->path->primitive != NOTHING ? point : vec3(0, 0, 0));
+}
+
+static void take_primitive(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = pixel->path->primitive;
+}
+
+static void take_material(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = pixel->path->material;
+}
+
+static void take_shadow(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    const double lights = scene->light_count > 0 ? scene->light_count : 1;
+    values[0] = float_bits(pixel->path->lights / lights);
+}
+
+static void take_bounces(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = float_bits(pixel->path->bounces);
+}
+
+static void take_samples(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = float_bits(pixel->samples);
+}
+
+static void take_box_tests(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = float_bits(pixel->tests[TALLY_BOX_TESTS]);
+}
+
+static void take_triangle_tests(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = float_bits(pixel->tests[TALLY_TRIANGLE_TESTS]);
+}
+
+const Aov aov_table[] = {
+    {"depth",
+     {"Z"},
+     false,
+     false,
+     "distance along the view's axis; infinity where nothing is met",
+     take_depth},
+    {"normal", {"N.X", "N.Y", "N.Z"}, false, false, "unit normal that is shaded with", take_normal},
+    {"position", {"P.X", "P.Y", "P.Z"}, false, false, "the point that is met", take_position},
+    {"primitive",
+     {"primitive"},
+     true,
+     false,
+     "number of the sphere, or of the triangle behind all spheres",
+     take_primitive},
+    {"material",
+     {"material"},
+     true,
+     false,
+     "number of the material: the course's 0 to 3, then each define",
+     take_material},
+    {"shadow", {"shadow"}, false, false, "share of the lights that reach the point", take_shadow},
+    {"bounces", {"bounces"}, false, false, "reflected rays followed", take_bounces},
+    {"samples", {"samples"}, false, false, "samples taken", take_samples},
+    {"boxtests", {"boxtests"}, false, true, "boxes tested, over all samples", take_box_tests},
+    {"tritests",
+     {"tritests"},
+     false,
+     true,
+     "triangles tested, over all samples",
+     take_triangle_tests},
+};
+
+const size_t aov_count = sizeof aov_table / sizeof aov_table[0];
+
+static bool aov_has(AovSet set, size_t place)
+{
+    return (set >> place & 1) != 0;
+}
+
+static bool unknown_name(const char *name, size_t length, Error *error)
+{
+    const char *names[sizeof aov_table / sizeof aov_table[0]];
+    char list[512] = "";
+    for (size_t i = 0; i < aov_count; i++) {
+        names[i] = aov_table[i].name;
+        strncat(list, i == 0 ? "" : ", ", 4);
+        strncat(list, names[i], 24);
+    }
+    const char *nearest = word_nearest(name, length, names, aov_count);
+    if (length > 0 && nearest != NULL)
+        return error_set(error, "--aov knows no channel '%.*s', perhaps %s", (int)length, name,
+                         nearest);
+    return error_set(error, "--aov wants names among %s, with commas between, not '%.*s'", list,
+                     (int)length, name);
+}
+
+static bool read_name(const char *name, size_t length, AovSet *set, Error *error)
+{
+    for (size_t i = 0; i < aov_count; i++)
+        if (strlen(aov_table[i].name) == length && memcmp(aov_table[i].name, name, length) == 0) {
+            *set |= (AovSet)1 << i;
+            return true;
+        }
+    return unknown_name(name, length, error);
+}
+
+bool aov_read_list(const char *list, AovSet *set, Error *error)
+{
+    for (;;) {
+        const size_t length = strcspn(list, ",");
+        if (!read_name(list, length, set, error))
+            return false;
+        if (list[length] == '\0')
+            return true;
+        list += length + 1;
+    }
+}
+
+bool aov_needs_tests(AovSet set)
+{
+    bool needs = false;
+    for (size_t i = 0; i < aov_count; i++)
+        needs |= aov_has(set, i) && aov_table[i].needs_tests;
+    return needs;
+}
+
+static uint32_t channel_count(const Aov *aov)
+{
+    uint32_t count = 0;
+    while (count < AOV_COMPONENTS && aov->channels[count] != NULL)
+        count++;
+    return count;
+}
+
+void aov_name_layers(AovSet set, Layers *layers)
+{
+    for (size_t i = 0; i < aov_count; i++)
+        for (uint32_t channel = 0; aov_has(set, i) && channel < channel_count(&aov_table[i]);
+             channel++)
+            layers->list[layers->count++] =
+                (LayerType){aov_table[i].channels[channel], aov_table[i].is_integer};
+}
+
+void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    for (size_t i = 0; i < aov_count; i++)
+        if (aov_has(set, i)) {
+            aov_table[i].take(values, pixel, scene);
+            values += channel_count(&aov_table[i]);
+        }
+}

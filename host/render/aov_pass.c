@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Tile by tile, one after the other: a path costs about what a picture's sample does.
+#include "render/aov_pass.h"
+
+#include "render/tile.h"
+
+#include <stdlib.h>
+
+// kernels/aov.cl, made at build time.
+extern const char aov_source[];
+
+static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *frame, cl_mem output,
+                       Error *error)
+{
+    const Renderer *renderer = pass->source->renderer;
+    const size_t group[2] = {renderer->settings.group_width, renderer->settings.group_height};
+    size_t grid[2];
+    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
+    for (cl_uint place = 0; place < RENDERER_ARRAYS && status == CL_SUCCESS; place++)
+        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
+    if (status == CL_SUCCESS)
+        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &output);
+    if (!cl_succeeded(status, "set the arguments of a kernel for channels", error))
+        return false;
+    tile_grid(&renderer->settings, renderer->nodes, grid);
+    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
+                                    NULL);
+    return cl_succeeded(status, "run a kernel for channels", error);
+}
+
+// The first run, over a tile of no pixels, is when drivers finish compiling.
+static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, cl_mem output,
+                        Error *error)
+{
+    cl_int status;
+    const Renderer *renderer = pass->source->renderer;
+    *kernel = clCreateKernel(pass->program.handle, name, &status);
+    return cl_succeeded(status, "create a kernel for channels", error) &&
+           run_kernel(pass, *kernel, &renderer->frame, output, error) &&
+           cl_succeeded(clFinish(renderer->device->queue), "finish the first run", error);
+}
+
+static bool build(AovPass *pass, Error *error)
+{
+    const RendererSetup *setup = pass->source->setup;
+    const SceneTraits traits = traits_general(pass->counts_tests);
+    ProgramSource source = setup->source;
+    source.entry = KERNEL_TILE;
+    source.appended = aov_source;
+    return program_build(&pass->program, setup->device, &source, &traits, error) &&
+           make_kernel(pass, &pass->trace_paths, "trace_paths", pass->paths, error) &&
+           (!pass->counts_tests ||
+            make_kernel(pass, &pass->count_tests, "count_tests", pass->tests, error));
+}
+
+static bool make_room(AovPass *pass, Error *error)
+{
+    cl_int status;
+    const Tile largest = tile_at(&pass->source->renderer->settings, 0);
+    const size_t count = (size_t)largest.width * largest.height;
+    const size_t tests = pass->counts_tests ? count : 1;
+    cl_context context = pass->source->setup->device->context;
+    pass->host_paths = memory_raw(count, sizeof *pass->host_paths, error);
+    pass->host_tests = memory_raw(tests, sizeof *pass->host_tests, error);
+    if (pass->host_paths == NULL || pass->host_tests == NULL)
+        return false;
+    pass->paths =
+        clCreateBuffer(context, CL_MEM_WRITE_ONLY, count * sizeof *pass->host_paths, NULL, &status);
+    if (!cl_succeeded(status, "allocate a tile of paths", error))
+        return false;
+    pass->tests =
+        clCreateBuffer(context, CL_MEM_WRITE_ONLY, tests * sizeof *pass->host_tests, NULL, &status);
+    return cl_succeeded(status, "allocate a tile's counters", error);
+}
+
+bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error)
+{
+    *pass = (AovPass){.source = source, .set = set, .counts_tests = aov_needs_tests(set)};
+    const int lock = cache_lock(source->setup->cache);
+    const bool ok = make_room(pass, error) && build(pass, error);
+    cache_unlock(lock);
+    if (!ok)
+        aov_pass_close(pass);
+    return ok;
+}
+
+void aov_pass_close(AovPass *pass)
+{
+    if (pass->trace_paths != NULL)
+        clReleaseKernel(pass->trace_paths);
+    if (pass->count_tests != NULL)
+        clReleaseKernel(pass->count_tests);
+    if (pass->paths != NULL)
+        clReleaseMemObject(pass->paths);
+    if (pass->tests != NULL)
+        clReleaseMemObject(pass->tests);
+    program_free(&pass->program);
+    free(pass->host_paths);
+    free(pass->host_tests);
+    *pass = (AovPass){0};
+}
+
+static FrameData frame_of(const Renderer *renderer, const Tile *tile, const CameraData *camera,
+                          uint32_t samples)
+{
+    FrameData frame = renderer->frame;
+    frame.camera = *camera;
+    frame.samples = samples;
+    frame.tile_x = tile->x;
+    frame.tile_y = tile->y;
+    frame.tile_width = tile->width;
+    frame.tile_height = tile->height;
+    return frame;
+}
+
+static bool read_back(const AovPass *pass, cl_mem buffer, void *target, size_t size, Error *error)
+{
+    return cl_succeeded(clEnqueueReadBuffer(pass->source->renderer->device->queue, buffer, CL_TRUE,
+                                            0, size, target, 0, NULL, NULL),
+                        "read a tile of channels", error);
+}
+
+static bool trace_tile(const AovPass *pass, const Tile *tile, Error *error)
+{
+    const AovSource *source = pass->source;
+    const Renderer *renderer = source->renderer;
+    const size_t count = (size_t)tile->width * tile->height;
+    const FrameData center = frame_of(renderer, tile, &source->center, 1);
+    const FrameData frame = frame_of(renderer, tile, &source->camera, renderer->frame.samples);
+    if (!run_kernel(pass, pass->trace_paths, &center, pass->paths, error) ||
+        !read_back(pass, pass->paths, pass->host_paths, count * sizeof *pass->host_paths, error))
+        return false;
+    return !pass->counts_tests ||
+           (run_kernel(pass, pass->count_tests, &frame, pass->tests, error) &&
+            read_back(pass, pass->tests, pass->host_tests, count * sizeof *pass->host_tests,
+                      error));
+}
+
+static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
+{
+    const uint32_t samples = pass->source->renderer->frame.samples;
+    for (uint32_t row = 0; row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++) {
+            const size_t place = (size_t)row * tile->width + column;
+            const AovPixel pixel = {&pass->host_paths[place],
+                                    pass->counts_tests ? pass->host_tests[place] : NULL,
+                                    samples * samples};
+            aov_take(pass->set, layers_at(layers, tile->x + column, tile->y + row), &pixel,
+                     &pass->source->scene);
+        }
+}
+
+bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
+                   Error *error)
+{
+    const RenderSettings *settings = &pass->source->renderer->settings;
+    RenderProgress progress = {.tiles = tile_count(settings)};
+    bool wanted = true;
+    while (wanted && progress.tiles_done < progress.tiles) {
+        const Tile tile = tile_at(settings, progress.tiles_done);
+        if (!trace_tile(pass, &tile, error))
+            return false;
+        take_tile(pass, &tile, layers);
+        progress.tiles_done++;
+        wanted = observer == NULL || observer->tile_done(observer->context, &progress);
+    }
+    return true;
+}

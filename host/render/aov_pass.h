@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The scene of a renderer -> the channels of a picture, by kernels of their own behind the
+// picture's, so that a picture without them pays nothing.
+#pragma once
+
+#include "render/aov.h"
+#include "render/renderer.h"
+
+typedef struct {
+    const RendererSetup *setup;
+    const Renderer *renderer; // that has drawn the picture
+    CameraData camera;        // of the picture
+    CameraData center;        // the same with one sample a pixel
+    AovScene scene;
+} AovSource;
+
+typedef struct {
+    const AovSource *source;
+    AovSet set;
+    bool counts_tests;
+    Program program;
+    cl_kernel trace_paths, count_tests;
+    cl_mem paths, tests; // of a tile, on the device
+    PathData *host_paths;
+    uint32_t (*host_tests)[TALLY_KINDS];
+} AovPass;
+
+// Compiles what the channels of set take; source must outlive the pass.
+bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error);
+void aov_pass_close(AovPass *pass);
+
+// Fills layers, which have the names of the set and the picture's size, as far as observer lets it.
+bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
+                   Error *error);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The kernels of --aov: what lies behind a picture's colors, pixel by pixel, found by the search
+// that draws it.  They are compiled behind render.cl, and only where they are wanted.
+
+static inline Truth light_reaches(const SceneView *scene, const FrameData *frame, uint index,
+                                  const Surface *surface, Truth met)
+{
+    Tally tally = {0};
+    const SeenLight light = see_light(scene, index, surface, met);
+    if (!any_lane(light.faces))
+        return light.faces;
+    const Ray ray = ray_from_light(light.position, surface, light.faces);
+    return light.faces && !is_blocked(scene, frame, &ray, &tally);
+}
+
+static inline Count lights_reaching(const SceneView *scene, const FrameData *frame,
+                                    const Surface *surface, Truth met)
+{
+    Count lights = 0;
+    for (uint index = 0; index < frame->light_count; index++)
+        lights += light_reaches(scene, frame, index, surface, met) ? (Count)(1) : (Count)(0);
+    return lights;
+}
+
+// PathData, lane by lane.
+typedef struct {
+    Real3 point, normal;
+    Real depth;
+    Count primitive, material, lights, bounces;
+} Path;
+
+static inline Path path_to(const SceneView *scene, const FrameData *frame, const Hit *hit,
+                           const Surface *surface, Truth met)
+{
+    const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
+    return (Path){.point = choose3(met, surface->point, zero),
+                  .normal = choose3(met, surface->normal, zero),
+                  .depth = met ? hit->t : (Real)(INFINITY),
+                  .primitive = met ? hit->id : (Count)(NOTHING),
+                  .material = met ? surface->material : (Count)(NOTHING),
+                  .lights = lights_reaching(scene, frame, surface, met)};
+}
+
+// Follows the ray as trace does, without colors.
+static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ray)
+{
+    Path path = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
+    Tally tally = {0};
+    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
+        if (level > 0)
+            path.bounces += ray.active ? (Count)(1) : (Count)(0);
+        const Hit hit = nearest_hit(scene, frame, &ray, &tally);
+        const Truth met = ray.active && hit.id != NOTHING;
+        if (!any_lane(met))
+            break;
+        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
+        if (level == 0)
+            path = path_to(scene, frame, &hit, &surface, met);
+        const MaterialLanes material = fetch_material(scene, surface.material);
+        ray = ray_reflected(&surface, met && material.reflectivity != 0.0f);
+    }
+    return path;
+}
+
+#define LANE_OF(type, value, lane) (((const type *)&(value))[lane])
+
+static inline void store_path(global PathData *data, const Path *path, uint lane)
+{
+    store_lane(data->point, &path->point, lane);
+    store_lane(data->normal, &path->normal, lane);
+    data->depth = (float)LANE_OF(Scalar, path->depth, lane);
+    data->primitive = LANE_OF(uint, path->primitive, lane);
+    data->material = LANE_OF(uint, path->material, lane);
+    data->lights = LANE_OF(uint, path->lights, lane);
+    data->bounces = LANE_OF(uint, path->bounces, lane);
+}
+
+// The place of a lane's pixel in the tile, or false where it lies outside.
+static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, size_t *place)
+{
+    const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
+    *place = (size_t)row * frame->tile_width + column;
+    return column < frame->tile_width && row < frame->tile_height;
+}
+
+static inline Places places_at(const FrameData *frame, uint2 corner)
+{
+    const Count column = corner.x + LANE_X, row = corner.y + LANE_Y;
+    return (Places){frame->tile_x + column, frame->tile_y + row,
+                    column < frame->tile_width && row < frame->tile_height};
+}
+
+// Fills paths, one for each pixel of the tile, of a frame with one sample a pixel.
+kernel void trace_paths(const FrameData frame, global const PointLight *lights,
+                        global const Material *materials, global const SphereData *spheres,
+                        global const Node *nodes, global const Triangles *triangles,
+                        global const TriangleLook *looks, global const CornerNormals *normals,
+                        global PathData *paths)
+{
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
+    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
+        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
+            size_t place;
+            const uint2 corner = (uint2)(x, y);
+            const Places pixels = places_at(&frame, corner);
+            const Path path =
+                follow(&scene, &frame, camera_ray(&frame, pixels.x, pixels.y, pixels.active));
+            for (uint lane = 0; lane < CLRT_LANES; lane++)
+                if (lane_place(&frame, corner, lane, &place))
+                    store_path(&paths[place], &path, lane);
+        }
+}
+
+// Fills tallies, TALLY_KINDS counts for each pixel of the tile: what all its samples cost, each ray
+// traced alone.  Rays of one packet share their tests, so that no pixel has any of its own.
+kernel void count_tests(const FrameData frame, global const PointLight *lights,
+                        global const Material *materials, global const SphereData *spheres,
+                        global const Node *nodes, global const Triangles *triangles,
+                        global const TriangleLook *looks, global const CornerNormals *normals,
+                        global uint *tallies)
+{
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
+    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
+        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH)
+            for (uint lane = 0; lane < CLRT_LANES; lane++) {
+                size_t place;
+                if (!lane_place(&frame, (uint2)(x, y), lane, &place))
+                    continue;
+                Tally tally = {0};
+                Places pixels = places_at(&frame, (uint2)(x, y));
+                pixels.active = lanes_of(1u << lane);
+                pixel_color(&scene, &frame, &pixels, &tally);
+                store_tally(tallies + place * TALLY_KINDS, &tally);
+            }
+}

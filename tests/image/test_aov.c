@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+// The channels beside the colors: judged by the oracle, by the counters of the whole picture, and
+// against each other in every form of the kernels and every cut into tiles.
+#include "image/form.h"
+#include "image/inline_scenes.h"
+#include "image/picture.h"
+#include "oracle/oracle.h"
+#include "scene/scn.h"
+#include "unit/cmocka_all.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
+
+// How many pixels of 10,000 may differ in a decision: rays along an edge fall on either side.
+#define LIMIT 2
+
+static InlineScenes inline_scenes;
+
+static AovSet set_of(const char *list)
+{
+    AovSet set = 0;
+    Error error = {0};
+    if (!aov_read_list(list, &set, &error))
+        fail_msg("%s", error.text);
+    return set;
+}
+
+static void draw(const PictureRequest *request, Framebuffer *picture)
+{
+    Error error = {0};
+    if (!picture_render(picture, request, &error))
+        fail_msg("%s", error.text);
+}
+
+static double float_of(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+static Vec3 vector_at(const uint32_t *values)
+{
+    return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
+}
+
+// The values of a pixel, in the order of the table.
+typedef struct {
+    double depth;
+    Vec3 normal, position;
+    uint32_t primitive, material;
+    double shadow, bounces;
+} Values;
+
+#define JUDGED "depth,normal,position,primitive,material,shadow,bounces"
+
+static Values values_at(const Layers *layers, uint32_t x, uint32_t y)
+{
+    const uint32_t *v = layers_at(layers, x, y);
+    return (Values){float_of(v[0]), vector_at(v + 1), vector_at(v + 4), v[7],
+                    v[8],           float_of(v[9]),   float_of(v[10])};
+}
+
+static double apart(Vec3 a, Vec3 b)
+{
+    return vec3_extent(vec3_sub(a, b));
+}
+
+typedef struct {
+    uint32_t pixels, others, shadows, bounces; // that differ
+    double depth, normal, position;            // largest differences where the primitive is one
+} Judgment;
+
+// How far a point is moved by being stored in floats.
+static double rounding_of(Vec3 point)
+{
+    return vec3_extent(point) * 0x1p-24;
+}
+
+static void judge_pixel(Judgment *judgment, const Values *values, const OraclePath *path,
+                        double light_count)
+{
+    const bool met = path->depth < INFINITY;
+    judgment->pixels++;
+    if (values->primitive != (met ? path->surface.id : NOTHING)) {
+        judgment->others++;
+        return;
+    }
+    judgment->shadows += fabs(values->shadow * light_count - path->lights) > 1e-3;
+    judgment->bounces += values->bounces != path->bounces;
+    assert_int_equal(values->material, met ? path->surface.material : NOTHING);
+    if (!met) {
+        assert_true(values->depth == INFINITY);
+        assert_true(vec3_extent(values->normal) == 0 && vec3_extent(values->position) == 0);
+        return;
+    }
+    judgment->depth = fmax(judgment->depth, fabs(values->depth / path->depth - 1));
+    judgment->normal = fmax(judgment->normal, apart(values->normal, path->surface.normal));
+    judgment->position = fmax(judgment->position, apart(values->position, path->surface.point) -
+                                                      rounding_of(path->surface.point));
+}
+
+static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
+{
+    Judgment judgment = {0};
+    Oracle oracle = {0};
+    Error error = {0};
+    if (!oracle_make(&oracle, scene, &error))
+        fail_msg("%s", error.text);
+    const OracleView view = oracle_view(&oracle, &scene->viewpoints.data[0], layers->width,
+                                        layers->height, scene->max_level);
+    for (uint32_t y = 0; y < layers->height; y += step)
+        for (uint32_t x = 0; x < layers->width; x += step) {
+            const Values values = values_at(layers, x, y);
+            const OraclePath path = oracle_path(&view, x + 0.5, y + 0.5);
+            judge_pixel(&judgment, &values, &path, (double)scene->lights.count);
+        }
+    oracle_free(&oracle);
+    return judgment;
+}
+
+static double size_of(const Scene *scene)
+{
+    return 1 / normalization_of(scene).scale;
+}
+
+// With several samples a pixel, which the channels look away from.
+static void check(const char *path, uint32_t step)
+{
+    Scene scene = {0};
+    Layers layers;
+    Error error = {0};
+    Framebuffer picture = {0};
+    PictureRequest request = picture_request(path, 1);
+    request.samples = 2;
+    request.aovs = set_of(JUDGED);
+    request.layers = &layers;
+    if (!scn_load(&scene, path, &error))
+        fail_msg("%s", error.text);
+    draw(&request, &picture);
+    const Judgment judgment = judge(&scene, &layers, step);
+    print_message("%s: %u of %u pixels show another primitive, %u other shadows, %u other bounces; "
+                  "depth off by %.2g, normal by %.2g, position by %.2g\n",
+                  strrchr(path, '/') + 1, judgment.others, judgment.pixels, judgment.shadows,
+                  judgment.bounces, judgment.depth, judgment.normal, judgment.position);
+    const uint32_t allowed = judgment.pixels * LIMIT / 10000;
+    assert_true(judgment.others <= allowed && judgment.shadows <= allowed);
+    assert_true(judgment.bounces <= allowed);
+    assert_true(judgment.depth < 2e-5 && judgment.normal < 1e-3);
+    assert_true(judgment.position < 1e-5 * size_of(&scene));
+    framebuffer_free(&picture);
+    layers_free(&layers);
+    scene_free(&scene);
+}
+
+static void channels_of_small_scenes_are_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    check(SOURCE_SCENE("scenes/reflections.scn"), 2);
+    check(SOURCE_SCENE("scenes/silhouette.scn"), 4);
+    check(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+}
+
+static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
+        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        return;
+    }
+    check(SOURCE_SCENE("scenes/creature.scn"), 8);
+}
+
+static void channels_are_in_the_coordinates_of_a_scene_far_away(void **state)
+{
+    char path[INLINE_PATH_SIZE];
+    (void)state;
+    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    check(path, 2);
+}
+
+static void take_values(PictureRequest *request, const char *list, Layers *layers,
+                        Framebuffer *picture)
+{
+    request->aovs = set_of(list);
+    request->layers = layers;
+    draw(request, picture);
+}
+
+static bool layers_equal(const Layers *a, const Layers *b)
+{
+    return memcmp(a->values, b->values,
+                  (size_t)a->width * a->height * a->count * sizeof *a->values) == 0;
+}
+
+static bool pictures_equal(const Framebuffer *a, const Framebuffer *b)
+{
+    return memcmp(a->pixels, b->pixels, (size_t)a->width * a->height * sizeof *a->pixels) == 0;
+}
+
+// Whether the request gives the same bits as the program does by itself.
+static void check_same(const PictureRequest *other, const char *list)
+{
+    Layers layers, changed_layers;
+    Framebuffer picture = {0}, changed = {0};
+    PictureRequest request = picture_request(other->scene_path, other->view);
+    PictureRequest change = *other;
+    take_values(&request, list, &layers, &picture);
+    take_values(&change, list, &changed_layers, &changed);
+    assert_true(pictures_equal(&picture, &changed));
+    assert_true(layers_equal(&layers, &changed_layers));
+    framebuffer_free(&picture);
+    framebuffer_free(&changed);
+    layers_free(&layers);
+    layers_free(&changed_layers);
+}
+
+static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                       {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
+                                       {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
+                                       {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+                                       {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}};
+#define CHOICES (sizeof choices / sizeof *choices)
+
+static void every_form_of_the_kernels_gives_the_same_channels(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CHOICES; i++) {
+        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+        request.choice = choices[i];
+        check_same(&request, JUDGED ",samples");
+    }
+}
+
+static void every_form_over_one_kind_of_nodes_counts_the_same_tests(void **state)
+{
+    const KernelChoice own = form_choice();
+    (void)state;
+    for (size_t i = 0; i < CHOICES; i++) {
+        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+        request.choice = choices[i];
+        if (choices[i].nodes == own.nodes)
+            check_same(&request, "boxtests,tritests");
+    }
+}
+
+static void tiles_change_no_channel(void **state)
+{
+    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+    (void)state;
+    request.tile_width = 13;
+    request.tile_height = 7;
+    check_same(&request, JUDGED ",samples,boxtests,tritests");
+}
+
+static double sum_of(const Layers *layers, uint32_t channel)
+{
+    double sum = 0;
+    const size_t count = (size_t)layers->width * layers->height;
+    for (size_t pixel = 0; pixel < count; pixel++)
+        sum += float_of(layers->values[pixel * layers->count + channel]);
+    return sum;
+}
+
+static void tests_and_bounces_of_pixels_add_up_to_those_of_the_picture(void **state)
+{
+    Layers layers;
+    uint64_t tallies[TALLY_KINDS];
+    Framebuffer picture = {0};
+    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+    (void)state;
+    request.choice = choices[0];
+    request.tallies = tallies;
+    take_values(&request, "bounces,boxtests,tritests", &layers, &picture);
+    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_REFLECTED_RAYS]);
+    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
+    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
+    layers_free(&layers);
+    framebuffer_free(&picture);
+    request.samples = 3;
+    take_values(&request, "samples,boxtests,tritests", &layers, &picture);
+    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_CAMERA_RAYS]);
+    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
+    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
+    layers_free(&layers);
+    framebuffer_free(&picture);
+}
+
+static void the_picture_keeps_its_bits_with_channels(void **state)
+{
+    Layers layers;
+    Framebuffer picture = {0}, plain = {0};
+    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+    (void)state;
+    draw(&request, &plain);
+    take_values(&request, JUDGED ",boxtests", &layers, &picture);
+    assert_true(pictures_equal(&picture, &plain));
+    layers_free(&layers);
+    framebuffer_free(&picture);
+    framebuffer_free(&plain);
+}
+
+static void a_name_that_is_no_channel_is_refused_with_the_nearest(void **state)
+{
+    AovSet set = 0;
+    Error error = {0}, other = {0};
+    (void)state;
+    assert_false(aov_read_list("depth,normals", &set, &error));
+    assert_string_equal(error.text, "--aov knows no channel 'normals', perhaps normal");
+    assert_false(aov_read_list("depth,", &set, &other));
+    assert_non_null(strstr(other.text, "--aov wants names among depth, normal, position"));
+}
+
+static int write_scenes(void **state)
+{
+    Error error = {0};
+    (void)state;
+    if (inline_scenes_write(&inline_scenes, &error))
+        return 0;
+    print_message("%s\n", error.text);
+    return -1;
+}
+
+static int remove_scenes(void **state)
+{
+    (void)state;
+    inline_scenes_remove(&inline_scenes);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(channels_of_small_scenes_are_what_the_oracle_sees),
+        cmocka_unit_test(channels_of_a_mesh_are_what_the_oracle_sees),
+        cmocka_unit_test(channels_are_in_the_coordinates_of_a_scene_far_away),
+        cmocka_unit_test(every_form_of_the_kernels_gives_the_same_channels),
+        cmocka_unit_test(every_form_over_one_kind_of_nodes_counts_the_same_tests),
+        cmocka_unit_test(tiles_change_no_channel),
+        cmocka_unit_test(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture),
+        cmocka_unit_test(the_picture_keeps_its_bits_with_channels),
+        cmocka_unit_test(a_name_that_is_no_channel_is_refused_with_the_nearest),
+    };
+    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+}
