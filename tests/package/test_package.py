@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# What an installation holds, the Debian package of the same, and the licenses of all files.
+# Usage: test_package.py CLRT BUILD_FOLDER
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CLRT, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = "share/doc/clrt/examples/reflections.scn"
+INSTALLED = [
+    "bin/clrt",
+    "share/bash-completion/completions/clrt",
+    "share/clrt/check.schema.json",
+    "share/clrt/devices.schema.json",
+    "share/clrt/statistics.schema.json",
+    "share/doc/clrt/copyright",
+    "share/doc/clrt/changelog.gz",
+    SCENE,
+    "share/fish/vendor_completions.d/clrt.fish",
+    "share/man/man1/clrt.1.gz",
+    "share/man/man5/clrt-scene.5.gz",
+    "share/zsh/site-functions/_clrt",
+]
+
+
+def run(*words, **settings):
+    words = [str(word) for word in words]
+    return subprocess.run(words, capture_output=True, text=True, check=True, **settings).stdout
+
+
+def files_under(folder):
+    return sorted(str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file())
+
+
+def is_here(*programs):
+    return all(map(shutil.which, programs))
+
+
+@unittest.skipUnless(is_here("cpack", "dpkg-deb", "dpkg-shlibdeps"), "this is no Debian to pack on")
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        work = pathlib.Path(cls.folder.name)
+        run("cpack", "-G", "DEB", "-B", work / "made", "--config", BUILD / "CPackConfig.cmake")
+        (cls.package,) = (work / "made").glob("*.deb")
+        cls.root = work / "root"
+        run("dpkg-deb", "-x", cls.package, cls.root)
+        cls.clrt = cls.root / "usr/bin/clrt"
+
+    def test_what_is_installed_is_in_it(self):
+        for name in INSTALLED:
+            self.assertTrue((self.root / "usr" / name).is_file(), name)
+
+    def test_cmake_installs_the_same_files(self):
+        with tempfile.TemporaryDirectory() as prefix:
+            run("cmake", "--install", BUILD, "--prefix", prefix)
+            without_library = [
+                [re.sub(r"^lib/.*/", "", name) for name in files_under(pathlib.Path(folder))]
+                for folder in (prefix, self.root / "usr")
+            ]
+            self.assertEqual(*map(sorted, without_library))
+
+    def test_it_runs_no_script_when_it_is_installed(self):
+        with tempfile.TemporaryDirectory() as control:
+            run("dpkg-deb", "-e", self.package, control)
+            self.assertEqual(files_under(pathlib.Path(control)), ["control", "md5sums"])
+
+    def test_it_depends_on_what_it_is_linked_to_and_on_an_opencl_driver(self):
+        depends = run("dpkg-deb", "-f", self.package, "Depends")
+        for name in ("pocl-opencl-icd | opencl-icd", "libc6", "libjansson4", "libpng16-16"):
+            self.assertIn(name, depends)
+
+    @unittest.skipUnless(is_here("lintian"), "lintian is not installed")
+    def test_lintian_accepts_it(self):
+        done = subprocess.run(
+            ["lintian", "--fail-on", "error,warning", self.package], capture_output=True, text=True
+        )
+        self.assertEqual((done.stdout, done.returncode), ("", 0))
+
+    def test_it_draws_what_the_build_draws_where_home_is_not_writable(self):
+        formats = re.search(r"writes (.*)", subprocess.run(
+            [self.clrt, "a", "-o", "a.none"], capture_output=True, text=True
+        ).stderr)[1].split(", ")
+        environment = {**os.environ, "HOME": "/proc", "XDG_CACHE_HOME": "/proc"}
+        environment.pop("POCL_CACHE_DIR", None)
+        with tempfile.TemporaryDirectory() as work:
+            for ending in formats:
+                pictures = [f"{work}/{whose}.{ending}" for whose in ("package", "build")]
+                scene = [self.root / "usr" / SCENE, "-s", "24x16", "-q", "-o"]
+                run(self.clrt, *scene, pictures[0], env=environment)
+                run(CLRT, *scene, pictures[1])
+                package, build = (pathlib.Path(picture).read_bytes() for picture in pictures)
+                self.assertEqual(package, build, ending)
+
+    @unittest.skipUnless(is_here("readelf"), "readelf is not installed")
+    def test_its_programs_are_hardened(self):
+        programs = [self.clrt, *(self.root / "usr/lib").rglob("*.so")]
+        for program in programs:
+            text = run("readelf", "-lWd", program)
+            self.assertIn("GNU_RELRO", text)
+            self.assertRegex(text, r"FLAGS.*NOW")
+            self.assertNotRegex(text, r"RUNPATH|RPATH")
+            self.assertRegex(text, r"GNU_STACK .* RW ")
+        text = run("readelf", "-lWd", "--dyn-syms", self.clrt)
+        self.assertRegex(text, r"FLAGS_1.*PIE")
+        for name in ("__stack_chk_fail", "__snprintf_chk", "__fprintf_chk"):
+            self.assertIn(name, text)
+
+
+def reuse_reads_toml():
+    if not is_here("reuse"):
+        return False
+    return int(re.search(r"version (\d+)", run("reuse", "--version"))[1]) >= 4
+
+
+class Licenses(unittest.TestCase):
+    @unittest.skipUnless(reuse_reads_toml(), "reuse 4 or later is not installed (pip install reuse)")
+    def test_reuse_has_nothing_to_say(self):
+        done = subprocess.run(["reuse", "--root", ROOT, "lint", "--quiet"], capture_output=True)
+        self.assertEqual(done.returncode, 0)
+
+    def test_the_package_tells_the_license_of_the_project(self):
+        def words(path):
+            return re.sub(r"[\s.]+", " ", (ROOT / path).read_text())
+
+        license_text = words("LICENSES/MIT.txt").split("authors ", 1)[1]
+        self.assertIn(license_text.strip(), words("tools/package/copyright"))
+        self.assertEqual((ROOT / "LICENSE").read_text(), (ROOT / "LICENSES/MIT.txt").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+# What belongs to an installation beside the program, and the Debian package: cmake --workflow
+# --preset package makes it.  It runs no script when it is installed: kernels are compiled when they
+# are first used, or by clrt --warm.
+set(folder ${CMAKE_BINARY_DIR}/package)
+file(MAKE_DIRECTORY ${folder})
+foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")
+  string(REPLACE ":" ";" pair ${pair})
+  list(GET pair 0 source)
+  list(GET pair 1 name)
+  add_custom_command(
+    OUTPUT ${folder}/${name}.gz
+    COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/${source} > ${folder}/${name}.gz
+    DEPENDS ${CMAKE_SOURCE_DIR}/${source}
+    VERBATIM)
+  add_custom_target(compress_${name} ALL DEPENDS ${folder}/${name}.gz)
+  install(FILES ${folder}/${name}.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endforeach()
+install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Debian's archive has no wish for the package that its changelog could close.
+file(WRITE ${folder}/clrt "clrt: initial-upload-closes-no-bugs\n")
+install(FILES ${folder}/clrt DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides)
+
+# The scenes that need no large model.
+file(GLOB examples scenes/*.ply)
+foreach(scene blinn_phong matte reflections silhouette simple)
+  list(APPEND examples scenes/${scene}.scn)
+endforeach()
+install(FILES ${examples} DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "The clrt authors")
+set(CPACK_PACKAGE_CONTACT "The clrt authors <maintainers@clrt.example>")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "ray tracer on OpenCL with the same bits on every device
+clrt traces scenes of triangle meshes and spheres with OpenCL kernels, on CPUs
+and GPUs, to a file or in a window. The same scene and settings give the same
+picture, bit for bit, on every device; nothing leaks where triangles meet; and
+a check tells what is wrong in a mesh.")
+include(CPack)
