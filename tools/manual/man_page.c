@@ -121,6 +121,10 @@ static void write_keys(FILE *stream)
         return;
     show_write_keys(lines);
     fclose(lines);
+    if (text[0] == '\0') {
+        fputs("This build has no window.\n", stream);
+        return;
+    }
     fputs(".Bl -tag -width \"right drag, wheel\" -compact\n", stream);
     char *rest = text;
     for (char *line = strsep(&rest, "\n"); line != NULL; line = strsep(&rest, "\n")) {
