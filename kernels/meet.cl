@@ -179,12 +179,13 @@ static void meet_triangles(const SceneView *scene, const FrameData *frame, const
             continue;
         }
         Packet packet;
-        packet_gather(&packet, ray, part, wanted / 8);
+        packet_gather(&packet, scene, ray, part, wanted / 8);
         alone |= meet_together(scene, frame, &packet, best, tally);
     }
     if (alone == 0)
         return;
     Search search;
+    search.scene = scene;
     search.ray = ray;
     search.axes = shear_axes(ray->direction);
     search.shear = shear_along(ray->direction, &search.axes);

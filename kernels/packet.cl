@@ -113,11 +113,13 @@ static inline Real3 filled(Real3 v, Truth lanes, uint lane)
 }
 
 // Gathers the lanes whose bits are set, which share signs and the longest axis, into a packet.
-static inline void packet_gather(Packet *packet, const Ray *ray, uint bits, uint longest_axis)
+static inline void packet_gather(Packet *packet, const SceneView *scene, const Ray *ray, uint bits,
+                                 uint longest_axis)
 {
     const uint first = lowest_bit(bits);
     packet->active = lanes_of(bits);
     packet->common_origin = ray->kind != RAY_REFLECTED;
+    packet->rays.scene = scene;
     packet->rays.ray = ray;
     const Real3 direction = filled(ray->direction, packet->active, first);
     const Real3 origin =
@@ -183,6 +185,16 @@ typedef struct {
     Truth inside;
 } PacketTest;
 
+// Which of the rays stop on a triangle that their lines meet within rounding of their own.
+static NOT_INLINE Truth packet_stops(const Corners *corners, const Packet *packet, Truth from_back)
+{
+    const Ray *ray = packet->rays.ray;
+    const Truth known = ray->own_index != NOTHING;
+    const Corners own = fetch_corners(packet->rays.scene, known ? ray->own_index : (Count)(0));
+    const Real3 outward = ray->kind == RAY_SHADOW ? negative3(ray->direction) : ray->direction;
+    return known && meets_neighbor(&own, corners, outward, from_back);
+}
+
 // Where those rays stop on it; INFINITY where they do not, or not before `reach`.
 static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
                                     const PacketTest *test, Real reach)
@@ -196,14 +208,24 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     if ((id & TRIANGLE_TWO_SIDED) == 0)
         closed = closed && (is_shadow ? !front : front);
     const Real t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
+    const Real clear = closed && t > 0.0f ? t : INFINITY;
+    Truth near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
-        return closed && t > 0.0f ? t : INFINITY;
-    if (!any_lane(closed && t <= reach))
-        return INFINITY;
+        near = near && triangle_is_at_eye(t, shear);
+    if (!any_lane(near))
+        return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
     const SurfaceRay surface = {ray->surface, front, is_shadow};
-    return closed ? surface_ray_distance(&corners, &surface, t, error) : INFINITY;
+    Truth in_doubt;
+    const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
+    if (ray->kind == RAY_CAMERA)
+        return near ? distance : clear;
+    in_doubt = in_doubt && near;
+    if (!any_lane(in_doubt))
+        return near ? distance : INFINITY;
+    const Truth stops = packet_stops(&corners, packet, is_shadow ? front : !front);
+    return near ? (in_doubt && stops ? max(t, (Real)(0.0f)) : distance) : INFINITY;
 }
 
 // Corners of a block's triangles relative to an origin that all rays share: [corner][axis].

@@ -7,13 +7,14 @@
 // order of visits and for no tree at all.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
-#include "ray.cl"
+#include "fetch.cl"
 
 #if !CLRT_WIDE_NODES
 
 // A ray as the triangle test and the slab test want it.  The slabs are six planes' constants:
 // distance to a plane = fma(plane, inverse, offset).
 typedef struct {
+    const SceneView *scene;
     ShearAxes axes;
     Shear shear;
     Real3 origin; // in the order of the axes
@@ -28,9 +29,10 @@ static inline Real slab_direction(Real direction, Real smallest)
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
 }
 
-static inline Query query_of(const Ray *ray)
+static inline Query query_of(const SceneView *scene, const Ray *ray)
 {
     Query query;
+    query.scene = scene;
     query.axes = shear_axes(ray->direction);
     query.shear = shear_along(ray->direction, &query.axes);
     query.origin = axes_ordered(ray->origin, &query.axes);
@@ -89,6 +91,18 @@ static inline bool triangle_is_open(global const TriangleData *triangle, const R
     return !(triangle->material & TRIANGLE_TWO_SIDED) && front == (ray->kind == RAY_SHADOW);
 }
 
+// Whether the ray stops on a triangle that its line meets within rounding of its own.
+static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
+                                         const Corners *corners, bool from_back)
+{
+    if (ray->own_index == NOTHING)
+        return false;
+    const bool is_shadow = ray->kind == RAY_SHADOW;
+    const Corners own = fetch_corners(scene, ray->own_index);
+    const Real3 outward = is_shadow ? negative3(ray->direction) : ray->direction;
+    return meets_neighbor(&own, corners, outward, from_back);
+}
+
 // The distance t at which the ray meets the triangle, INFINITY where it does not.
 static inline Real triangle_distance(global const TriangleData *triangle, const Ray *ray,
                                      const Query *query)
@@ -104,12 +118,16 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
         return INFINITY;
     const Real t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
-    if (ray->kind == RAY_CAMERA)
+    if (ray->kind == RAY_CAMERA && !triangle_is_at_eye(t, &query->shear))
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW};
-    return surface_ray_distance(&corners, &surface, t, error);
+    Truth in_doubt;
+    const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
+    if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, front == surface.is_shadow))
+        return max(t, (Real)(0.0f));
+    return distance;
 }
 
 // Tests triangles [first, first + count); a shadow ray is content with the first that blocks it.
@@ -189,7 +207,7 @@ static inline void traverse_tree(const SceneView *scene, const Ray *ray, const Q
 static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
                            Hit *best, Tally *tally)
 {
-    const Query query = query_of(ray);
+    const Query query = query_of(scene, ray);
     if (CLRT_BVH && frame->uses_bvh) {
         traverse_tree(scene, ray, &query, best, tally);
         return;

@@ -9,7 +9,8 @@ typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 // origin + t * direction.  A shadow ray runs from the light at t = 0 to the shaded point at t = 1.
 typedef struct {
     Real3 origin, direction;
-    Count own; // id of the primitive it starts or ends on, which it cannot meet
+    Count own;       // id of the primitive it starts or ends on, which it cannot meet
+    Count own_index; // of that where it is a triangle, else NOTHING
     RayKind kind;
     Real3 surface; // the point of that primitive
     Truth active;  // lanes that have a ray

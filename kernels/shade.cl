@@ -10,7 +10,9 @@
 
 static inline Ray ray_from_light(Real3 light, const Surface *surface, Truth active)
 {
-    return (Ray){light, difference(surface->point, light), surface->id, RAY_SHADOW, surface->point,
+    return (Ray){light,       difference(surface->point, light),
+                 surface->id, surface->index,
+                 RAY_SHADOW,  surface->point,
                  active};
 }
 

@@ -3,6 +3,7 @@
 // rather than stepped along the ray, so that their error does not grow with the distance traveled
 // (pbrt, section 6.8).  New rays start and end right there: which triangles they may stop on is
 // decided by the side the point lies on (triangle.cl), so no offset moves contacts and shadows.
+// Only a point that rounding put outside its own triangle is not where a reflected ray starts.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
 #include "fetch.cl"
@@ -14,6 +15,8 @@ typedef struct {
     Real3 face;          // unit, of the true surface, on the side the ray came from
     Real3 toward_viewer; // unit
     Count id, material;
+    Count index;     // of a triangle; NOTHING for spheres
+    Real room, edge; // the first over the second is the point's distance from the edges, at least
 } Surface;
 
 static inline Truth has_length(Real3 v)
@@ -53,21 +56,44 @@ static inline Real3 corner_seen(Real3 corner, Real3 origin, const ShearAxes *axe
     return axes_ordered(difference(corner, origin), axes);
 }
 
+// A triangle as a ray sees it.
+typedef struct {
+    Shear shear;
+    Edges edges;
+} View;
+
+static inline View view_of(const Corners *corners, Real3 origin, Real3 direction)
+{
+    View view;
+    const ShearAxes axes = shear_axes(direction);
+    view.shear = shear_along(direction, &axes);
+    const Corners relative = {corner_seen(corners->a, origin, &axes),
+                              corner_seen(corners->b, origin, &axes),
+                              corner_seen(corners->c, origin, &axes)};
+    const Corners sheared = corners_sheared(&relative, &view.shear);
+    view.edges = edges_of(&sheared);
+    return view;
+}
+
+// A weight is the share of the altitude that a point is away from an edge, and the altitude twice
+// the area over the edge's length; largest components are within a factor of 2 of lengths.
+static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real area = largest_component(cross_product(ab, ac));
+    surface->room = min(min(weights.x, weights.y), weights.z) * area;
+    surface->edge = 2.0f * (largest_component(ab) + largest_component(ac));
+}
+
 static inline Surface triangle_surface(const SceneView *scene, const FrameData *frame,
                                        const Ray *ray, const Hit *hit)
 {
     const Corners corners = fetch_corners(scene, hit->index);
     const Look look = fetch_look(scene, hit, frame->sphere_count);
-    const ShearAxes axes = shear_axes(ray->direction);
-    const Shear shear = shear_along(ray->direction, &axes);
-    const Corners relative = {corner_seen(corners.a, ray->origin, &axes),
-                              corner_seen(corners.b, ray->origin, &axes),
-                              corner_seen(corners.c, ray->origin, &axes)};
-    const Corners sheared = corners_sheared(&relative, &shear);
-    const Edges edges = edges_of(&sheared);
-    const Real r = 1.0f / edges.determinant;
-    const Real3 weights = {edges.u * r, edges.v * r, edges.w * r};
-    const Truth front = edges_face(&edges, &shear);
+    const View view = view_of(&corners, ray->origin, ray->direction);
+    const Real r = 1.0f / view.edges.determinant;
+    const Real3 weights = {view.edges.u * r, view.edges.v * r, view.edges.w * r};
+    const Truth front = edges_face(&view.edges, &view.shear);
 
     Surface surface;
     surface.toward_viewer = negative3(unit_vector(ray->direction));
@@ -77,6 +103,8 @@ static inline Surface triangle_surface(const SceneView *scene, const FrameData *
     surface.face = choose3(front, face, negative3(face));
     surface.normal = choose3(front, normal, negative3(normal));
     surface.id = hit->id;
+    surface.index = hit->index;
+    note_edges(&surface, &corners, weights);
     surface.material = look.material;
     return surface;
 }
@@ -91,6 +119,9 @@ static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, con
     const Truth outside = dot_product(surface.normal, surface.toward_viewer) >= 0.0f;
     surface.face = choose3(outside, surface.normal, negative3(surface.normal));
     surface.id = hit->id;
+    surface.index = NOTHING;
+    surface.room = 0.0f;
+    surface.edge = 0.0f;
     surface.material = fetch_sphere_material(scene, hit->index);
     return surface;
 }
@@ -102,7 +133,10 @@ static inline Surface choose_surface(Truth first, const Surface *a, const Surfac
                      choose3(first, a->face, b->face),
                      a->toward_viewer,
                      first ? a->id : b->id,
-                     first ? a->material : b->material};
+                     first ? a->material : b->material,
+                     first ? a->index : b->index,
+                     first ? a->room : b->room,
+                     first ? a->edge : b->edge};
 }
 
 // The lanes of hit that have none of `met` take the place of one that has: what they compute is
@@ -137,18 +171,55 @@ static inline Surface surface_at(const SceneView *scene, const FrameData *frame,
     return any_lane(on_triangle) ? choose_surface(on_sphere, &sphere, &triangle) : sphere;
 }
 
+// Where a ray starts whose surface point rounding may have put outside its triangle: beyond the
+// neighbor that it should stop on.  As long as its line misses the triangle, the point goes back
+// inside and up from the surface, by 1 to 8 units of rounding.
+static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surface,
+                                     Real3 direction, Truth near_edge)
+{
+    const Corners corners = fetch_corners(scene, near_edge ? surface->index : (Count)(0));
+    const Real third = RATIO(1.0f, 3.0f);
+    const Real3 middle = weighted(real3_of(third, third, third), &corners);
+    const Real3 inward = difference(middle, surface->point);
+    const Real size = max(largest_component(inward), (Real)(16.0f * UNIT_ROUNDOFF));
+    const Real3 shift = sum3(scaled3(1.0f / size, inward), surface->face);
+    Real3 point = surface->point;
+    Truth outside = near_edge;
+    for (uint step = 1; step <= 8 && any_lane(outside); step *= 2) {
+        const View view = view_of(&corners, point, direction);
+        outside = outside && !edges_contain(&view.edges);
+        const Real3 moved = sum3(surface->point, scaled3(step * UNIT_ROUNDOFF, shift));
+        point = choose3(outside, moved, point);
+    }
+    return point;
+}
+
+// Where a ray that leaves the surface starts, so that its line passes through its own triangle.
+// Only near edges can rounding keep it from that: a point is off by some units of rounding of
+// coordinates up to 1, and a line that rises from the surface by a sine by as much over the sine.
+static inline Real3 point_left(const SceneView *scene, const Surface *surface, Real3 direction,
+                               Truth active)
+{
+    const Real sine = fabs(dot_product(surface->face, direction));
+    const Real least = 4.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
+    const Truth near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
+    if (!CLRT_TRIANGLES || !any_lane(near_edge))
+        return surface->point;
+    return point_inside(scene, surface, direction, near_edge);
+}
+
 // An interpolated normal can send the reflected ray into the surface it leaves; such a ray is
 // turned out again in the mirror of the true surface, which is continuous at its horizon.
-static inline Ray ray_reflected(const Surface *surface, Truth active)
+static inline Ray ray_reflected(const SceneView *scene, const Surface *surface, Truth active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
     const Real3 direction =
         difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
     const Real height = dot_product(direction, surface->face);
     const Real3 outward = difference(direction, scaled3(2.0f * height, surface->face));
-    return (Ray){surface->point, choose3(height < 0.0f, outward, direction),
-                 surface->id,    RAY_REFLECTED,
-                 surface->point, active};
+    const Real3 turned = choose3(height < 0.0f, outward, direction);
+    const Real3 point = point_left(scene, surface, turned, active);
+    return (Ray){point, turned, surface->id, surface->index, RAY_REFLECTED, point, active};
 }
 
 #endif

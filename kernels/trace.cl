@@ -22,7 +22,7 @@ static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sampl
     const Real3 direction = {fma(x, right.x, fma(y, down.x, forward.x)),
                              fma(x, right.y, fma(y, down.y, forward.y)),
                              fma(x, right.z, fma(y, down.z, forward.z))};
-    return (Ray){eye, direction, NOTHING, RAY_CAMERA, eye, active};
+    return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, eye, active};
 }
 
 static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
@@ -64,7 +64,7 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
         ended = ended || ends;
         if (!CLRT_MIRRORS)
             break;
-        ray = ray_reflected(&surface, met && !ends);
+        ray = ray_reflected(scene, &surface, met && !ends);
     }
     const Real3 background = load_private3(frame->background);
     return choose3(ended, color, sum3(color, scaled3(weight, background)));

@@ -77,11 +77,18 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// The surface point's height over the triangle's front, as a multiple of its normal's length;
-// zero where rounding leaves the side open.  Near a triangle this knows far more than the depth
-// of a ray that came from afar.  The bound adds the point's own error, the products' and the
-// normal's.
-static inline Real OVERLOAD height_over(const Corners *corners, Real3 point)
+// Whether a camera ray meets the triangle so near to the eye that rounding may decide whether it
+// does so before or behind: coordinates are at most 1, which bounds that error by 2^-17.
+static inline Truth OVERLOAD triangle_is_at_eye(Real t, const Shear *shear)
+{
+    return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
+}
+
+// A point's height over the triangle's front, as a multiple of its normal's length; zero where
+// rounding leaves the side open.  Near a triangle this knows far more than the depth of a ray that
+// came from afar.  The bound adds the products' error, the normal's, and the point's own: `blur`
+// units of rounding of its coordinates.
+static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real3 normal = cross_product(ab, ac), apart = difference(point, corners->a);
@@ -89,9 +96,48 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point)
     const Real3 size = magnitudes(normal);
     const Real edges = largest_component(ab) * largest_component(ac);
     const Real error =
-        16.0f * dot_product(size, magnitudes(point)) +
+        blur * dot_product(size, magnitudes(point)) +
         8.0f * (dot_product(size, magnitudes(apart)) + edges * largest_component(apart));
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
+}
+
+// What a point of a surface may be off, in units of rounding of its coordinates.
+#define POINT_BLUR 16.0f
+
+// The sides of a triangle that another certainly reaches to.
+typedef struct {
+    Truth front, back;
+} Sides;
+
+static inline Sides OVERLOAD sides_of(const Corners *corners, const Corners *other)
+{
+    const Real a = height_over(corners, other->a, 0.0f);
+    const Real b = height_over(corners, other->b, 0.0f);
+    const Real c = height_over(corners, other->c, 0.0f);
+    const Real highest = max(max(a, b), c), lowest = min(min(a, b), c);
+    return (Sides){highest > 0.0f, lowest < 0.0f};
+}
+
+static inline Sides OVERLOAD sides_exchanged(Truth exchange, Sides sides)
+{
+    return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
+}
+
+// Whether a ray that leaves its own triangle in a direction stops on another, which its line meets
+// within rounding of where it starts.  How the two triangles lie tells: what is in front of the own
+// one, on the side that the ray leaves to, is ahead, and what is behind it is not; and as the ray
+// starts on the own one, so is and is not the other where that lies in front of it or behind, on
+// the side that the ray comes from.  Coplanar neighbors are not met.  Where the two cross, there is
+// nothing but rounding to tell by, and a ray that stops does not leave a closed shape.
+static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *other,
+                                            Real3 direction, Truth from_back)
+{
+    const Real3 ab = difference(own->b, own->a), ac = difference(own->c, own->a);
+    const Truth downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
+    const Sides neighbor = sides_exchanged(downward, sides_of(own, other));
+    const Sides start = sides_exchanged(from_back, sides_of(other, own));
+    const Truth behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
+    return (neighbor.front || start.front) && !behind;
 }
 
 // What a ray that leaves or reaches a surface knows beside its direction.
@@ -106,14 +152,15 @@ typedef struct {
 // point would mirror and shadow it; t near the surface is mere rounding.  From its inner side,
 // which only two-sided triangles show, a convex neighbor lies on the right side as well, and the
 // depth has to be clear too.  A light that lies on a triangle as far as t can tell is not shadowed
-// by it.
+// by it.  In doubt are those that rounding alone keeps from stopping.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
-                                                 Real t, Real error)
+                                                 Real t, Real error, Truth *in_doubt)
 {
     const Truth inner = ray->is_shadow ? ray->front : !ray->front;
     const Truth ahead = t > (ray->is_shadow ? error : -error);
     const Truth clear = (ray->is_shadow ? 1.0f - t : t) > error;
-    const Real height = height_over(corners, ray->point);
+    const Real height = height_over(corners, ray->point, POINT_BLUR);
     const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
+    *in_doubt = ahead && !beyond && (inner ? height <= 0.0f : height == 0.0f);
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;
 }

@@ -14,6 +14,7 @@ typedef Shear WideShear;
 typedef Corners WideCorners;
 typedef Edges WideEdges;
 typedef SurfaceRay WideSurfaceRay;
+typedef Sides WideSides;
 #elif CLRT_WIDE_NODES
 #define Real       float8
 #define Truth      int8
@@ -23,6 +24,7 @@ typedef SurfaceRay WideSurfaceRay;
 #define Corners    WideCorners
 #define Edges      WideEdges
 #define SurfaceRay WideSurfaceRay
+#define Sides      WideSides
 #include "triangle.cl"
 #undef Real
 #undef Truth
@@ -32,6 +34,7 @@ typedef SurfaceRay WideSurfaceRay;
 #undef Corners
 #undef Edges
 #undef SurfaceRay
+#undef Sides
 #endif
 
 #endif

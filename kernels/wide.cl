@@ -5,12 +5,14 @@
 // triangle.cl's, so the answer is too.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
+#include "fetch.cl"
 #include "waiting.cl"
 
 #if CLRT_WIDE_NODES
 
 // The rays of the lanes as the searches want them.
 typedef struct {
+    const SceneView *scene;
     const Ray *ray;
     ShearAxes axes;
     Shear shear;
@@ -132,10 +134,30 @@ static inline BlockPlace block_start(const SceneView *scene, uint number)
     return (BlockPlace){scene->triangles + number, 0, number * WIDE};
 }
 
-// Where the lane's ray stops on those triangles; INFINITY where it does not, or not before `reach`.
-static inline float8 block_distances(global const TriangleBlock *block, const Ray *ray, uint lane,
-                                     const BlockTest *test, float reach)
+static inline Wide3 splat3(const Real3 *v, uint lane)
 {
+    return (Wide3){real_of(&v->x, lane), real_of(&v->y, lane), real_of(&v->z, lane)};
+}
+
+// Which triangles of the block the lane's ray stops on among those that its line meets within
+// rounding of its own.
+static NOT_INLINE int8 block_stops(const WideCorners *corners, const Search *search, uint lane,
+                                   int8 from_back)
+{
+    const Ray *ray = search->ray;
+    if (count_of(&ray->own_index, lane) == NOTHING)
+        return 0;
+    const Corners owns = fetch_corners(search->scene, (Count)(count_of(&ray->own_index, lane)));
+    const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
+    const Real3 outward = ray->kind == RAY_SHADOW ? negative3(ray->direction) : ray->direction;
+    return meets_neighbor(&own, corners, splat3(&outward, lane), from_back);
+}
+
+// Where the lane's ray stops on those triangles; INFINITY where it does not, or not before `reach`.
+static inline float8 block_distances(global const TriangleBlock *block, const Search *search,
+                                     uint lane, const BlockTest *test, float reach)
+{
+    const Ray *ray = search->ray;
     const WideShear *shear = &test->shear;
     const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint8 id = vload8(0, block->id);
@@ -145,17 +167,25 @@ static inline float8 block_distances(global const TriangleBlock *block, const Ra
     const int8 own = (id & ~TRIANGLE_TWO_SIDED) == count_of(&ray->own, lane);
     const int8 closed = test->inside && !open && !own;
     const float8 t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
+    const float8 clear = closed && t > 0.0f ? t : INFINITY;
+    int8 near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
-        return closed && t > 0.0f ? t : INFINITY;
-    if (lane_bits(closed && t <= reach) == 0)
-        return INFINITY;
+        near = near && triangle_is_at_eye(t, shear);
+    if (lane_bits(near) == 0)
+        return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const Wide3 point = {real_of(&ray->surface.x, lane), real_of(&ray->surface.y, lane),
-                         real_of(&ray->surface.z, lane)};
-    const WideSurfaceRay surface = {point, front, is_shadow};
-    return closed ? surface_ray_distance(&corners, &surface, t, error) : INFINITY;
+    const WideSurfaceRay surface = {splat3(&ray->surface, lane), front, is_shadow};
+    int8 in_doubt;
+    const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
+    if (ray->kind == RAY_CAMERA)
+        return near ? distance : clear;
+    in_doubt = in_doubt && near;
+    if (lane_bits(in_doubt) == 0)
+        return near ? distance : INFINITY;
+    const int8 stops = block_stops(&corners, search, lane, is_shadow ? front : !front);
+    return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
 }
 
 // Records the nearest of the distances if it precedes the lane's hit, and tells whether it does.
@@ -196,7 +226,7 @@ static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *sear
     if (lane_bits(test.inside) == 0)
         return false;
     const float reach = real_of(&hits->t, lane);
-    const float8 distances = block_distances(block, search->ray, lane, &test, reach);
+    const float8 distances = block_distances(block, search, lane, &test, reach);
     return lane_hits(&distances, start, lane, hits);
 }
 

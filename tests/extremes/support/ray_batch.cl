@@ -74,13 +74,16 @@ static inline uint first_kind(const TestRays *rays, Truth lanes)
 // Rays are made by the tracer's own functions, from surfaces that give such rays: a reflected ray
 // continues along a face it looks straight away from, and a shadow ray ends where t is 1.  The
 // other lanes copy the first.
-static inline Ray ray_of(const TestRays *rays, Truth lanes)
+static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Truth lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
     const uint kind = first_kind(rays, lanes);
     Surface surface;
     surface.id = rays->own;
+    surface.index = NOTHING;
+    surface.room = 0.0f;
+    surface.edge = 0.0f;
     surface.point = kind == RAY_SHADOW ? sum3(origin, direction) : origin;
     surface.normal = real3_of(0.0f, 0.0f, 0.0f);
     surface.face = direction;
@@ -88,8 +91,8 @@ static inline Ray ray_of(const TestRays *rays, Truth lanes)
     if (kind == RAY_SHADOW)
         return ray_from_light(origin, &surface, lanes);
     if (kind == RAY_REFLECTED)
-        return ray_reflected(&surface, lanes);
-    return (Ray){origin, direction, rays->own, RAY_CAMERA, origin, lanes};
+        return ray_reflected(scene, &surface, lanes);
+    return (Ray){origin, direction, rays->own, NOTHING, RAY_CAMERA, origin, lanes};
 }
 
 static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth lanes, Real t,
@@ -113,7 +116,7 @@ kernel void batch_nearest(const FrameData frame, global const SphereData *sphere
     Truth left = all.exist;
     while (any_lane(left)) {
         const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&all, lanes);
+        const Ray ray = ray_of(&scene, &all, lanes);
         Tally tally = {0};
         const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
         store_hits(hits, &all, lanes, hit.t, hit.id);
@@ -133,7 +136,7 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
     Truth left = all.exist;
     while (any_lane(left)) {
         const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&all, lanes);
+        const Ray ray = ray_of(&scene, &all, lanes);
         Tally tally = {0};
         const Truth blocked = is_blocked(&scene, &frame, &ray, &tally);
         store_hits(hits, &all, lanes, 0.0f, blocked ? (Count)(1) : (Count)(0));
@@ -163,7 +166,7 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
     while (any_lane(left)) {
         Tally tally = {0};
         const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&all, lanes);
+        const Ray ray = ray_of(&scene, &all, lanes);
         const Hit first = nearest_hit(&scene, &frame, &ray, &tally);
         const Truth met = lanes && first.id != NOTHING;
         Hit second = {0.0f, NOTHING, NOTHING};
@@ -171,7 +174,7 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
             const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
             const Truth inward = dot_product(chosen, surface.face) < 0.0f;
             const Real3 direction = choose3(inward, negative3(chosen), chosen);
-            const Ray next = {surface.point, direction,     surface.id,
+            const Ray next = {surface.point, direction,     surface.id, surface.index,
                               RAY_REFLECTED, surface.point, met};
             second = nearest_hit(&scene, &frame, &next, &tally);
             const Ray shadow = ray_from_light(sum3(surface.point, direction), &surface, met);
@@ -185,10 +188,10 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
 
 #if CLRT_WIDE_NODES
 // The first lane's ray, as the searches want it, in every lane of which only that one counts.
-static inline void prepare_first(Packet *packet, const Ray *ray)
+static inline void prepare_first(Packet *packet, const SceneView *scene, const Ray *ray)
 {
     const Count classes = ray_classes(ray->direction);
-    packet_gather(packet, ray, 1, count_of(&classes, 0) / 8);
+    packet_gather(packet, scene, ray, 1, count_of(&classes, 0) / 8);
 }
 
 // Where the ray alone meets a triangle, by the test of packets or by that of blocks.
@@ -212,8 +215,7 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
     test.sheared = corners_sheared(&relative, &ray.shear);
     test.edges = edges_of(&test.sheared);
     test.inside = edges_contain(&test.edges);
-    const float8 distances =
-        block_distances(&triangles[block], packet->rays.ray, 0, &test, INFINITY);
+    const float8 distances = block_distances(&triangles[block], &packet->rays, 0, &test, INFINITY);
     return ((const float *)&distances)[place];
 }
 
@@ -225,10 +227,11 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint block = get_global_id(0);
     if (block >= count)
         return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&all, lanes_of(1));
+    const Ray ray = ray_of(&scene, &all, lanes_of(1));
     Packet packet;
-    prepare_first(&packet, &ray);
+    prepare_first(&packet, &scene, &ray);
     for (uint place = 0; place < WIDE; place++) {
         const uint id = triangles[block].id[place] & ~TRIANGLE_TWO_SIDED;
         if (triangles[block].id[place] != NOTHING)
@@ -263,6 +266,7 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
 {
     if (count == 0)
         return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     TestRays all = test_rays(rays, count);
     all.kind = (Count)((uint)RAY_REFLECTED);
     const Count classes = ray_classes(all.direction);
@@ -270,10 +274,10 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     while (any_lane(left)) {
         const Truth lanes = left && same_in_first(classes, left);
         const Count wanted = first_lane(classes, left);
-        Ray ray = ray_of(&all, lanes);
+        Ray ray = ray_of(&scene, &all, lanes);
         ray.direction = filled_lanes(all.direction, lanes);
         Packet packet;
-        packet_gather(&packet, &ray, lane_bits(lanes), count_of(&wanted, 0) / 8);
+        packet_gather(&packet, &scene, &ray, lane_bits(lanes), count_of(&wanted, 0) / 8);
         store_hits(hits, &all, lanes, 0.0f,
                    boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
         left = left && !lanes;
@@ -288,9 +292,10 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&all, 1);
-    const Query query = query_of(&ray);
+    const Ray ray = ray_of(&scene, &all, 1);
+    const Query query = query_of(&scene, &ray);
     const Real t = triangle_distance(&triangles[place], &ray, &query);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
@@ -303,9 +308,10 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
+    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, count);
-    const Ray ray = ray_of(&all, 1);
-    const Query query = query_of(&ray);
+    const Ray ray = ray_of(&scene, &all, 1);
+    const Query query = query_of(&scene, &ray);
     Real2 entry, leave;
     slabs_meet(&nodes[place], &query, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
