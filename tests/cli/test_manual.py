@@ -113,10 +113,11 @@ class Completions(unittest.TestCase):
     def check_options(self, shell):
         text = self.offered(shell, "clrt a.scn --")
         for _, name, _ in OPTIONS:
-            if name != "json":
+            if name not in ("json", "fail"):
                 self.assertRegex(text, rf"(?<!\w)--{name}(?![\w-])", shell)
         self.assertRegex(self.offered(shell, "clrt check --"), r"--json(?![\w-])")
         self.assertNotIn("--output", self.offered(shell, "clrt check --"))
+        self.assertRegex(self.offered(shell, "clrt compare --"), r"--fail(?![\w-])")
 
     def check_letters(self, shell):
         text = self.offered(shell, "clrt a.scn -")
