@@ -181,4 +181,35 @@ typedef struct {
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
 
+// What --explain-pixel is told of each ray of a path: LEVEL_VALUES numbers of the kernel's
+// precision and LEVEL_WORDS words, and behind these, for each light, LIGHT_VALUES and LIGHT_WORDS.
+// Vectors take three places.
+typedef enum {
+    LEVEL_ORIGIN = 0,
+    LEVEL_DIRECTION = 3,
+    LEVEL_T = 6,     // INFINITY where nothing is met, and then only what stands above is told
+    LEVEL_ERROR = 7, // how far t may be off
+    LEVEL_POINT = 8,
+    LEVEL_NORMAL = 11,
+    LEVEL_SHADED = 14, // the surface's own color
+    LEVEL_WEIGHT = 17, // of what the ray sees, in the sample's color; told of all
+    LEVEL_SHARE = 18,  // of the surface's own color in it
+    LEVEL_VALUES = 19
+} LevelValue;
+
+typedef enum { LEVEL_PRIMITIVE, LEVEL_MATERIAL, LEVEL_WORDS } LevelWord;
+
+typedef enum {
+    LIGHT_COSINE,    // between the normal and the way to the light
+    LIGHT_BLOCKER_T, // part of that way
+    LIGHT_DIFFUSE,   // received
+    LIGHT_SPECULAR,
+    LIGHT_VALUES
+} LightValue;
+
+typedef enum { LIGHT_STATE, LIGHT_BLOCKER, LIGHT_WORDS } LightWord;
+
+// Whether a light reaches a surface.
+typedef enum { LIGHT_BEHIND, LIGHT_SEEN, LIGHT_BLOCKED } LightState;
+
 #endif

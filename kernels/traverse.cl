@@ -64,10 +64,12 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
     return best;
 }
 
-// Whether anything stands between the light and the shaded point of a shadow ray.  Triangles are
-// looked for a little past the point: which side of it they are on is decided exactly there.  What
-// the light lies on, to within the error of a distance, does not stand between.
-static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
+// What stands between the light and the shaded point of a shadow ray: anything that does, with no
+// id where nothing does; t then is the distance it was looked for within.  That of a sphere counts
+// from the point, that of a triangle from the light.  Triangles are looked for a little past the
+// point: which side of it they are on is decided exactly there.  What the light lies on, to within
+// the error of a distance, does not stand between.
+static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {
     Hit best = {1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
@@ -76,10 +78,17 @@ static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, c
     Ray rest = *ray;
     rest.active = is_searchable(ray) && best.id == NOTHING;
     if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
-        return best.id != NOTHING;
+        return best;
     best.t = 1.0f + 0x1p-10f;
     meet_triangles(scene, frame, &rest, &best, tally);
-    return best.id != NOTHING;
+    return best;
+}
+
+static inline Truth is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                               Tally *tally)
+{
+    const Hit blocker = blocking_hit(scene, frame, ray, tally);
+    return blocker.id != NOTHING;
 }
 
 #endif

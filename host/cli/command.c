@@ -12,6 +12,19 @@ static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "thre
 static const char *const compare_options[] = {"output", "format",  "fail", "json",
                                               "quiet",  "verbose", NULL};
 
+static const char *const explain_options[] = {
+    "explain-pixel", "size",    "view",   "aa",      "max-level", "bvh",       "no-bvh",
+    "device",        "threads", "kernel", "nodes",   "lanes",     "precision", "encode",
+    "bad-geometry",  "json",    "quiet",  "verbose", NULL};
+
+static const Command explanation = {
+    .name = "--explain-pixel", .action = ACTION_EXPLAIN, .options = explain_options};
+
+const Command *command_explain(void)
+{
+    return &explanation;
+}
+
 // What no picture needs.
 static const char *const command_options[] = {"fail", "json", NULL};
 
@@ -45,11 +58,21 @@ bool command_takes(const Command *command, const char *option)
                            : !is_among(option, command_options);
 }
 
+static size_t add_taker(const char *name, char *text, size_t size, size_t length)
+{
+    if (length >= size)
+        return length;
+    return length + (size_t)snprintf(text + length, size - length, "%sclrt %s",
+                                     length > 0 ? " or " : "", name);
+}
+
 void command_list_takers(const char *option, char *text, size_t size)
 {
     size_t length = 0;
+    text[0] = '\0';
     for (size_t i = 0; i < command_count; i++)
-        if (is_among(option, command_table[i].options) && length < size)
-            length += (size_t)snprintf(text + length, size - length, "%sclrt %s",
-                                       length > 0 ? " or " : "", command_table[i].name);
+        if (is_among(option, command_table[i].options))
+            length = add_taker(command_table[i].name, text, size, length);
+    if (is_among(option, explanation.options))
+        add_taker(explanation.name, text, size, length);
 }

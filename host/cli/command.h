@@ -19,6 +19,9 @@ extern const size_t command_count;
 // NULL where the word names none.
 const Command *command_named(const char *word);
 
+// What --explain-pixel asks for, which is no word of its own.
+const Command *command_explain(void);
+
 // Whether the option of that name is for the command; NULL draws, and takes all options but those
 // of commands alone.
 bool command_takes(const Command *command, const char *option);

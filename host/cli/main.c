@@ -3,6 +3,7 @@
 #include "cli/check.h"
 #include "cli/compare.h"
 #include "cli/device_report.h"
+#include "cli/explain.h"
 #include "cli/option_help.h"
 #include "cli/picture.h"
 #include "cli/show.h"
@@ -60,6 +61,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return perform_run(&options, check, error);
     case ACTION_COMPARE:
         return compare_files(&options, error);
+    case ACTION_EXPLAIN:
+        return perform_run(&options, explain_pixel, error);
     case ACTION_RENDER:
         break;
     }

@@ -49,6 +49,9 @@ static bool check_format(Options *options, Error *error)
 
 static bool check_aovs(const Options *options, Error *error)
 {
+    if (options->contrast > 0 && aov_needs_tests(options->aovs))
+        return error_set(error, "--aov boxtests and tritests count a grid of samples: leave out "
+                                "--aa-adaptive");
     return options->aovs == 0 || image_format_takes_layers(options->format) ||
            error_set(error, "--aov needs an EXR file (-o FILE.exr): %s holds colors alone",
                      options->format);

@@ -24,6 +24,23 @@ bool read_aov(Options *options, const char *value, Error *error)
     return aov_read_list(value, &options->aovs, error);
 }
 
+bool read_explain_pixel(Options *options, const char *value, Error *error)
+{
+    int64_t column, row;
+    const char *end = value + strlen(value);
+    const char *comma = integer_parse(value, end, &column);
+    if (comma == NULL || *comma != ',' || integer_parse(comma + 1, end, &row) != end ||
+        column < 0 || column >= PICTURE_SIZE_MAX || row < 0 || row >= PICTURE_SIZE_MAX)
+        return error_set(error,
+                         "--explain-pixel wants X,Y counted from 0, X from the left and Y "
+                         "from the top, not '%s'",
+                         value);
+    options->pixel[0] = (uint32_t)column;
+    options->pixel[1] = (uint32_t)row;
+    options->action = ACTION_EXPLAIN;
+    return true;
+}
+
 bool read_output(Options *options, const char *value, Error *error)
 {
     options->output_path = value;

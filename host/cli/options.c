@@ -124,6 +124,9 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         if (!option_table[option].read(options, optarg, error))
             return false;
     }
+    if (options->action == ACTION_EXPLAIN)
+        return check_purposes(given, command_explain(), error) &&
+               read_scene(options, count, words, error);
     if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
         return true;
     const Command *command = optind < count ? command_named(words[optind]) : NULL;

@@ -16,7 +16,8 @@ typedef enum {
     ACTION_WARM,
     ACTION_VIEW,
     ACTION_CHECK,
-    ACTION_COMPARE
+    ACTION_COMPARE,
+    ACTION_EXPLAIN
 } Action;
 
 // What happens to triangles of no area, which no ray can meet.
@@ -71,7 +72,8 @@ typedef struct {
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
     Limits limits;         // of ACTION_COMPARE
-    bool json;             // of ACTION_CHECK and ACTION_COMPARE
+    uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
+    bool json;             // of ACTION_CHECK, ACTION_COMPARE and ACTION_EXPLAIN
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;

@@ -77,6 +77,7 @@ static bool draw_layers(Run *run, Error *error)
                               .renderer = &run->renderer,
                               .camera = camera_of(run, settings->samples),
                               .center = camera_of(run, 1),
+                              .samples = run->samples,
                               .scene = {&run->normalization, run->flat.light_count}};
     aov_name_layers(aovs, &run->layers);
     if (!layers_make(&run->layers, settings->width, settings->height, error))

@@ -22,6 +22,7 @@ typedef struct {
     Framebuffer framebuffer;
     Framebuffer reference; // empty unless one was asked for
     Layers layers;         // beside the colors
+    uint32_t *samples;     // of each pixel, for the layers; NULL where all have as many
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

@@ -136,17 +136,24 @@ static bool trace_tile(const AovPass *pass, const Tile *tile, Error *error)
                       error));
 }
 
+static uint32_t samples_of(const AovPass *pass, uint32_t x, uint32_t y)
+{
+    const AovSource *source = pass->source;
+    const RenderSettings *settings = &source->renderer->settings;
+    return source->samples != NULL ? source->samples[(size_t)y * settings->width + x]
+                                   : settings->samples * settings->samples;
+}
+
 static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
 {
-    const uint32_t samples = pass->source->renderer->frame.samples;
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
+            const uint32_t x = tile->x + column, y = tile->y + row;
             const AovPixel pixel = {&pass->host_paths[place],
                                     pass->counts_tests ? pass->host_tests[place] : NULL,
-                                    samples * samples};
-            aov_take(pass->set, layers_at(layers, tile->x + column, tile->y + row), &pixel,
-                     &pass->source->scene);
+                                    samples_of(pass, x, y)};
+            aov_take(pass->set, layers_at(layers, x, y), &pixel, &pass->source->scene);
         }
 }
 

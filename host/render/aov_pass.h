@@ -11,6 +11,7 @@ typedef struct {
     const Renderer *renderer; // that has drawn the picture
     CameraData camera;        // of the picture
     CameraData center;        // the same with one sample a pixel
+    const uint32_t *samples;  // of each pixel, row by row; NULL where all have as many
     AovScene scene;
 } AovSource;
 

@@ -164,6 +164,23 @@ static void add_group(const RefineTree *tree, uint32_t number, uint64_t sum[3])
     }
 }
 
+// Those that a group added to the one of the cell it cuts.
+static uint32_t count_added(const RefineTree *tree, uint32_t number)
+{
+    uint32_t count = GROUP_CELLS - 1;
+    const CellGroup *group = &tree->groups.data[number];
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if (group->groups[cell] != 0)
+            count += count_added(tree, group->groups[cell]);
+    return count;
+}
+
+uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
+{
+    const uint32_t group = tree->pixel_groups[(size_t)y * tree->width + x];
+    return group == 0 ? 1 : 1 + count_added(tree, group);
+}
+
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3])
 {
     const uint64_t cells = (uint64_t)REFINE_GRID * REFINE_GRID;

@@ -73,5 +73,8 @@ uint32_t refine_tree_cell_side(uint32_t level);
 // Where the sample of a group's cell lies, in cells of the last level.
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);
 
+// How many samples a pixel has.
+uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
+
 // The mean over the samples of a row of pixels, weighted by their cells.
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3]);

@@ -9,7 +9,8 @@
 #include <string.h>
 
 // What compiling a program that is not yet cached costs, and what a specialized one saves of the
-// tracing time: 0 to 7 % measured with packets; the rate is of one core on a scene of middling size.
+// tracing time: 0 to 7 % measured with packets; the rate is of one core on a scene of middling
+// size.
 #define COMPILE_SECONDS   1.5
 #define SPECIALIZED_SAVES 0.03
 #define RAYS_PER_SECOND   3e6

@@ -77,15 +77,15 @@ static bool read_shader(Tokens *tokens, Shader *shader)
     return tokens_fail(tokens, token, "expected 'silhouette', 'matte' or 'blinn_phong'");
 }
 
-static const MaterialName *find_name(const Materials *materials, Token token)
+static const MaterialName *find_name(const Scene *scene, Token token)
 {
-    for (size_t i = 0; i < materials->names.count; i++)
-        if (token_is(token, materials->names.data[i].name))
-            return &materials->names.data[i];
+    for (size_t i = 0; i < scene->material_names.count; i++)
+        if (token_is(token, scene->material_names.data[i].name))
+            return &scene->material_names.data[i];
     return NULL;
 }
 
-static bool read_name(const Materials *materials, Tokens *tokens, MaterialName *entry)
+static bool read_name(const Scene *scene, Tokens *tokens, MaterialName *entry)
 {
     double number;
     const Token token = tokens_next(tokens);
@@ -94,18 +94,18 @@ static bool read_name(const Materials *materials, Tokens *tokens, MaterialName *
                            sizeof entry->name - 1);
     if (number_parse(token.text, token.text + token.length, &number) != NULL)
         return tokens_fail(tokens, token, "a name must not begin like a number");
-    if (find_name(materials, token) != NULL)
+    if (find_name(scene, token) != NULL)
         return tokens_fail(tokens, token, "this name is already defined");
     memcpy(entry->name, token.text, token.length);
     entry->name[token.length] = '\0';
     return true;
 }
 
-bool materials_define(Materials *materials, Tokens *tokens, Scene *scene)
+bool materials_define(Scene *scene, Tokens *tokens)
 {
     MaterialName entry = {.material = (uint32_t)scene->materials.count};
     Shader shader = SHADER_MATTE;
-    if (!read_name(materials, tokens, &entry) || !read_shader(tokens, &shader))
+    if (!read_name(scene, tokens, &entry) || !read_shader(tokens, &shader))
         return false;
     Material material = material_of_shader(shader);
     for (;;) {
@@ -115,20 +115,20 @@ bool materials_define(Materials *materials, Tokens *tokens, Scene *scene)
         if (!read_property(tokens, property, &material))
             return false;
     }
-    return array_push(&materials->names, entry, tokens->error) &&
+    return array_push(&scene->material_names, entry, tokens->error) &&
            array_push(&scene->materials, material, tokens->error);
 }
 
-static bool unknown_name(const Materials *materials, const Tokens *tokens, Token token)
+static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
 {
     const char *nearest = NULL;
-    const char **names = memory_raw(materials->names.count, sizeof *names, tokens->error);
+    const char **names = memory_raw(scene->material_names.count, sizeof *names, tokens->error);
     if (names == NULL)
         return false;
-    for (size_t i = 0; i < materials->names.count; i++)
-        names[i] = materials->names.data[i].name;
+    for (size_t i = 0; i < scene->material_names.count; i++)
+        names[i] = scene->material_names.data[i].name;
     if (token.text != NULL)
-        nearest = word_nearest(token.text, token.length, names, materials->names.count);
+        nearest = word_nearest(token.text, token.length, names, scene->material_names.count);
     if (nearest == NULL)
         tokens_fail(tokens, token, "expected an integer or a defined name");
     else
@@ -137,7 +137,7 @@ static bool unknown_name(const Materials *materials, const Tokens *tokens, Token
     return false;
 }
 
-bool materials_select(const Materials *materials, Tokens *tokens, uint32_t *material)
+bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material)
 {
     int64_t number;
     const Token token = tokens_next(tokens);
@@ -146,15 +146,9 @@ bool materials_select(const Materials *materials, Tokens *tokens, uint32_t *mate
         *material = number >= 0 && number <= 3 ? (uint32_t)number : 0;
         return true;
     }
-    const MaterialName *entry = find_name(materials, token);
+    const MaterialName *entry = find_name(scene, token);
     if (entry == NULL)
-        return unknown_name(materials, tokens, token);
+        return unknown_name(scene, tokens, token);
     *material = entry->material;
     return true;
-}
-
-void materials_free(Materials *materials)
-{
-    free(materials->names.memory);
-    *materials = (Materials){0};
 }

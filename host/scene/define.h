@@ -5,20 +5,9 @@
 #include "scene/scene.h"
 #include "scene/tokens.h"
 
-typedef struct {
-    char name[64];
-    uint32_t material; // index in the scene's materials
-} MaterialName;
-
-typedef struct {
-    ARRAY(MaterialName) names;
-} Materials;
-
 // Reads the rest of a define statement and adds the material to scene.
-bool materials_define(Materials *materials, Tokens *tokens, Scene *scene);
+bool materials_define(Scene *scene, Tokens *tokens);
 
 // Reads what follows `material`: a number of the course (any but 0 to 3 is the silhouette, as
 // there) or a defined name.
-bool materials_select(const Materials *materials, Tokens *tokens, uint32_t *material);
-
-void materials_free(Materials *materials);
+bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);

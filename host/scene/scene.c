@@ -102,6 +102,7 @@ void scene_free(Scene *scene)
     free(scene->spheres.memory);
     free(scene->objects.memory);
     free(scene->materials.memory);
+    free(scene->material_names.memory);
     free(scene->viewpoints.memory);
     *scene = (Scene){0};
 }

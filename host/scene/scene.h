@@ -37,10 +37,16 @@ typedef struct {
 } Viewpoint;
 
 typedef struct {
+    char name[64];
+    uint32_t material; // index
+} MaterialName;
+
+typedef struct {
     ARRAY(Light) lights;
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
-    ARRAY(Material) materials; // the first four are the course's
+    ARRAY(Material) materials;          // the first four are the course's
+    ARRAY(MaterialName) material_names; // of those defined
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
     Vec3 background;       // each component in [0, 1]

@@ -17,7 +17,6 @@ typedef struct {
     Tokens tokens;
     Scene *scene;
     PlyParse *parse_mesh;
-    Materials materials;
     uint32_t material; // of the objects that follow
     MeshObject object; // the sides and normals of the objects that follow
     Vec3 up;           // of the cameras that follow
@@ -48,12 +47,12 @@ static bool read_sphere(Parser *parser)
 
 static bool read_material(Parser *parser)
 {
-    return materials_select(&parser->materials, &parser->tokens, &parser->material);
+    return materials_select(parser->scene, &parser->tokens, &parser->material);
 }
 
 static bool read_define(Parser *parser)
 {
-    return materials_define(&parser->materials, &parser->tokens, parser->scene);
+    return materials_define(parser->scene, &parser->tokens);
 }
 
 static bool read_mesh(Parser *parser)
@@ -214,7 +213,6 @@ static bool parse(Parser *parser, const char *text, size_t size, const char *nam
     bool ok = scene_init(parser->scene, parser->error);
     scene_hash_input(parser->scene, text, size);
     ok = ok && read_statements(parser) && scene_complete(parser->scene, parser->error);
-    materials_free(&parser->materials);
     if (!ok)
         scene_free(parser->scene);
     return ok;

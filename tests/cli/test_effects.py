@@ -22,6 +22,7 @@ PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
+EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
 # Words without the option, and words with it, which must be seen to differ: in the picture where the
@@ -56,6 +57,7 @@ TRIALS = {
     "reference": (PICTURE, PICTURE + ["--reference"]),
     "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
     "frames": (PICTURE, PICTURE + ["--frames", "2"]),
+    "explain-pixel": (EXPLAIN + ["9,9"], EXPLAIN + ["12,8"]),
     "bad-geometry": (
         [FLAT, "-s", "8x8", "-o", "a.pfm"],
         [FLAT, "-s", "8x8", "-o", "a.pfm", "--bad-geometry", "fail"],

@@ -140,6 +140,26 @@ static bool draw_layers(const Pipeline *pipeline, const RendererSetup *setup, Er
     return ok;
 }
 
+static bool visit(const Pipeline *pipeline, const RendererSetup *setup,
+                  const Framebuffer *framebuffer, Error *error)
+{
+    Explainer explainer;
+    const PictureRequest *request = pipeline->request;
+    const ExplainerSource source = {.setup = setup,
+                                    .renderer = &pipeline->renderer,
+                                    .scene = &pipeline->scene,
+                                    .normalization = &pipeline->normalization,
+                                    .camera =
+                                        camera_of(pipeline, pipeline->renderer.settings.samples)};
+    if (request->visit == NULL)
+        return true;
+    if (!explainer_open(&explainer, &source, error))
+        return false;
+    request->visit(&explainer, framebuffer, request->visit_context);
+    explainer_close(&explainer);
+    return true;
+}
+
 static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
@@ -157,7 +177,7 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
     return framebuffer_make(framebuffer, settings.width, settings.height, error) &&
            (is_adaptive ? draw_adaptively(pipeline, &camera, framebuffer, error)
                         : renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error)) &&
-           draw_layers(pipeline, &setup, error);
+           draw_layers(pipeline, &setup, error) && visit(pipeline, &setup, framebuffer, error);
 }
 
 bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)

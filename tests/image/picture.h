@@ -4,6 +4,10 @@
 
 #include "render/adaptive.h"
 #include "render/aov.h"
+#include "render/explainer.h"
+
+// Is shown a picture, and an explainer of its pixels.
+typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);
 
 typedef struct {
     const char *scene_path;
@@ -24,6 +28,8 @@ typedef struct {
     uint64_t *tallies;         // TALLY_KINDS counts are left here; NULL counts nothing
     AovSet aovs;               // channels to be left in layers
     Layers *layers;            // which the caller frees; NULL where there are none
+    PictureVisit *visit;       // called once the picture is drawn; NULL for none
+    void *visit_context;
 } PictureRequest;
 
 // What the program does without options, but always with the general kernels, since which of them

@@ -203,11 +203,11 @@ static uint32_t lights_reaching(const Oracle *oracle, const OracleSurface *surfa
     return count;
 }
 
-OraclePath oracle_path(const OracleView *view, double x, double y)
+OraclePath oracle_follow(const OracleView *view, Vec3 direction)
 {
     const Oracle *oracle = view->oracle;
     OraclePath path = {.depth = INFINITY};
-    OracleRay ray = ray_through(view, x, y);
+    OracleRay ray = {view->eye, direction, 0, INFINITY, NOTHING};
     const double slope = vec3_dot(ray.direction, view->forward);
     for (uint32_t level = 0; level < view->max_level; level++) {
         path.bounces = level;
@@ -226,6 +226,11 @@ OraclePath oracle_path(const OracleView *view, double x, double y)
         ray = (OracleRay){surface.point, reflected(&surface), surface.near, INFINITY, surface.id};
     }
     return path;
+}
+
+OraclePath oracle_path(const OracleView *view, double x, double y)
+{
+    return oracle_follow(view, ray_through(view, x, y).direction);
 }
 
 typedef struct {

@@ -54,6 +54,9 @@ typedef struct {
 
 OraclePath oracle_path(const OracleView *view, double x, double y);
 
+// The same of a ray from the eye in a direction of length 1.
+OraclePath oracle_follow(const OracleView *view, Vec3 direction);
+
 // Makes a picture of every step-th pixel of every step-th row, each the mean of samples * samples.
 bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Framebuffer *framebuffer,
                  Error *error);

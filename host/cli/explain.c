@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Traces the pixel's samples one after the other and reports each at once, so that only one is
+// kept, in text; JSON is written whole.
+#include "cli/explain.h"
+
+#include "cli/explain_report.h"
+#include "cli/json_file.h"
+#include "scene/camera.h"
+
+static bool has_pixel(const Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const RenderSettings *settings = &run->settings;
+    return (options->pixel[0] < settings->width && options->pixel[1] < settings->height) ||
+           error_set(error, "--explain-pixel %u,%u: the picture has %u x %u pixels, counted from 0",
+                     options->pixel[0], options->pixel[1], settings->width, settings->height);
+}
+
+// Traces all samples; each goes to the list where there is one, else to text.
+static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
+                            float color[3], Error *error)
+{
+    ExplainedSample sample;
+    uint64_t sums[3] = {0};
+    const uint32_t *pixel = report->options->pixel;
+    const uint32_t side = report->settings->samples;
+    for (uint32_t i = 0; i < side * side; i++) {
+        if (!explainer_trace(explainer, pixel[0] * side + i % side, pixel[1] * side + i / side,
+                             &sample, error))
+            return false;
+        for (int channel = 0; channel < 3; channel++)
+            sums[channel] += (uint64_t)sample.steps[channel];
+        if (list != NULL)
+            json_array_append_new(list, explain_sample_json(report, &sample));
+        else
+            explain_write_sample(report, &sample, i, stdout);
+    }
+    explainer_mix(explainer, sums, color);
+    return true;
+}
+
+static ExitCode explain(const ExplainReport *report, Explainer *explainer, Error *error)
+{
+    float color[3];
+    const Options *options = report->options;
+    if (options->json) {
+        json_t *list = json_array();
+        const char *path = options->json_path != NULL ? options->json_path : "-";
+        if (!explain_samples(report, explainer, list, color, error)) {
+            json_decref(list);
+            return EXIT_DEVICE;
+        }
+        return json_file_write(explain_json(report, list, color), path, error) ? EXIT_DONE
+                                                                               : EXIT_OUTPUT;
+    }
+    explain_write_head(report, stdout);
+    if (!explain_samples(report, explainer, NULL, color, error))
+        return EXIT_DEVICE;
+    explain_write_color(report, color, stdout);
+    return EXIT_DONE;
+}
+
+static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)
+{
+    Explainer explainer;
+    const ExplainReport report = {run->options, &run->scene, &run->settings};
+    if (!explainer_open(&explainer, source, error))
+        return EXIT_DEVICE;
+    const ExitCode outcome = explain(&report, &explainer, error);
+    explainer_close(&explainer);
+    return outcome;
+}
+
+ExitCode explain_pixel(Run *run, Error *error)
+{
+    run_begin(run);
+    if (!run_load_scene(run, error)) {
+        starter_decide(&run->starter, false);
+        return EXIT_SCENE;
+    }
+    if (!has_pixel(run, error)) {
+        starter_decide(&run->starter, false);
+        return EXIT_USAGE;
+    }
+    run->settings.specialization = SPECIALIZE_NEVER; // for one pixel
+    if (!run_await_device(run, error))
+        return EXIT_DEVICE;
+    if (!run_build_scene(run, error))
+        return EXIT_SCENE;
+    if (!run_open_renderer(run, error))
+        return EXIT_DEVICE;
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
+    const ExplainerSource source = {.setup = &run->starter.setup,
+                                    .renderer = &run->renderer,
+                                    .scene = &run->scene,
+                                    .normalization = &run->normalization,
+                                    .camera =
+                                        camera_make(viewpoint, &run->normalization,
+                                                    run->settings.height, run->settings.samples)};
+    return explain_with(run, &source, error);
+}

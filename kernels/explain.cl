@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// The kernel of --explain-pixel: one sample traced as trace does, with the same functions, by a
+// single work-item in its first lane, which writes down what it finds (shared.h).  It is compiled
+// behind render.cl, and only where it is wanted.
+
+typedef struct {
+    global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights
+    global uint *words;    // LEVEL_WORDS and LIGHT_WORDS, likewise
+} Notes;
+
+static inline Notes level_notes(const Notes *notes, const FrameData *frame, uint level)
+{
+    const size_t values = LEVEL_VALUES + (size_t)frame->light_count * LIGHT_VALUES;
+    const size_t words = LEVEL_WORDS + (size_t)frame->light_count * LIGHT_WORDS;
+    return (Notes){notes->values + level * values, notes->words + level * words};
+}
+
+static inline Notes light_notes(const Notes *level, uint light)
+{
+    return (Notes){level->values + LEVEL_VALUES + (size_t)light * LIGHT_VALUES,
+                   level->words + LEVEL_WORDS + (size_t)light * LIGHT_WORDS};
+}
+
+static inline void note(const Notes *notes, uint place, Real value)
+{
+    notes->values[place] = ((const Scalar *)&value)[0];
+}
+
+static inline void note3(const Notes *notes, uint place, Real3 value)
+{
+    note(notes, place, value.x);
+    note(notes, place + 1, value.y);
+    note(notes, place + 2, value.z);
+}
+
+static inline void note_count(const Notes *notes, uint place, Count value)
+{
+    notes->words[place] = ((const uint *)&value)[0];
+}
+
+// How far t may be from where the ray truly meets the triangle: the depth's bound (triangle.cl).
+static inline Real triangle_error(const SceneView *scene, const Ray *ray, Count index)
+{
+    const Corners corners = fetch_corners(scene, index);
+    const ShearAxes axes = shear_axes(ray->direction);
+    const Shear shear = shear_along(ray->direction, &axes);
+    const Corners relative = {corner_seen(corners.a, ray->origin, &axes),
+                              corner_seen(corners.b, ray->origin, &axes),
+                              corner_seen(corners.c, ray->origin, &axes)};
+    const Corners sheared = corners_sheared(&relative, &shear);
+    return triangle_depth_error(&sheared) * fabs(shear.inverse_z);
+}
+
+static inline Real size_of3(Real3 v)
+{
+    const Real3 size = magnitudes(v);
+    return size.x + size.y + size.z;
+}
+
+// The same for a sphere, from what is left of |origin + t * direction - center|^2 - radius^2, which
+// is 0 at its two roots and |direction|^2 times the product of the distances to them elsewhere: the
+// nearer root is within the square root of that, and within twice a step of Newton's where the
+// ray does not graze.  64 units of two-float rounding are allowed for evaluating it.
+static inline Real sphere_error(const SceneView *scene, const Ray *ray, Count index, Real t)
+{
+    const Sphere sphere = fetch_sphere(scene, index);
+    const Real3 d = ray->direction;
+    const TwoFloat3 on = two_stepped(sphere_to_origin(&sphere, ray->origin), t, d);
+    const Real left = two_add(two_length_squared(on), two_negate(two_square(sphere.radius))).high;
+    const Real3 center = real3_of(sphere.center.x.high, sphere.center.y.high, sphere.center.z.high);
+    const Real reach = size_of3(ray->origin) + size_of3(center) + t * size_of3(d);
+    const Real rounding =
+        64.0f * UNIT_ROUNDOFF * UNIT_ROUNDOFF * sphere.radius.high * (reach + sphere.radius.high);
+    const Real residue = fabs(left) + rounding;
+    const Real steep = residue / fabs(two_dot(on, d).high);
+    return min(steep, sqrt(residue / dot_product(d, d)));
+}
+
+static inline Real hit_error(const SceneView *scene, const FrameData *frame, const Ray *ray,
+                             const Hit *hit)
+{
+    if (any_lane(ray->active && hit->id < frame->sphere_count))
+        return sphere_error(scene, ray, hit->index, hit->t);
+    return triangle_error(scene, ray, hit->index);
+}
+
+// What a light does for the surface, as receive_light has it.
+static inline void note_light(const Notes *notes, const SceneView *scene, const FrameData *frame,
+                              uint index, const Lighting *lighting)
+{
+    Tally tally = {0};
+    Lighting received = *lighting;
+    const SeenLight light = see_light(scene, index, lighting->surface, lighting->wanted);
+    note(notes, LIGHT_COSINE, light.cosine);
+    note_count(notes, LIGHT_STATE, (Count)(LIGHT_BEHIND));
+    note_count(notes, LIGHT_BLOCKER, (Count)(NOTHING));
+    if (!any_lane(light.faces))
+        return;
+    const Ray ray = ray_from_light(light.position, lighting->surface, light.faces);
+    const Hit blocker = blocking_hit(scene, frame, &ray, &tally);
+    const Truth is_sphere = blocker.id < frame->sphere_count;
+    receive_light(scene, frame, index, &received, &tally);
+    note_count(notes, LIGHT_STATE,
+               blocker.id == NOTHING ? (Count)(LIGHT_SEEN) : (Count)(LIGHT_BLOCKED));
+    note_count(notes, LIGHT_BLOCKER, blocker.id);
+    note(notes, LIGHT_BLOCKER_T, is_sphere ? blocker.t : 1.0f - blocker.t);
+    note(notes, LIGHT_DIFFUSE, received.diffuse);
+    note(notes, LIGHT_SPECULAR, received.specular);
+}
+
+static inline void note_hit(const Notes *notes, const SceneView *scene, const FrameData *frame,
+                            const Ray *ray, const Hit *hit)
+{
+    note3(notes, LEVEL_ORIGIN, ray->origin);
+    note3(notes, LEVEL_DIRECTION, ray->direction);
+    note(notes, LEVEL_T, hit->t);
+    note_count(notes, LEVEL_PRIMITIVE, hit->id);
+    const Truth met = ray->active && hit->id != NOTHING;
+    if (!any_lane(met))
+        return;
+    const Hit hits = hit_everywhere(hit, met);
+    note(notes, LEVEL_ERROR, hit_error(scene, frame, ray, &hits));
+}
+
+static inline void note_surface(const Notes *notes, const SceneView *scene, const FrameData *frame,
+                                const Surface *surface, const MaterialLanes *material, Truth met)
+{
+    const Lighting lighting = {surface, material, met && material->shader != SHADER_SILHOUETTE,
+                               0.0f, 0.0f};
+    note3(notes, LEVEL_POINT, surface->point);
+    note3(notes, LEVEL_NORMAL, surface->normal);
+    note_count(notes, LEVEL_MATERIAL, surface->material);
+    for (uint index = 0; any_lane(lighting.wanted) && index < frame->light_count; index++) {
+        const Notes light = light_notes(notes, index);
+        note_light(&light, scene, frame, index, &lighting);
+    }
+}
+
+// trace, with notes; end receives how many rays there are, and in its place 3 the weight of the
+// background in the color.
+static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame, Ray ray,
+                                 const Notes *notes, const Notes *end)
+{
+    Tally tally = {0};
+    Real3 color = real3_of(0.0f, 0.0f, 0.0f);
+    Real weight = 1.0f;
+    note(end, 3, 0.0f);
+    for (*end->words = 0; *end->words < frame->max_level;) {
+        const Notes level = level_notes(notes, frame, (*end->words)++);
+        const Hit hit = nearest_hit(scene, frame, &ray, &tally);
+        const Truth met = ray.active && hit.id != NOTHING;
+        note_hit(&level, scene, frame, &ray, &hit);
+        note(&level, LEVEL_WEIGHT, weight);
+        if (!any_lane(met))
+            break;
+        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
+        const MaterialLanes material = fetch_material(scene, surface.material);
+        const Real3 shaded = shade(scene, frame, &surface, &material, met, &tally);
+        const Truth ends = met && material.reflectivity == 0.0f;
+        const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
+        note_surface(&level, scene, frame, &surface, &material, met);
+        note3(&level, LEVEL_SHADED, shaded);
+        note(&level, LEVEL_SHARE, share);
+        color = sum3(color, scaled3(share, shaded));
+        if (any_lane(ends))
+            return color;
+        weight = weight * material.reflectivity;
+        ray = ray_reflected(&surface, met);
+    }
+    note(end, 3, weight);
+    return sum3(color, scaled3(weight, load_private3(frame->background)));
+}
+
+// Traces the sample in column and row of the picture's samples.  values and words have room for
+// max_level levels; result receives the color in steps of 2^-32 and the background's weight in it,
+// and count how many levels there are.
+kernel void explain_sample(const FrameData frame, global const PointLight *lights,
+                           global const Material *materials, global const SphereData *spheres,
+                           global const Node *nodes, global const Triangles *triangles,
+                           global const TriangleLook *looks, global const CornerNormals *normals,
+                           uint column, uint row, global Scalar *values, global uint *words,
+                           global Scalar *result, global uint *count)
+{
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const Notes notes = {values, words}, end = {result, count};
+    const Ray ray = camera_ray(&frame, (Count)(column), (Count)(row), lanes_of(1));
+    const Real3 color = trace_noting(&scene, &frame, ray, &notes, &end);
+    note3(&end, 0, real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z)));
+}

@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# clrt --explain-pixel as its user meets it: text, JSON, the picture's color and sentences.
+# Usage: CLRT=path/to/clrt test_explain.sh SOURCE_FOLDER WORK_FOLDER
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+source=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+# shellcheck source=tests/cli/checks.sh
+. "$here/checks.sh"
+scene=$source/tests/image/every_feature.scn
+
+# Worked out by hand in tests/image/test_explain_by_hand.c.
+cat >mirrors.scn <<'END'
+size 5 5
+ambient 0.1
+background 0 0 1
+light 0 0 2 1
+define mirror matte diffuse 1 1 1 kd 0.5 reflectivity 0.5
+material mirror
+sphere 0 3 0 1
+sphere 0 -3 0 1
+camera 0 0 0 0 1 0 90
+END
+
+json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
+tells() { grep -qF -- "$1" out; }
+
+# The color that is told of pixel 70,60 is the picture's, drawn with the same options.
+agrees() {
+  run 0 "$scene" --explain-pixel 70,60 --json=told.json "$@" &&
+    run 0 "$scene" -o a.pfm "$@" && python3 - <<'END'
+import json, struct, sys
+data = open("a.pfm", "rb").read()
+_, size, _, pixels = data.split(b"\n", 3)
+width, height = map(int, size.split())
+place = ((height - 1 - 60) * width + 70) * 12
+sys.exit(list(struct.unpack("<3f", pixels[place : place + 12])) != json.load(open("told.json"))["color"])
+END
+}
+
+check "a pixel is explained" run 0 mirrors.scn --explain-pixel 2,2
+check "... on standard output alone" test ! -s err
+check "... the picture first" test "$(head -n 1 out)" = "pixel 2,2 of 5 x 5, view 1 of mirrors.scn"
+check "... what a ray meets" test "$(grep -c "meets      sphere 1, material mirror" out)" = 2
+check "... what a light does" tells "light 1    reaches it from 2.82843 away; cosine 0.707107; diffuse 0.353553"
+check "... what is reflected" tells "reflected ray 2, of which the sample takes 0.25"
+check "... the background's part" tells "the background (0, 0, 1), of which the sample takes 0.125"
+check "... and the color" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 101 101 133"
+check "README shows the same" python3 -c "import sys; sys.exit(open('out').read() not in open('$source/README.md').read())"
+check "a corner sees the background" run 0 mirrors.scn --explain-pixel 0,4
+check "... and says so" tells "meets      nothing"
+check "JSON is written to standard output" run 0 mirrors.scn --explain-pixel 2,2 --json
+check "... whole" json out "d['schema'] == 1 and d['pixel'] == [2, 2] and d['size'] == [5, 5] and len(d['samples']) == 1"
+check "... with each ray" json out "[r['hit']['primitive']['number'] for r in d['samples'][0]['rays']] == [1, 2, 1]"
+check "... with weights" json out "[r['weight'] for r in d['samples'][0]['rays']] == [1, 0.5, 0.25]"
+check "... and kinds" json out "[r['kind'] for r in d['samples'][0]['rays']] == ['camera', 'reflected', 'reflected']"
+check "a blocker is named" run 0 "$scene" --explain-pixel 70,60 --json
+check "... with its kind and file" json out "all(b is None or b['kind'] == 'sphere' or b['file'].endswith('.ply') for s in d['samples'] for r in s['rays'] if r['hit'] for l in r['hit']['lights'] for b in [l['blocker']])"
+for form in "" "--aa=3" "--kernel ray --nodes pair" "--kernel ray --nodes wide" "--kernel packet --lanes 4" \
+  "--precision fp64" "--precision fp64 --aa" "--no-bvh" "--max-level 1" "--max-level 0" "-j 1"; do
+  # shellcheck disable=SC2086
+  check "the color is the picture's${form:+ with }$form" agrees $form
+done
+check "--encode srgb has an effect" run 0 mirrors.scn --explain-pixel 2,2 --encode srgb
+check "... on the bytes" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 169 169 191"
+
+check "a pixel outside is named" refuses 2 \
+  "--explain-pixel 2,9: the picture has 5 x 5 pixels, counted from 0" mirrors.scn --explain-pixel 2,9
+check "half a pixel is refused" refuses 2 "--explain-pixel wants X,Y counted from 0, X from the left and \
+Y from the top, not '2'" mirrors.scn --explain-pixel 2
+check "nothing is drawn beside" refuses 2 "clrt --explain-pixel takes no --output" \
+  mirrors.scn --explain-pixel 2,2 -o a.pfm
+check "a missing scene is exit 3" \
+  refuses 3 "nowhere.scn: cannot be opened: No such file or directory" nowhere.scn --explain-pixel 0,0
+check "a full disk is exit 5" run 5 mirrors.scn --explain-pixel 2,2 --json=/dev/full
+
+echo "$checks checks, $failures failures"
+[ "$failures" = 0 ]

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Explanations of pixels against the picture itself, against what they are made of, and their
+// bounds of error against the oracle, on the very numbers that the kernels trace.
+#include "image/form.h"
+#include "image/inline_scenes.h"
+#include "image/picture.h"
+#include "oracle/stored.h"
+#include "scene/scn.h"
+#include "unit/cmocka_all.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
+
+static InlineScenes inline_scenes;
+
+static const KernelChoice choices[] = {
+    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
+
+static void draw(const PictureRequest *request)
+{
+    Error error = {0};
+    Framebuffer picture = {0};
+    if (!picture_render(&picture, request, &error))
+        fail_msg("%s", error.text);
+    framebuffer_free(&picture);
+}
+
+static uint32_t random_below(uint32_t *state, uint32_t bound)
+{
+    *state = *state * 1664525 + 1013904223;
+    return (*state >> 8) % bound;
+}
+
+static void trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample)
+{
+    Error error = {0};
+    if (!explainer_trace(explainer, column, row, sample, &error))
+        fail_msg("%s", error.text);
+}
+
+static double clamped(double value)
+{
+    return fmin(fmax(value, 0), 1);
+}
+
+static double component(Vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+// A surface's color is made of the light it is told to have received.
+static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
+{
+    const Scene *scene = explainer->scene;
+    const Material *material = &scene->materials.data[ray->material];
+    double diffuse = scene->ambient, specular = 0;
+    for (size_t i = 0; ray->asks_lights && i < scene->lights.count; i++) {
+        diffuse += (double)material->kd * ray->lights[i].diffuse;
+        specular += (double)material->ks * ray->lights[i].specular;
+        assert_true((ray->lights[i].blocker != NOTHING) == (ray->lights[i].state == LIGHT_BLOCKED));
+        assert_true((ray->lights[i].cosine > 0) == (ray->lights[i].state != LIGHT_BEHIND));
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double lit =
+            (double)material->diffuse[axis] * diffuse + (double)material->specular[axis] * specular;
+        const double color =
+            material->shader == SHADER_SILHOUETTE ? (double)material->diffuse[axis] : clamped(lit);
+        assert_true(fabs(color - component(ray->shaded, axis)) < 1e-5);
+    }
+}
+
+// A sample's color is made of the surfaces and the background.
+static void check_sample(const Explainer *explainer, const ExplainedSample *sample)
+{
+    Vec3 color = vec3_scale(explainer->scene->background, sample->background_weight);
+    for (uint32_t level = 0; level < sample->ray_count; level++) {
+        const ExplainedRay *ray = &sample->rays[level];
+        if (ray->primitive == NOTHING)
+            continue;
+        check_surface(explainer, ray);
+        color = vec3_add(color, vec3_scale(ray->shaded, ray->share));
+    }
+    for (int axis = 0; axis < 3; axis++)
+        assert_true(fabs(clamped(component(color, axis)) - sample->steps[axis] * 0x1p-32) < 1e-6);
+}
+
+#define PIXELS 40
+
+static void check_pixels(Explainer *explainer, const Framebuffer *picture, void *context)
+{
+    uint32_t state = 1;
+    const uint32_t side = explainer->frame.samples;
+    (void)context;
+    for (int i = 0; i < PIXELS; i++) {
+        float color[3];
+        uint64_t sums[3] = {0};
+        const uint32_t x = random_below(&state, picture->width);
+        const uint32_t y = random_below(&state, picture->height);
+        for (uint32_t place = 0; place < side * side; place++) {
+            ExplainedSample sample;
+            trace(explainer, x * side + place % side, y * side + place / side, &sample);
+            check_sample(explainer, &sample);
+            for (int axis = 0; axis < 3; axis++)
+                sums[axis] += (uint64_t)sample.steps[axis];
+        }
+        explainer_mix(explainer, sums, color);
+        assert_memory_equal(color, picture->pixels[(size_t)y * picture->width + x], sizeof color);
+    }
+}
+
+static void check_scene(const char *path, uint32_t samples)
+{
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        PictureRequest request = picture_request(path, 1);
+        request.choice = choices[i];
+        request.group_width = request.group_height = form_group(&choices[i]);
+        request.samples = samples;
+        request.visit = check_pixels;
+        draw(&request);
+    }
+}
+
+static void what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form(void **state)
+{
+    char path[INLINE_PATH_SIZE];
+    (void)state;
+    check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+    check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
+    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
+    check_scene(path, 1);
+}
+
+static void the_same_of_several_samples(void **state)
+{
+    char path[INLINE_PATH_SIZE];
+    (void)state;
+    check_scene(SOURCE_SCENE("scenes/reflections.scn"), 3);
+    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    check_scene(path, 2);
+}
+
+static void the_same_of_a_large_mesh(void **state)
+{
+    (void)state;
+    if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
+        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        return;
+    }
+    check_scene(SOURCE_SCENE("scenes/creature.scn"), 2);
+}
+
+typedef struct {
+    const char *path;
+    uint32_t compared;
+    double largest; // share of its bound that an error took
+} Bounds;
+
+static void judge_distance(Bounds *bounds, const Explainer *explainer, const ExplainedRay *ray,
+                           const OraclePath *path)
+{
+    const double scale = explainer->normalization->scale;
+    if (ray->primitive == NOTHING || ray->primitive != path->surface.id)
+        return;
+    const Vec3 eye = normalize_point(explainer->normalization, ray->origin);
+    const Vec3 apart = vec3_sub(path->surface.point, eye);
+    const double distance = sqrt(vec3_dot(apart, apart));
+    const double rounding = 0x1p-48 * (distance + vec3_extent(eye)); // of the oracle and of this
+    bounds->compared++;
+    bounds->largest = fmax(bounds->largest, fabs(ray->distance * scale - distance) /
+                                                (ray->error * scale + rounding));
+}
+
+// The camera's rays alone: those of the oracle start elsewhere once reflected.
+static void check_bounds(Explainer *explainer, const Framebuffer *picture, void *context)
+{
+    Bounds *bounds = context;
+    Scene scene = {0};
+    Oracle oracle = {0};
+    Error error = {0};
+    if (!scn_load(&scene, bounds->path, &error) ||
+        !stored_round(&scene, explainer->normalization, &error) ||
+        !oracle_make(&oracle, &scene, &error))
+        fail_msg("%s", error.text);
+    OracleView view =
+        stored_view(&oracle, &explainer->frame.camera, picture->width, picture->height);
+    view.max_level = 1;
+    for (uint32_t y = 0; y < picture->height; y += 3)
+        for (uint32_t x = 0; x < picture->width; x += 3) {
+            ExplainedSample sample;
+            trace(explainer, x, y, &sample);
+            const OraclePath path = oracle_follow(&view, sample.rays[0].direction);
+            judge_distance(bounds, explainer, &sample.rays[0], &path);
+        }
+    oracle_free(&oracle);
+    scene_free(&scene);
+}
+
+static void check_bounds_of(const char *path, const KernelChoice *choice)
+{
+    Bounds bounds = {.path = path};
+    PictureRequest request = picture_request(path, 1);
+    request.choice = *choice;
+    request.group_width = request.group_height = form_group(choice);
+    request.width = 150;
+    request.height = 110;
+    request.visit = check_bounds;
+    request.visit_context = &bounds;
+    draw(&request);
+    print_message("%s: %u distances, errors take up to %.2g of their bounds\n",
+                  strrchr(path, '/') + 1, bounds.compared, bounds.largest);
+    assert_true(bounds.compared > 200);
+    assert_true(bounds.largest <= 1 && bounds.largest > 1e-3);
+}
+
+static void distances_are_off_by_less_than_is_told(void **state)
+{
+    char path[INLINE_PATH_SIZE];
+    (void)state;
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[0]);
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[2]);
+    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    check_bounds_of(path, &choices[1]);
+    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
+    check_bounds_of(path, &choices[0]);
+}
+
+static int write_scenes(void **state)
+{
+    Error error = {0};
+    (void)state;
+    if (inline_scenes_write(&inline_scenes, &error))
+        return 0;
+    print_message("%s\n", error.text);
+    return -1;
+}
+
+static int remove_scenes(void **state)
+{
+    (void)state;
+    inline_scenes_remove(&inline_scenes);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form),
+        cmocka_unit_test(the_same_of_several_samples),
+        cmocka_unit_test(the_same_of_a_large_mesh),
+        cmocka_unit_test(distances_are_off_by_less_than_is_told),
+    };
+    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+}
