@@ -118,9 +118,9 @@ static void cameras_may_stand_anywhere_t57(void **state)
         Vec3 eye, look_at;
     } views[] = {{"inside", {0.1, -0.2, 0.3}, {1, 1, 0.5}},
                  {"on_vertex", {1, 1, 1}, {0, 0.1, 0.2}},
-                 {"on_face", {0.25, 1, 0.125}, {0, 0}},
+                 {"on_face", {0.25, 1, 0.125}, {0, 0, 0}},
                  {"on_face_outward", {0.25, -1, 0.125}, {0, -5, 0.5}},
-                 {"on_plane_beside", {1, -5, 0.25}, {0.2, 0}},
+                 {"on_plane_beside", {1, -5, 0.25}, {0.2, 0, 0}},
                  {"along_edge", {1, -4, 1}, {1, 4, 1}},
                  {"in_plane_of_face", {0.5, -4, 1}, {0.5, 4, 1}}};
     size_t wrong = scene_text_report("T-57", "refused", refused);
