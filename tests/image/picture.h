@@ -2,8 +2,8 @@
 // A scene file -> its picture, by the same stages as the program's main, for tests.
 #pragma once
 
-#include "render/adaptive.h"
 #include "render/aov.h"
+#include "render/goal.h"
 
 typedef struct {
     const char *scene_path;
@@ -11,6 +11,7 @@ typedef struct {
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis
     float contrasts[2];     // each above 0 refines the picture adaptively, in that order
+    double error_goal;      // refines until the error is estimated to be that
     uint32_t threads;       // of the host, adaptively
     uint64_t *sample_count; // left here, adaptively; or NULL
     int64_t max_level;      // negative: the scene's
