@@ -29,7 +29,11 @@ typedef struct {
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at every depth
     size_t upload_size;
-    uint64_t samples; // of all pixels together
+    double contrast;   // that refining left, 0 where nothing was refined
+    double estimate;   // of the error, with the bound of the truncation; 0 where there is none
+    bool goal_missed;  // of --error or --time
+    double truncation; // bound of the error that max_level makes
+    uint64_t samples;  // of all pixels together
     bool specialized;
     bool complete;
     uint64_t tallies[TALLY_KINDS];

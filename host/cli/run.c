@@ -5,13 +5,18 @@
 #include "base/clock.h"
 #include "cli/check.h"
 #include "cli/threads.h"
+#include "image/image_file.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
+#include "scene/truncation.h"
 
 #include <stdlib.h>
 
 // With so many, a tree takes longer to build than a compiled kernel to be loaded.
 #define MANY_TRIANGLES 20000
+
+// The part of the error asked for that too few levels of reflections may make: they cost least.
+#define TRUNCATION_PART 0.25
 
 // Blocks of so few triangles are tested sooner than a tree is walked: packets take 0.92, 0.91 and
 // 0.95 times as long at 8, 16 and 32 triangles, but 1.06 times at 64.
@@ -24,6 +29,16 @@ double run_lap(double *moment)
     return *moment - before;
 }
 
+static uint32_t max_level_of(const Options *options, const Scene *scene)
+{
+    const char *format = options->format != NULL ? options->format : "png";
+    if (options->fits_level)
+        return truncation_level(scene, image_format_half_step(format, options->encoding));
+    if (options->max_level < 0 && options->error_goal > 0)
+        return truncation_level(scene, options->error_goal * TRUNCATION_PART);
+    return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;
+}
+
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
@@ -31,7 +46,7 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
         .samples = options->samples,
-        .max_level = options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level,
+        .max_level = max_level_of(options, scene),
         .tile_width = options->tile_width,
         .tile_height = options->tile_height,
         .group_width = options->group_width,
@@ -58,6 +73,7 @@ bool run_load_scene(Run *run, Error *error)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
+    run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
     return ok;
 }
 
@@ -124,7 +140,7 @@ bool run_open_renderer(Run *run, Error *error)
 
 void run_begin(Run *run)
 {
-    const KernelEntry entry = run->options->contrast > 0 ? KERNEL_SAMPLES : KERNEL_TILE;
+    const KernelEntry entry = options_are_adaptive(run->options) ? KERNEL_SAMPLES : KERNEL_TILE;
     const RendererSetup setup = {
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};

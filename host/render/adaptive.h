@@ -7,6 +7,9 @@
 #include "render/footprint.h"
 #include "render/renderer.h"
 
+// Samples that cutting a cell takes.
+#define ADAPTIVE_CUT (GROUP_CELLS - 1)
+
 typedef struct {
     Renderer *renderer; // of KERNEL_SAMPLES; borrowed
     Crew *crew;         // borrowed
@@ -15,13 +18,6 @@ typedef struct {
     Footprints footprints; // of small spheres, whose cells are cut in any case
     uint64_t samples;      // taken
 } Adaptive;
-
-// What is to be refined.
-typedef struct {
-    float threshold; // contrast, in parts of one, that a cell of a whole pixel may have; a cell of
-                     // a ninth of one may have nine times as much
-    bool cuts_outlines; // pixels beside another surface or light are cut whatever their contrast
-} Refinement;
 
 // What it stands on.
 typedef struct {
@@ -35,9 +31,17 @@ typedef struct {
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Refines until nothing is left above the threshold, or the observer stops it.
-bool adaptive_refine(Adaptive *adaptive, const Refinement *refinement,
-                     const RenderObserver *observer, Error *error);
+// Refines until no cell has a contrast above the threshold, in parts of one and of a pixel's area,
+// or the observer stops it.
+bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                     Error *error);
+
+// The same in one pass, which leaves the cells that it makes as they are.
+bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                          Error *error);
+
+// Whether the observer has not stopped it.
+bool adaptive_is_whole(const Adaptive *adaptive);
 
 // Stores the picture, as far as it is refined.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);

@@ -91,10 +91,13 @@ static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
 
 static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
 {
+    GoalOutcome outcome;
     bool ok = true;
+    if (request->error_goal > 0)
+        return goal_reach_error(adaptive, request->error_goal, NULL, &outcome, error) &&
+               (outcome.reached || error_set(error, "the goal is missed"));
     for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
-        const Refinement refinement = {request->contrasts[step], request->cuts_outlines};
-        ok = adaptive_refine(adaptive, &refinement, NULL, error);
+        ok = adaptive_refine(adaptive, request->contrasts[step], NULL, error);
     }
     return ok;
 }
@@ -164,7 +167,7 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
-    const bool is_adaptive = request->contrasts[0] > 0;
+    const bool is_adaptive = request->contrasts[0] > 0 || request->error_goal > 0;
     const RendererSetup setup = {.device = &pipeline->device,
                                  .cache = &pipeline->cache,
                                  .source = {.extra_options = request->extra_options,
