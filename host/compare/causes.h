@@ -11,7 +11,7 @@ typedef enum {
     CAUSE_TRUNCATION, // one picture's limit ends its reflections sooner
     CAUSE_REFLECTION, // they take another course
     CAUSE_COVERAGE,   // the pixel has other samples
-    CAUSE_ROUNDING,   // none of these: the same samples, rounded otherwise
+    CAUSE_ROUNDING,   // none of these, which in one scene is rounding
     CAUSE_KINDS
 } CauseKind;
 
@@ -20,9 +20,6 @@ typedef struct {
     double squares[CAUSE_KINDS];  // parts of the mean square error
     uint64_t pixels[CAUSE_KINDS]; // that differ at all
 } Causes;
-
-// Channels that both files must have, for a message.
-#define CAUSES_CHANNELS "primitive,shadow,bounces"
 
 // Splits the error of a checked pair, as far as its files tell.
 void causes_find(Causes *causes, const ImagePair *pair);
