@@ -14,6 +14,7 @@ typedef struct {
     StoredImage images[2];
     ImagePair pair;
     Difference difference;
+    Causes causes;
 } Comparison;
 
 static bool read_both(Comparison *comparison, Error *error)
@@ -33,6 +34,7 @@ static bool measure(Comparison *comparison, Error *error)
 {
     const ImagePair *pair = &comparison->pair;
     difference_measure(&comparison->difference, pair);
+    causes_find(&comparison->causes, pair);
     if (comparison->options->limits.given[LIMIT_HITS] && !comparison->difference.has_hits)
         return error_set(
             error,
@@ -59,7 +61,8 @@ static bool write_map(const Comparison *comparison, Error *error)
 static ExitCode report(const Comparison *comparison, Error *error)
 {
     const Options *options = comparison->options;
-    const CompareReport whole = {&comparison->pair, &comparison->difference, &options->limits};
+    const CompareReport whole = {&comparison->pair, &comparison->difference, &comparison->causes,
+                                 &options->limits};
     const char *json = options->json_path != NULL ? options->json_path : "-";
     if (options->json && !compare_report_write_json(&whole, json, error))
         return EXIT_OUTPUT;

@@ -24,6 +24,27 @@ static void write_count(const CompareReport *report, const char *what, uint64_t 
             100 * (double)count / (double)report->difference->pixels);
 }
 
+// A cause's part of the mean square error.
+static double share_of(const CompareReport *report, CauseKind kind)
+{
+    double sum = 0;
+    for (int i = 0; i < CAUSE_KINDS; i++)
+        sum += report->causes->squares[i];
+    return sum > 0 ? report->causes->squares[kind] / sum : 0;
+}
+
+static void write_causes(const CompareReport *report, FILE *stream)
+{
+    if (!report->causes->known || report->difference->maximum <= 0)
+        return;
+    fputs("of the mean square error:\n", stream);
+    for (int i = 0; i < CAUSE_KINDS; i++)
+        if (report->causes->pixels[i] > 0)
+            fprintf(stream, "  %-10s %5.1f %% in %" PRIu64 " pixels: %s\n",
+                    cause_name((CauseKind)i), 100 * share_of(report, (CauseKind)i),
+                    report->causes->pixels[i], cause_meaning((CauseKind)i));
+}
+
 static void write_limits(const CompareReport *report, FILE *stream)
 {
     for (int kind = 0; kind < LIMIT_KINDS; kind++) {
@@ -53,6 +74,7 @@ void compare_report_write_text(const CompareReport *report, FILE *stream)
     write_count(report, "off by more than 4/255:", difference->off_by_4, stream);
     if (difference->has_hits)
         write_count(report, "other primitives hit first:", difference->wrong_hits, stream);
+    write_causes(report, stream);
     write_limits(report, stream);
 }
 
@@ -75,6 +97,18 @@ static json_t *maximum_json(const Difference *difference)
                      (int)difference->maximum_color);
 }
 
+static json_t *causes_json(const CompareReport *report)
+{
+    const Causes *causes = report->causes;
+    json_t *all = causes->known ? json_object() : json_null();
+    for (int i = 0; causes->known && i < CAUSE_KINDS; i++)
+        json_object_set_new(all, cause_name((CauseKind)i),
+                            json_pack("{s:o, s:f, s:f}", "pixels",
+                                      json_integer((json_int_t)causes->pixels[i]), "mean_square",
+                                      causes->squares[i], "share", share_of(report, (CauseKind)i)));
+    return all;
+}
+
 static json_t *limits_json(const CompareReport *report)
 {
     json_t *all = json_object();
@@ -92,14 +126,14 @@ bool compare_report_write_json(const CompareReport *report, const char *path, Er
 {
     const Difference *difference = report->difference;
     json_t *hits = difference->has_hits ? count_json(report, difference->wrong_hits) : json_null();
-    json_t *root =
-        json_pack("{s:i, s:s, s:[oo], s:i, s:i, s:f, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "schema",
-                  SCHEMA_VERSION, "version", CLRT_VERSION, "files",
-                  json_file_path(report->pair->paths[0]), json_file_path(report->pair->paths[1]),
-                  "width", (int)difference->width, "height", (int)difference->height, "rmse",
-                  difference->rmse, "psnr", number(difference_psnr(difference)), "maximum",
-                  maximum_json(difference), "off_by_1", count_json(report, difference->off_by_1),
-                  "off_by_4", count_json(report, difference->off_by_4), "wrong_hits", hits,
-                  "limits", limits_json(report), "kept", compare_report_is_kept(report));
+    json_t *root = json_pack(
+        "{s:i, s:s, s:[oo], s:i, s:i, s:f, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "schema",
+        SCHEMA_VERSION, "version", CLRT_VERSION, "files", json_file_path(report->pair->paths[0]),
+        json_file_path(report->pair->paths[1]), "width", (int)difference->width, "height",
+        (int)difference->height, "rmse", difference->rmse, "psnr",
+        number(difference_psnr(difference)), "maximum", maximum_json(difference), "off_by_1",
+        count_json(report, difference->off_by_1), "off_by_4",
+        count_json(report, difference->off_by_4), "wrong_hits", hits, "causes", causes_json(report),
+        "limits", limits_json(report), "kept", compare_report_is_kept(report));
     return json_file_write(root, path, error);
 }

@@ -2,6 +2,7 @@
 // What a comparison measured, as text and as JSON.
 #pragma once
 
+#include "compare/causes.h"
 #include "compare/limits.h"
 
 #include <stdio.h>
@@ -9,6 +10,7 @@
 typedef struct {
     const ImagePair *pair;
     const Difference *difference;
+    const Causes *causes;
     const Limits *limits;
 } CompareReport;
 

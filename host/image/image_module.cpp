@@ -117,12 +117,34 @@ void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
     content.width = uint32_t(spec.width);
     content.height = uint32_t(spec.height);
     content.channel_count = uint32_t(spec.nchannels);
-    content.is_8_bit = spec.format == OIIO::TypeDesc::UINT8;
+    content.is_8_bit = spec.format == OIIO::TypeDesc::UINT8 && spec.channelformats.empty();
     for (int i = 0; i < spec.nchannels; i++)
         std::snprintf(content.names[i], sizeof content.names[i], "%s",
                       spec.channel_name(i).c_str());
     std::snprintf(content.settings, sizeof content.settings, "%s",
                   std::string(spec.get_string_attribute("clrt:settings")).c_str());
+}
+
+bool is_integer(const OIIO::ImageSpec &spec, int channel)
+{
+    return spec.channelformat(channel) == OIIO::TypeDesc::UINT32;
+}
+
+// Integers of 32 bits, which name things, keep their bits in the place of floats; all else becomes
+// of one type.  Neighbors of one kind are read together.
+bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
+                   void *values)
+{
+    const auto size = static_cast<OIIO::stride_t>(type.size());
+    bool ok = true;
+    for (int first = 0, end = 0; ok && first < spec.nchannels; first = end) {
+        const bool integer = is_integer(spec, first);
+        while (end < spec.nchannels && is_integer(spec, end) == integer)
+            end++;
+        ok = input.read_image(0, 0, first, end, integer ? OIIO::TypeDesc::UINT32 : type,
+                              static_cast<char *>(values) + first * size, spec.nchannels * size);
+    }
+    return ok;
 }
 
 bool read_picture(const char *path, const char *format, ImageModuleContent &content,
@@ -144,7 +166,7 @@ bool read_picture(const char *path, const char *format, ImageModuleContent &cont
         message = "memory ran out";
         return false;
     }
-    const bool ok = input->read_image(0, 0, 0, spec.nchannels, type, content.values);
+    const bool ok = read_channels(*input, spec, type, content.values);
     message = input->geterror();
     return ok;
 }

@@ -99,6 +99,34 @@ for format in ${FORMATS//,/}; do
   check "... with the map of its kind" run 0 compare "one.$format" "two.$format" -o "map.$format"
 done
 
+# Causes, from channels that --aov writes: a light and spheres that move, a limit, other samples.
+case $FORMATS in *exr*)
+  sed "s|^ply_file |ply_file $source/scenes/|" "$source/scenes/reflections.scn" >scene.scn
+  awk '$1 == "light" { $2 += 0.7 } { print }' scene.scn >light.scn
+  sed -E 's/^sphere [^ ]+/sphere 0.2/' scene.scn >moved.scn
+  channels=(-s 160x120 -q --aov primitive,shadow,bounces)
+  "$CLRT" scene.scn "${channels[@]}" -o plain.exr
+  "$CLRT" light.scn "${channels[@]}" -o light.exr
+  "$CLRT" moved.scn "${channels[@]}" -o moved.exr
+  "$CLRT" scene.scn "${channels[@]}" --max-level 2 -o level.exr
+  "$CLRT" scene.scn "${channels[@]}" --aa -o aa.exr
+  "$CLRT" scene.scn "${channels[@]}" --precision fp64 -o fp64.exr
+  sums="abs(sum(c['mean_square'] for c in d['causes'].values()) - d['rmse'] ** 2) < 0.01 * d['rmse'] ** 2"
+  causes() {
+    check "$1: causes are found" run 0 compare plain.exr "$1.exr" --json
+    check "... and sum to the whole" json out "$sums"
+    check "... with the right one first" json out "$2"
+  }
+  causes light "d['causes']['shadow']['share'] > 0.5 and d['wrong_hits']['pixels'] == 0"
+  causes moved "d['causes']['primitive']['share'] > 0.3 and d['causes']['reflection']['pixels'] > 0 and d['wrong_hits']['pixels'] > 100"
+  causes level "d['causes']['truncation']['share'] == 1"
+  causes aa "d['causes']['coverage']['share'] > 0.99"
+  causes fp64 "d['causes']['rounding']['share'] == 1"
+  check "a limit on hits is judged" run 1 compare plain.exr moved.exr --fail hits=0
+  check "... and causes are told" tells "another primitive is hit first"
+  check "... and kept where the hits are the same" run 0 compare plain.exr aa.exr --fail hits=0 ;;
+esac
+
 # Cut short, with bytes changed, and with sizes nobody has: one sentence, exit 3 or a picture.
 survives() { "$CLRT" compare -q "$1" "$1" >out 2>err; case $? in 0 | 3) ! grep -q 'clrt: .*clrt:' err ;; *) false ;; esac; }
 for format in ${FORMATS//,/}; do

@@ -158,6 +158,15 @@ class Schemas(Run):
         for other in "a.pfm", "b.pfm":
             self.validate("compare", self.clrt("compare", "a.pfm", other, *limits).stdout)
 
+    def test_comparisons_by_cause_are_as_their_schema_says(self):
+        channels = ["--aov", "primitive,shadow,bounces"]
+        if self.clrt(*SMALL, "-o", "a.exr", *channels).returncode == 2:
+            self.skipTest("this build writes no EXR files")
+        self.clrt(*SMALL, "-o", "b.exr", "--aa", *channels)
+        told = self.clrt("compare", "a.exr", "b.exr", "--json").stdout
+        self.assertIsNotNone(json.loads(told)["causes"])
+        self.validate("compare", told)
+
     def test_devices_are_as_their_schema_says(self):
         self.validate("devices", self.clrt("--list-devices=json").stdout)
 

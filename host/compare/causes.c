@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Channels tell of the ray through a pixel's center alone.  Where both pictures have the same
+// samples, what is left is rounding, be it that of one sample's decision; where they have others,
+// all that is more than rounding is coverage.
+#include "compare/causes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// More than what floats of colors in [0, 1] differ by for their rounding, with room.
+#define ROUNDING_MOST 1e-5
+
+static const char *const names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
+                                               "reflection", "coverage", "rounding"};
+static const char *const meanings[CAUSE_KINDS] = {
+    "another primitive is hit first", "other lights reach it", "the limit ends its reflections",
+    "its reflections differ",         "it has other samples",  "the same samples: rounding, if the scene is the same"};
+
+const char *cause_name(CauseKind kind)
+{
+    return names[kind];
+}
+
+const char *cause_meaning(CauseKind kind)
+{
+    return meanings[kind];
+}
+
+typedef struct {
+    const StoredImage *image;
+    int primitive, shadow, bounces, samples; // channels; -1 where there is none
+    int level;                               // what --max-level was, -1 where it is not told
+} Side;
+
+// What follows name= among the words of the settings.
+static int setting_of(const StoredImage *image, const char *name)
+{
+    char pattern[32];
+    int value = -1;
+    const char *word = strstr(image->settings, name);
+    snprintf(pattern, sizeof pattern, "%s%%9d", name);
+    return word != NULL && sscanf(word, pattern, &value) == 1 ? value : -1;
+}
+
+static Side side_of(const StoredImage *image)
+{
+    return (Side){.image = image,
+                  .primitive = stored_image_channel(image, DIFFERENCE_HITS),
+                  .shadow = stored_image_channel(image, "shadow"),
+                  .bounces = stored_image_channel(image, "bounces"),
+                  .samples = stored_image_channel(image, "samples"),
+                  .level = setting_of(image, "max_level=")};
+}
+
+static bool is_complete(const Side *side)
+{
+    return side->primitive >= 0 && side->shadow >= 0 && side->bounces >= 0;
+}
+
+static float value_at(const Side *side, size_t pixel, int channel)
+{
+    return side->image->values[pixel * side->image->channel_count + (size_t)channel];
+}
+
+// By their bits, which integers have as well.
+static bool are_equal(float a, float b)
+{
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+// The shorter path was ended where its picture's limit is, and the longer one was not.
+static bool is_truncated(const Side sides[2], size_t pixel)
+{
+    const float bounces[] = {value_at(&sides[0], pixel, sides[0].bounces),
+                             value_at(&sides[1], pixel, sides[1].bounces)};
+    const int shorter = bounces[0] < bounces[1] ? 0 : 1;
+    return sides[shorter].level >= 0 && sides[shorter].level < sides[!shorter].level &&
+           bounces[shorter] >= (float)(sides[shorter].level - 1);
+}
+
+// The words of the settings that tell where samples are.
+static bool have_same_grid(const Side sides[2])
+{
+    const char *words[2];
+    for (int i = 0; i < 2; i++) {
+        words[i] = strstr(sides[i].image->settings, "samples=");
+        if (words[i] == NULL)
+            return false;
+    }
+    const size_t length = strcspn(words[0], " ");
+    return length == strcspn(words[1], " ") && strncmp(words[0], words[1], length) == 0;
+}
+
+static bool has_same_samples(const Side sides[2], size_t pixel)
+{
+    return sides[0].samples < 0 || sides[1].samples < 0 ||
+           are_equal(value_at(&sides[0], pixel, sides[0].samples),
+                     value_at(&sides[1], pixel, sides[1].samples));
+}
+
+static bool differ(const Side sides[2], size_t pixel, const int channels[2])
+{
+    return !are_equal(value_at(&sides[0], pixel, channels[0]),
+                      value_at(&sides[1], pixel, channels[1]));
+}
+
+// What the channels alone show; CAUSE_COVERAGE where they show nothing.
+static CauseKind cause_in_channels(const Side sides[2], size_t pixel)
+{
+    const int primitives[] = {sides[0].primitive, sides[1].primitive};
+    const int shadows[] = {sides[0].shadow, sides[1].shadow};
+    const int bounces[] = {sides[0].bounces, sides[1].bounces};
+    if (differ(sides, pixel, primitives))
+        return CAUSE_PRIMITIVE;
+    if (differ(sides, pixel, shadows))
+        return CAUSE_SHADOW;
+    if (differ(sides, pixel, bounces))
+        return is_truncated(sides, pixel) ? CAUSE_TRUNCATION : CAUSE_REFLECTION;
+    return CAUSE_COVERAGE;
+}
+
+void causes_find(Causes *causes, const ImagePair *pair)
+{
+    const Side sides[] = {side_of(pair->images[0]), side_of(pair->images[1])};
+    const size_t pixels = (size_t)pair->images[0]->width * pair->images[0]->height;
+    *causes = (Causes){.known = is_complete(&sides[0]) && is_complete(&sides[1])};
+    const bool same_grid = have_same_grid(sides);
+    for (size_t pixel = 0; causes->known && pixel < pixels; pixel++) {
+        double squares = 0, largest = 0;
+        for (int color = 0; color < 3; color++) {
+            const double off = fabs(image_pair_difference(pair, pixel, color));
+            squares += off * off / (3 * (double)pixels);
+            largest = fmax(largest, off);
+        }
+        CauseKind cause = cause_in_channels(sides, pixel);
+        if (cause == CAUSE_COVERAGE &&
+            ((same_grid && has_same_samples(sides, pixel)) || largest <= ROUNDING_MOST))
+            cause = CAUSE_ROUNDING;
+        causes->squares[cause] += squares;
+        causes->pixels[cause] += largest > 0;
+    }
+}
