@@ -59,8 +59,10 @@ static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 
     ThickRay ray = thick_camera_ray(frame, sample, u);
     *decisions = (Decisions){NOTHING, 0, 0};
     for (uint level = 0; level < frame->max_level; level++) {
+        if (!is_usable(&ray))
+            return false;
         const Nearest nearest = surely_nearest(scene, frame, &ray);
-        if (!is_usable(&ray) || !nearest_is_sure(&nearest))
+        if (!nearest_is_sure(&nearest))
             return false;
         note_decision(decisions, nearest.id);
         if (nearest.id == NOTHING)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a thick ray meets first, and whether anything stands between a point and a light, where that
-// is certain.  The tree's boxes grow by ten blurs of the farthest corner: a triangle within one
-// blur of the axis, no more than eight behind the origin, lies in them.
+// is certain.  Boxes grow by eleven blurs of their farthest corner: then the axis is inside before it
+// comes within one blur of a triangle in there, even of one that is eight behind the origin.
 #ifndef CLRT_SURE_SEARCH_CL
 #define CLRT_SURE_SEARCH_CL
 #include "sure_sphere.cl"
@@ -28,31 +28,82 @@ static inline void nearest_add(Nearest *nearest, const Candidate *candidate, uin
     }
 }
 
+// A shadow ray that this many triangles may block is given up: cones that wide see too much.
+#define DOUBTS_MOST 32
+
 typedef struct {
     const ThickRay *ray;
-    Query query;
+    Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
-    Answer blocked; // of a shadow ray
+    Answer blocked; // a shadow ray
+    uint doubts;    // triangles that may block it
 } Search;
 
-// Corners lie within the frame's [-1, 1] and a little.
-static inline Query thick_query(const ThickRay *ray)
+// How much a box whose farthest corner is `far` away has to grow.
+static inline Real growth_at(const ThickRay *ray, Real far)
 {
-    const Ray axis = {ray->origin, ray->along, ray->own, ray->kind, ray->origin, true};
-    const Real far = sum_of_sizes(ray->origin) + 3.25f;
-    const Real growth =
-        11.0f * (ray->around + ray->spread * (far + ray->around) +
-                 (18.0f * ray->u + 32.0f * OWN_ROUNDOFF) * (far + ray->around));
-    Query query = query_of(&axis);
-    const Real3 size = scaled3(growth, magnitudes(query.inverse));
-    query.near_offset = difference(query.near_offset, size);
-    query.far_offset = sum3(query.far_offset, size);
-    return query;
+    const Real rounding = 18.0f * ray->u + 32.0f * OWN_ROUNDOFF;
+    return 11.0f * (ray->around + (ray->spread + rounding) * (far + ray->around));
 }
 
+// A zero direction is replaced by one that leads aside by less than the rounding.
+static inline Real inverse_of(Real direction)
+{
+    return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
+}
+
+static inline Search search_along(const ThickRay *ray)
+{
+    const Real3 o = ray->origin, d = ray->along;
+    return (Search){.ray = ray,
+                    .origin = {o.x, o.y, o.z},
+                    .inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)},
+                    .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
+                    .blocked = ANSWER_NO};
+}
+
+// Beyond the nearest nothing can be first; beyond another that may be met nothing can be first for
+// sure.
 static inline Real search_reach(const Search *search)
 {
-    return search->ray->kind == RAY_SHADOW ? 1.01f * search->ray->length : search->nearest.high;
+    if (search->ray->kind == RAY_SHADOW)
+        return 1.01f * search->ray->length;
+    return min(search->nearest.high, search->nearest.other);
+}
+
+// Where the cone enters the box of a node's child, INFINITY where it does not before `reach`.
+static inline Real box_entry(const Search *search, global const BvhPair *node, uint child,
+                             Real reach)
+{
+    Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
+    for (uint axis = 0; axis < 3; axis++) {
+        low[axis] = node->planes[axis][0][child] - search->origin[axis];
+        high[axis] = node->planes[axis][1][child] - search->origin[axis];
+        far += max(fabs(low[axis]), fabs(high[axis]));
+    }
+    const Real growth = growth_at(search->ray, far);
+    for (uint axis = 0; axis < 3; axis++) {
+        const Real one = (low[axis] - growth) * search->inverse[axis];
+        const Real other = (high[axis] + growth) * search->inverse[axis];
+        enter = max(enter, min(one, other));
+        leave = min(leave, max(one, other));
+    }
+    return enter <= leave && low[0] <= high[0] ? enter : INFINITY;
+}
+
+static inline void wait_for_cone(const SceneView *scene, const Search *search, uint node,
+                                 Waiting *waiting)
+{
+    const Real reach = search_reach(search);
+    const Real first = box_entry(search, &scene->nodes[node], 0, reach);
+    const Real second = box_entry(search, &scene->nodes[node], 1, reach);
+    const bool second_nearer = second < first;
+    if (!second_nearer && second < INFINITY)
+        wait_for_child(waiting, 2 * node + 1, second);
+    if (first < INFINITY)
+        wait_for_child(waiting, 2 * node, first);
+    if (second_nearer)
+        wait_for_child(waiting, 2 * node + 1, second);
 }
 
 static inline void search_leaf(const SceneView *scene, Search *search, uint2 range)
@@ -60,28 +111,33 @@ static inline void search_leaf(const SceneView *scene, Search *search, uint2 ran
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &scene->triangles[index];
         const Candidate candidate = triangle_candidate(search->ray, triangle);
-        if (search->ray->kind == RAY_SHADOW)
-            search->blocked = max(search->blocked, candidate.met);
-        else
+        if (search->ray->kind != RAY_SHADOW)
             nearest_add(&search->nearest, &candidate, triangle->id, index);
+        search->blocked = max(search->blocked, candidate.met);
+        search->doubts += candidate.met == ANSWER_UNKNOWN;
     }
+}
+
+static inline bool search_is_over(const Search *search)
+{
+    return search->ray->kind == RAY_SHADOW &&
+           (search->blocked == ANSWER_YES || search->doubts > DOUBTS_MOST);
 }
 
 static void search_triangles(const SceneView *scene, Search *search)
 {
     Waiting waiting;
     waiting.count = 0;
-    wait_for_children(scene, 0, &search->query, search_reach(search), &waiting);
-    while (waiting.count > 0 && search->blocked != ANSWER_YES) {
+    wait_for_cone(scene, search, 0, &waiting);
+    while (waiting.count > 0 && !search_is_over(search)) {
         waiting.count--;
-        const Real reach = search_reach(search);
-        if (waiting.entry[waiting.count] > reach)
+        if (waiting.entry[waiting.count] > search_reach(search))
             continue;
         const uint child = waiting.child[waiting.count];
         const uint first = scene->nodes[child >> 1].first[child & 1];
         const uint count = scene->nodes[child >> 1].count[child & 1];
         if (count == 0)
-            wait_for_children(scene, first, &search->query, reach, &waiting);
+            wait_for_cone(scene, search, first, &waiting);
         else
             search_leaf(scene, search, (uint2)(first, count));
     }
@@ -90,9 +146,7 @@ static void search_triangles(const SceneView *scene, Search *search)
 static inline Nearest surely_nearest(const SceneView *scene, const FrameData *frame,
                                      const ThickRay *ray)
 {
-    Search search = {.ray = ray,
-                     .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
-                     .blocked = ANSWER_NO};
+    Search search = search_along(ray);
     for (uint index = 0; index < frame->sphere_count; index++) {
         const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
@@ -100,10 +154,8 @@ static inline Nearest surely_nearest(const SceneView *scene, const FrameData *fr
             index == ray->own ? own_sphere_candidate(ray, &sphere) : sphere_candidate(&chord);
         nearest_add(&search.nearest, &candidate, index, index);
     }
-    if (frame->triangle_count > 0) {
-        search.query = thick_query(ray);
+    if (frame->triangle_count > 0)
         search_triangles(scene, &search);
-    }
     return search.nearest;
 }
 
@@ -136,11 +188,10 @@ static inline Answer spheres_block(const SceneView *scene, const FrameData *fram
 static inline Answer surely_blocked(const SceneView *scene, const FrameData *frame,
                                      const ThickRay *ray)
 {
-    Search search = {.ray = ray, .blocked = spheres_block(scene, frame, ray)};
-    if (frame->triangle_count > 0 && search.blocked != ANSWER_YES) {
-        search.query = thick_query(ray);
+    Search search = search_along(ray);
+    search.blocked = spheres_block(scene, frame, ray);
+    if (frame->triangle_count > 0 && search.blocked != ANSWER_YES)
         search_triangles(scene, &search);
-    }
     return search.blocked;
 }
 

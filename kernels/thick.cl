@@ -86,10 +86,10 @@ static inline void look_along(ThickRay *ray, Real3 along)
     ray->up = cross_product(along, ray->right);
 }
 
-// The tracer searches no farther (traverse.cl), and cones wider than that are of no use.
+// The tracer searches no farther (traverse.cl), and a cone so wide would settle nothing.
 static inline bool is_usable(const ThickRay *ray)
 {
-    return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0.25f && ray->around < 0.25f;
+    return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-10f;
 }
 
 // A point in the ray's frame: across, across and along.
