@@ -85,7 +85,7 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
         const Corners normals = fetch_normals(scene, look.normals);
         interpolate_normal(&surface, &normals, weights, &corners, ray->u);
     }
-    face_viewer(&surface, sight.edges.determinant < 0.0f);
+    face_viewer(&surface, sight.edges.determinant > 0.0f);
     return surface;
 }
 

@@ -15,7 +15,7 @@ typedef struct {
 // The triangle in the ray's frame.
 typedef struct {
     Corners corners;
-    Edges edges; // across; the determinant is twice the area, above zero where the back is seen
+    Edges edges; // across; the determinant is twice the area, above zero where the front is seen
     Real blur;   // of all corners
     Real sides;  // the two edges that leave the first corner, added
     bool clear;  // the axis passes all edges by more than the blur
@@ -142,7 +142,7 @@ static inline Candidate camera_candidate(const Sight *sight)
 static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *sight, int side)
 {
     Candidate candidate = depth_of(sight);
-    const bool front = sight->edges.determinant < 0.0f;
+    const bool front = sight->edges.determinant > 0.0f;
     const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
     const bool behind = front ? side < 0 : side > 0;
     if (candidate.high < -8.0f * sight->blur || (sight->faces && behind))
@@ -159,7 +159,7 @@ static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight
                                          int light_side)
 {
     Candidate candidate = depth_of(sight);
-    const bool front = sight->edges.determinant < 0.0f;
+    const bool front = sight->edges.determinant > 0.0f;
     const bool same = side != 0 && side == light_side;
     if (candidate.high < 0.0f || (sight->faces && same))
         return candidate_none();
@@ -174,7 +174,7 @@ static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight
 // As triangle_is_open, where the side that is seen is certain.
 static inline bool is_surely_open(const ThickRay *ray, const Sight *sight, bool two_sided)
 {
-    const bool front = sight->edges.determinant < 0.0f;
+    const bool front = sight->edges.determinant > 0.0f;
     return !two_sided && sight->faces && front == (ray->kind == RAY_SHADOW);
 }
 
