@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a thick ray meets first, and whether anything stands between a point and a light, where that
-// is certain.  Boxes grow by eleven blurs of their farthest corner: then the axis is inside before it
-// comes within one blur of a triangle in there, even of one that is eight behind the origin.
+// is certain.  Boxes grow by the blur of their farthest corner, below 18u of its distance beside the
+// cone, and by 111u more: then the axis is inside before it comes to where a triangle in there may
+// be met, even to one that is met behind the origin by what a distance may be off.
 #ifndef CLRT_SURE_SEARCH_CL
 #define CLRT_SURE_SEARCH_CL
 #include "sure_sphere.cl"
@@ -42,8 +43,8 @@ typedef struct {
 // How much a box whose farthest corner is `far` away has to grow.
 static inline Real growth_at(const ThickRay *ray, Real far)
 {
-    const Real rounding = 18.0f * ray->u + 32.0f * OWN_ROUNDOFF;
-    return 11.0f * (ray->around + (ray->spread + rounding) * (far + ray->around));
+    const Real rounding = 140.0f * ray->u + 200.0f * OWN_ROUNDOFF;
+    return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
 }
 
 // A zero direction is replaced by one that leads aside by less than the rounding.

@@ -17,7 +17,7 @@ typedef struct {
 // What moves a vector of this length by `doubt` turns it by less than this.
 static inline Real turn_of(Real doubt, Real length)
 {
-    return doubt < 0.25f * length ? 1.2f * doubt / length : INFINITY;
+    return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
 }
 
 // Interpolated by the weights, which sliding along the triangle changes by the slide over the
@@ -32,10 +32,10 @@ static inline void interpolate_normal(FatSurface *surface, const Corners *normal
     const Real longest =
         max(max(length_of(normals->a), length_of(normals->b)), length_of(normals->c));
     const Real doubt =
-        1.01f * surface->end.slide * (of_b + of_c) + 24.0f * (u + OWN_ROUNDOFF) * longest;
+        1.01f * surface->end.slide * (of_b + of_c) + (6.1f * u + 12.0f * OWN_ROUNDOFF) * longest;
     const Real3 sum = weighted(weights, normals);
     surface->normal = unit_vector(sum);
-    surface->normal_doubt = turn_of(doubt, length_of(sum)) + 8.0f * (u + OWN_ROUNDOFF);
+    surface->normal_doubt = turn_of(doubt, length_of(sum)) + 5.0f * (u + OWN_ROUNDOFF);
 }
 
 static inline void face_viewer(FatSurface *surface, bool front)
@@ -52,15 +52,15 @@ static inline FatPoint fat_point(const ThickRay *ray, const Corners *corners, co
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real3 normal = cross_product(ab, ac);
     const Real edges = largest_component(ab) * largest_component(ac);
-    const Real largest = max(max(largest_component(corners->a), largest_component(corners->b)),
-                             largest_component(corners->c));
+    const Corners sizes = {magnitudes(corners->a), magnitudes(corners->b), magnitudes(corners->c)};
+    const Real size = length_of(weighted(weights, &sizes));
     const Real area = length_of(normal);
     FatPoint end;
     end.point = weighted(weights, corners);
     end.face = scaled3(1.0f / area, normal);
     end.slide =
         sight->broad ? 1.25f * sight->blur * area / fabs(sight->edges.determinant) : INFINITY;
-    end.lift = (25.0f * ray->u + 16.0f * OWN_ROUNDOFF) * largest +
+    end.lift = (11.1f * ray->u + 32.0f * OWN_ROUNDOFF) * size +
                16.0f * OWN_ROUNDOFF * edges / area * end.slide;
     return end;
 }
@@ -103,7 +103,8 @@ static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
     surface.normal = surface.face = unit_vector(difference(met, sphere.center));
     surface.end.point = sum3(sphere.center, scaled3(sphere.radius, surface.normal));
     surface.end.face = surface.normal;
-    surface.end.lift = 2.0f * (nearest->high - nearest->low) + 2.0f * chord.aside +
+    surface.end.lift = 2.0f * (nearest->high - nearest->low) + 2.0f * chord.shift +
+                       2.0f * ray->spread * fabs(depth) +
                        8.0f * (ray->u + OWN_ROUNDOFF) * sum_of_sizes(surface.end.point);
     surface.normal_doubt =
         turn_of(surface.end.lift, sphere.radius) + 8.0f * (ray->u + OWN_ROUNDOFF);

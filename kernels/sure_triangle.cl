@@ -17,6 +17,7 @@ typedef struct {
     Corners corners;
     Edges edges; // across; the determinant is twice the area, above zero where the front is seen
     Real blur;   // of all corners
+    Real size;   // the distance of the farthest of them, or more
     Real sides;  // the two edges that leave the first corner, added
     bool clear;  // the axis passes all edges by more than the blur
     bool inside; // and goes through
@@ -56,6 +57,8 @@ static inline Sight sight_of(const ThickRay *ray, const Corners *corners)
     const Real blur = max(max(blur_at(ray, seen.a), blur_at(ray, seen.b)), blur_at(ray, seen.c));
     sight.corners = seen;
     sight.blur = blur;
+    sight.size = max(max(sum_of_sizes(seen.a), sum_of_sizes(seen.b)), sum_of_sizes(seen.c)) +
+                 2.0f * ray->around;
     sight.inside = sight.faces = sight.broad = false;
     sight.clear = corners_pass(&seen, blur);
     if (sight.clear)
@@ -85,20 +88,26 @@ static inline Real slope_of(const Sight *sight)
 // A triangle is met where it is within the blur of the axis: no deeper than its corners, and no
 // farther from where the axis meets its plane than the plane's slope allows.  A broad one is more
 // than 8 blurs high, so that weights stay within [-1/4, 5/4] and own rounding tilts the plane by
-// less than a quarter: 4 (1 + slope) blurs hold that, and the 28u Q of the distance.
-static inline Candidate depth_of(const Sight *sight)
+// less than half of 1 + slope: 4 (1 + slope) blurs hold all that.
+static inline Candidate depth_of(const Sight *sight, Real u)
 {
     const Corners *c = &sight->corners;
-    const Real pad = 4.0f * sight->blur;
-    Candidate depth = {ANSWER_UNKNOWN, min(min(c->a.z, c->b.z), c->c.z) - pad,
-                       max(max(c->a.z, c->b.z), c->c.z) + pad};
+    const Real rounding = 26.0f * (u + OWN_ROUNDOFF) * sight->size + 4.0f * sight->blur;
+    Candidate depth = {ANSWER_UNKNOWN, min(min(c->a.z, c->b.z), c->c.z) - rounding,
+                       max(max(c->a.z, c->b.z), c->c.z) + rounding};
     if (sight->broad) {
         const Real middle = triangle_depth(c, &sight->edges);
-        const Real doubt = pad * (1.0f + slope_of(sight));
+        const Real doubt = rounding + 4.0f * sight->blur * slope_of(sight);
         depth.low = max(depth.low, middle - doubt);
         depth.high = min(depth.high, middle + doubt);
     }
     return depth;
+}
+
+// At least what surface_ray_distance takes for the error of a distance.
+static inline Real margin_of(const Sight *sight, Real u)
+{
+    return 64.0f * (u + OWN_ROUNDOFF) * sight->size;
 }
 
 // On which side of a triangle's plane a point lies: 1 before its front, -1 behind, 0 unknown; as
@@ -129,25 +138,25 @@ static inline Candidate candidate_none(void)
     return (Candidate){ANSWER_NO, INFINITY, INFINITY};
 }
 
-static inline Candidate camera_candidate(const Sight *sight)
+static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight)
 {
-    Candidate candidate = depth_of(sight);
+    Candidate candidate = depth_of(sight, ray->u);
     if (candidate.high < 0.0f)
         return candidate_none();
     candidate.met = sight->inside && candidate.low > 0.0f ? ANSWER_YES : ANSWER_UNKNOWN;
     return candidate;
 }
 
-// Of surface_ray_distance, `error` is at most 62u Q along the ray: less than 8 blurs.
 static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *sight, int side)
 {
-    Candidate candidate = depth_of(sight);
+    Candidate candidate = depth_of(sight, ray->u);
+    const Real margin = margin_of(sight, ray->u);
     const bool front = sight->edges.determinant > 0.0f;
     const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
     const bool behind = front ? side < 0 : side > 0;
-    if (candidate.high < -8.0f * sight->blur || (sight->faces && behind))
+    if (candidate.high < -margin || (sight->faces && behind))
         return candidate_none();
-    const bool clear = front || candidate.low > 8.0f * sight->blur;
+    const bool clear = front || candidate.low > margin;
     candidate.met = sight->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;
     candidate.low = max(candidate.low, (Real)(0.0f));
     return candidate;
@@ -158,12 +167,12 @@ static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *si
 static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight, int side,
                                          int light_side)
 {
-    Candidate candidate = depth_of(sight);
+    Candidate candidate = depth_of(sight, ray->u);
+    const Real margin = margin_of(sight, ray->u);
     const bool front = sight->edges.determinant > 0.0f;
     const bool same = side != 0 && side == light_side;
     if (candidate.high < 0.0f || (sight->faces && same))
         return candidate_none();
-    const Real margin = 8.0f * sight->blur;
     const Real end = ray->length - radius_of(&ray->end) - 2.0f * ray->u * ray->length;
     const bool between = side != 0 && side == -light_side && candidate.low > margin;
     const bool clear = !front || candidate.high + margin < end;
@@ -189,7 +198,7 @@ static inline Candidate triangle_candidate(const ThickRay *ray,
     if ((sight.clear && !sight.inside) || is_surely_open(ray, &sight, two_sided))
         return candidate_none();
     if (ray->kind == RAY_CAMERA)
-        return camera_candidate(&sight);
+        return camera_candidate(ray, &sight);
     const int side = side_of(&corners, &ray->end, ray->u);
     if (ray->kind == RAY_REFLECTED)
         return reflected_candidate(ray, &sight, side);

@@ -106,8 +106,8 @@ static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **st
         print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
-    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/creature.scn", 900);
-    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/figure.scn", 900);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/creature.scn", 950);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/figure.scn", 850);
     if (tier() > 0)
         check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/coral.scn", 900);
     judge(&sum);
