@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty: decides the ray tree of each pixel again with thick rays (thick.cl).
-// Where no rounding of the tracer in fp32 could have changed any decision, the pixel is certified;
-// where that holds of the tracer in fp64 alone, it is repaired: it gets that one's color.  The
-// others are open.  It is compiled behind render.cl with CLRT_FP64, and only where it is wanted.
+// The kernel of --aov certainty: decides the ray tree of each pixel again with thick rays
+// (thick.cl). Where no rounding of the tracer in fp32 could have changed any decision, the pixel is
+// certified; where that holds of the tracer in fp64 alone, it is repaired: it gets that one's
+// color.  The others are open.  It is compiled behind render.cl with CLRT_FP64, and only where it
+// is wanted.
 #include "sure_surface.cl"
 
 // What has been decided, as a tracer of real arithmetic would.
@@ -73,8 +74,8 @@ static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 
         if (material.shader != SHADER_SILHOUETTE &&
             !decide_lights(scene, frame, &surface, u, &here))
             return false;
-        *decisions = level == 0 ? here
-                                : (Decisions){decisions->first_id, decisions->lit, here.signature};
+        *decisions =
+            level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
         if (material.reflectivity == 0.0f)
             return true;
         ray = thick_reflected_ray(&surface, &ray);

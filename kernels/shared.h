@@ -155,9 +155,10 @@ CLRT_SAME_SIZE(SampleData, 16)
 
 // How sure the decisions of a pixel's ray trees are: what is met, and which lights are seen.
 typedef enum {
-    CERTAINTY_OPEN,     // one of them may differ from what real arithmetic decides
-    CERTAINTY_REPAIRED, // they are real arithmetic's in fp64
-    CERTAINTY_CERTIFIED // and in fp32 too
+    CERTAINTY_OPEN,      // one of them may differ from what real arithmetic decides
+    CERTAINTY_REPAIRED,  // they are real arithmetic's in fp64
+    CERTAINTY_CERTIFIED, // and in fp32 too
+    CERTAINTY_KINDS
 } Certainty;
 
 // What certify.cl finds out about a pixel, by its last sample; decisions that are not certain are

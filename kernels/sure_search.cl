@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a thick ray meets first, and whether anything stands between a point and a light, where that
-// is certain.  Boxes grow by the blur of their farthest corner, below 18u of its distance beside the
-// cone, and by 111u more: then the axis is inside before it comes to where a triangle in there may
-// be met, even to one that is met behind the origin by what a distance may be off.
+// is certain.  Boxes grow by the blur of their farthest corner, below 18u of its distance beside
+// the cone, and by 111u more: then the axis is inside before it comes to where a triangle in there
+// may be met, even to one that is met behind the origin by what a distance may be off.
 #ifndef CLRT_SURE_SEARCH_CL
 #define CLRT_SURE_SEARCH_CL
 #include "sure_sphere.cl"
@@ -171,7 +171,7 @@ static inline ThickRay turned_around(const ThickRay *ray)
 }
 
 static inline Answer spheres_block(const SceneView *scene, const FrameData *frame,
-                                    const ThickRay *ray)
+                                   const ThickRay *ray)
 {
     const ThickRay turned = turned_around(ray);
     const Real margin = turned.around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
@@ -187,7 +187,7 @@ static inline Answer spheres_block(const SceneView *scene, const FrameData *fram
 }
 
 static inline Answer surely_blocked(const SceneView *scene, const FrameData *frame,
-                                     const ThickRay *ray)
+                                    const ThickRay *ray)
 {
     Search search = search_along(ray);
     search.blocked = spheres_block(scene, frame, ray);

@@ -17,9 +17,8 @@ typedef struct {
 static inline PlainSphere plain_sphere(global const SphereData *data)
 {
     const Sphere sphere = sphere_at(data);
-    return (PlainSphere){
-        real3_of(sphere.center.x.high, sphere.center.y.high, sphere.center.z.high),
-        sphere.radius.high};
+    return (PlainSphere){real3_of(sphere.center.x.high, sphere.center.y.high, sphere.center.z.high),
+                         sphere.radius.high};
 }
 
 // What this program's own arithmetic loses of a distance is 2^-49 of the same sum.
@@ -116,8 +115,8 @@ static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
     if (chord->enter.high < 0.0f && chord->leave.low > most)
         return ANSWER_NO;
     const bool enters = chord->enter.low > 0.0f && chord->enter.high < least;
-    const bool leaves = chord->enter.high < 0.0f && chord->leave.low > 0.0f &&
-                        chord->leave.high < least;
+    const bool leaves =
+        chord->enter.high < 0.0f && chord->leave.low > 0.0f && chord->leave.high < least;
     return enters || leaves ? ANSWER_YES : ANSWER_UNKNOWN;
 }
 
@@ -133,8 +132,8 @@ static inline Candidate own_sphere_candidate(const ThickRay *ray, const PlainSph
     if (middle < -doubt)
         return candidate_none();
     const bool is_sure = middle - doubt > 1.1f * least;
-    return (Candidate){is_sure ? ANSWER_YES : ANSWER_UNKNOWN, is_sure ? 2.0f * (middle - doubt) : 0.0f,
-                       2.0f * (middle + doubt)};
+    return (Candidate){is_sure ? ANSWER_YES : ANSWER_UNKNOWN,
+                       is_sure ? 2.0f * (middle - doubt) : 0.0f, 2.0f * (middle + doubt)};
 }
 
 #endif

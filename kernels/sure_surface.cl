@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a thick ray is surely met, a fat surface: its point and normals with bounds on how far those
-// of the tracer and of real arithmetic lie from them; and the thick rays that it sends on.
+// Where a thick ray is surely met, a fat surface: its point and normals with bounds on how far
+// those of the tracer and of real arithmetic lie from them; and the thick rays that it sends on.
 #ifndef CLRT_SURE_SURFACE_CL
 #define CLRT_SURE_SURFACE_CL
 #include "sure_search.cl"
@@ -75,9 +75,8 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
     const Real edges = largest_component(ab) * largest_component(ac);
     const Real u = ray->u + OWN_ROUNDOFF, r = 1.0f / sight.edges.determinant;
     const Real3 weights = {sight.edges.u * r, sight.edges.v * r, sight.edges.w * r};
-    FatSurface surface = {.end = fat_point(ray, &corners, &sight, weights),
-                          .id = hit->id,
-                          .material = look.material};
+    FatSurface surface = {
+        .end = fat_point(ray, &corners, &sight, weights), .id = hit->id, .material = look.material};
     surface.normal = surface.face = surface.end.face;
     surface.face_doubt = turn_of(8.0f * u * edges, length_of(cross_product(ab, ac))) + 8.0f * u;
     surface.normal_doubt = surface.face_doubt;
@@ -115,9 +114,8 @@ static inline FatSurface fat_surface(const SceneView *scene, const FrameData *fr
                                      const ThickRay *ray, const Nearest *nearest)
 {
     const Hit hit = {nearest->low, nearest->id, nearest->index};
-    FatSurface surface = nearest->id < frame->sphere_count
-                             ? fat_sphere(scene, ray, nearest)
-                             : fat_triangle(scene, frame, ray, &hit);
+    FatSurface surface = nearest->id < frame->sphere_count ? fat_sphere(scene, ray, nearest)
+                                                           : fat_triangle(scene, frame, ray, &hit);
     surface.toward_viewer = negative3(ray->along);
     surface.viewer_doubt = ray->spread + 4.0f * (ray->u + OWN_ROUNDOFF);
     return surface;
@@ -150,14 +148,13 @@ static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near it
-// either is taken, with the difference in doubt.  A sphere's face is its normal.
+// Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near
+// it either is taken, with the difference in doubt.  A sphere's face is its normal.
 static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
-    Real3 direction =
-        difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
+    Real3 direction = difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
     Real doubt = 2.1f * surface->normal_doubt + 1.01f * surface->viewer_doubt + 12.0f * u;
     const Real height = dot_product(direction, surface->face);
     const Real height_doubt = doubt + surface->face_doubt + 4.0f * u;

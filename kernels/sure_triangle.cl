@@ -120,10 +120,9 @@ static inline int side_of(const Corners *corners, const FatPoint *fat, Real u)
     const Real3 size = magnitudes(normal);
     const Real radius = radius_of(fat);
     const Real edges = largest_component(ab) * largest_component(ac);
-    const Real rounding = 16.0f * (dot_product(size, magnitudes(fat->point)) +
-                                   dot_product(size, magnitudes(apart)) +
-                                   edges * largest_component(apart) +
-                                   2.0f * radius * (sum_of_sizes(normal) + edges));
+    const Real rounding =
+        16.0f * (dot_product(size, magnitudes(fat->point)) + dot_product(size, magnitudes(apart)) +
+                 edges * largest_component(apart) + 2.0f * radius * (sum_of_sizes(normal) + edges));
     const Real length = length_of(normal);
     const Real tilt = length_of(cross_product(normal, fat->face)) + 0x1p-48f * length;
     const Real doubt = 1.01f * (fat->slide * tilt + fat->lift * length);
@@ -187,8 +186,7 @@ static inline bool is_surely_open(const ThickRay *ray, const Sight *sight, bool 
     return !two_sided && sight->faces && front == (ray->kind == RAY_SHADOW);
 }
 
-static inline Candidate triangle_candidate(const ThickRay *ray,
-                                           global const TriangleData *triangle)
+static inline Candidate triangle_candidate(const ThickRay *ray, global const TriangleData *triangle)
 {
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     if (triangle->id == ray->own)

@@ -12,8 +12,8 @@
 //  1. Camera ray: fma(x, right, fma(y, down, forward)), of which fp32's is computed here once more;
 //     fp64's two roundings are below u (|inner| + |outer|) a component.  The eye is stored.
 //  2. Corners, relative to the origin and sheared to (X - S Z, ., Z), |S| <= 1: u on the
-//     differences, 2u on S, u on the fma of its small result: 4u |S Z| + 2u |X - S Z| on each of two
-//     axes.  For a corner at depth z, l aside of a ray that makes an angle of sine w with the
+//     differences, 2u on S, u on the fma of its small result: 4u |S Z| + 2u |X - S Z| on each of
+//     two axes.  For a corner at depth z, l aside of a ray that makes an angle of sine w with the
 //     longest axis, that is below 4u w z + 10u l in all.  The edge functions' signs are exact
 //     (vector.cl), so the tracer decides exactly about corners that lie so much aside (blur_at).
 //     Where the axis passes all three edges by more than the blur, no motion of the corners within
@@ -139,16 +139,15 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
     const Real3 inner = sum3(forward, scaled3((Real)y, down));
     const Real own = 2.0f * OWN_ROUNDOFF * (length_of(inner) + length_of(ray.direction));
     const Real rounding =
-        own + (u > OWN_ROUNDOFF
-                   ? camera_rounding(&frame->camera, ray.direction, (float)x, (float)y)
-                   : 0.0f);
-    ThickRay thick = {.origin = ray.origin,
-                      .spread = spread_of(1.01f * rounding / length_of(ray.direction) +
-                                          8.0f * OWN_ROUNDOFF),
-                      .length = INFINITY,
-                      .u = u,
-                      .own = NOTHING,
-                      .kind = RAY_CAMERA};
+        own + (u > OWN_ROUNDOFF ? camera_rounding(&frame->camera, ray.direction, (float)x, (float)y)
+                                : 0.0f);
+    ThickRay thick = {
+        .origin = ray.origin,
+        .spread = spread_of(1.01f * rounding / length_of(ray.direction) + 8.0f * OWN_ROUNDOFF),
+        .length = INFINITY,
+        .u = u,
+        .own = NOTHING,
+        .kind = RAY_CAMERA};
     look_along(&thick, unit_vector(ray.direction));
     return thick;
 }

@@ -47,6 +47,17 @@ static bool check_format(Options *options, Error *error)
                      image_format_names());
 }
 
+static bool check_certainty(const Options *options, Error *error)
+{
+    if (!aov_needs(options->aovs, AOV_NEEDS_CERTAINTY))
+        return true;
+    if (options->contrast > 0)
+        return error_set(error, "--aov certainty is of the samples of --aa: leave out "
+                                "--aa-adaptive");
+    return options->kernel.choice.precision == PRECISION_FP32 ||
+           error_set(error, "--aov certainty is of pictures in fp32: leave out --precision fp64");
+}
+
 static bool check_aovs(const Options *options, Error *error)
 {
     return options->aovs == 0 || image_format_takes_layers(options->format) ||
@@ -66,6 +77,7 @@ bool options_check_purpose(Options *options, Error *error)
     const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
                       strcmp(options->statistics_path, "-") == 0;
     return check_format(options, error) && check_aovs(options, error) &&
+           check_certainty(options, error) &&
            (!both || error_set(error, "the picture and the statistics cannot both go to standard "
                                       "output"));
 }

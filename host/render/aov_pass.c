@@ -75,7 +75,8 @@ static bool make_room(AovPass *pass, Error *error)
 
 bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error)
 {
-    *pass = (AovPass){.source = source, .set = set, .counts_tests = aov_needs_tests(set)};
+    *pass =
+        (AovPass){.source = source, .set = set, .counts_tests = aov_needs(set, AOV_NEEDS_TESTS)};
     const int lock = cache_lock(source->setup->cache);
     const bool ok = make_room(pass, error) && build(pass, error);
     cache_unlock(lock);
@@ -136,15 +137,21 @@ static bool trace_tile(const AovPass *pass, const Tile *tile, Error *error)
                       error));
 }
 
+static uint32_t certainty_at(const AovPass *pass, uint32_t x, uint32_t y)
+{
+    const CertaintyMap *map = pass->source->certainty;
+    return map != NULL ? map->marks[(size_t)y * map->width + x].certainty : CERTAINTY_OPEN;
+}
+
 static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
 {
     const uint32_t samples = pass->source->renderer->frame.samples;
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
-            const AovPixel pixel = {&pass->host_paths[place],
-                                    pass->counts_tests ? pass->host_tests[place] : NULL,
-                                    samples * samples};
+            const AovPixel pixel = {
+                &pass->host_paths[place], pass->counts_tests ? pass->host_tests[place] : NULL,
+                samples * samples, certainty_at(pass, tile->x + column, tile->y + row)};
             aov_take(pass->set, layers_at(layers, tile->x + column, tile->y + row), &pixel,
                      &pass->source->scene);
         }

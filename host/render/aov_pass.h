@@ -4,7 +4,7 @@
 #pragma once
 
 #include "render/aov.h"
-#include "render/renderer.h"
+#include "render/certifier.h"
 
 typedef struct {
     const RendererSetup *setup;
@@ -12,6 +12,7 @@ typedef struct {
     CameraData camera;        // of the picture
     CameraData center;        // the same with one sample a pixel
     AovScene scene;
+    const CertaintyMap *certainty; // of the picture; NULL where no channel needs it
 } AovSource;
 
 typedef struct {

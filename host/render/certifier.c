@@ -17,6 +17,16 @@ KernelChoice certifier_choice(void)
     return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
 }
 
+static bool check_device(const Device *device, Error *error)
+{
+    if (!device->has_fp64)
+        return error_set(error, "%s has no double arithmetic, which --aov certainty needs",
+                         device->name);
+    return device->correct_division ||
+           error_set(error, "%s does not round divisions correctly, which --aov certainty needs",
+                     device->name);
+}
+
 static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error *error)
 {
     const Renderer *renderer = &certifier->reference;
@@ -30,12 +40,11 @@ static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error
         status = clSetKernelArg(kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &certifier->marks);
     if (!cl_succeeded(status, "set the arguments of the kernel certify_tile", error))
         return false;
-    const size_t group = kernel_group_side(&(KernelChoice){.nodes = NODES_PAIR});
-    const Tile largest = tile_at(&renderer->settings, 0);
-    const size_t grid[2] = {(largest.width + group - 1) / group * group,
-                            (largest.height + group - 1) / group * group};
-    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid,
-                                    (size_t[2]){group, group}, 0, NULL, NULL);
+    const size_t group[2] = {renderer->settings.group_width, renderer->settings.group_height};
+    size_t grid[2];
+    tile_grid(&renderer->settings, renderer->nodes, grid);
+    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
+                                    NULL);
     return cl_succeeded(status, "run the kernel certify_tile", error);
 }
 
@@ -85,7 +94,7 @@ bool certifier_open(Certifier *certifier, const RendererSetup *setup, const Flat
     general.specialization = SPECIALIZE_NEVER;
     general.statistics = false;
     general.group_width = general.group_height = group;
-    const bool ok = kernel_check_device(&setup->source.choice, setup->device, error) &&
+    const bool ok = check_device(setup->device, error) &&
                     renderer_open(&certifier->reference, &reference, flat, &general, error) &&
                     make_room(certifier, error) && make_kernel(certifier, setup->cache, error);
     if (!ok)
@@ -126,14 +135,13 @@ static bool certify_tile(const Certifier *certifier, const FrameData *frame, Err
     const size_t count = (size_t)frame->tile_width * frame->tile_height;
     if (!run_kernel(certifier, frame, error))
         return false;
-    cl_int status =
-        clEnqueueReadBuffer(queue, certifier->marks, CL_TRUE, 0,
-                            count * sizeof *certifier->host_marks, certifier->host_marks, 0, NULL,
-                            NULL);
+    cl_int status = clEnqueueReadBuffer(queue, certifier->marks, CL_TRUE, 0,
+                                        count * sizeof *certifier->host_marks,
+                                        certifier->host_marks, 0, NULL, NULL);
     if (status == CL_SUCCESS)
         status = clEnqueueReadBuffer(queue, certifier->colors, CL_TRUE, 0,
-                                     count * sizeof *certifier->host_colors,
-                                     certifier->host_colors, 0, NULL, NULL);
+                                     count * sizeof *certifier->host_colors, certifier->host_colors,
+                                     0, NULL, NULL);
     return cl_succeeded(status, "read a tile's marks", error);
 }
 

@@ -5,8 +5,6 @@
 
 #include "render/renderer.h"
 
-#define CERTAINTY_KINDS 3
-
 typedef struct {
     Renderer reference; // in fp64, from whose program the kernel is
     cl_kernel kernel;
@@ -17,7 +15,7 @@ typedef struct {
 
 // What is certified is a picture of the same scene and settings in fp32.  Setup's choice is
 // certifier_choice and the scene flattened for its nodes; it outlives the certifier.  Fails where
-// the device has no double arithmetic.
+// the device has no double arithmetic, or divides floats too coarsely for the bounds to hold.
 bool certifier_open(Certifier *certifier, const RendererSetup *setup, const FlatScene *flat,
                     const RenderSettings *settings, Error *error);
 void certifier_close(Certifier *certifier);
@@ -27,7 +25,7 @@ KernelChoice certifier_choice(void);
 // A mark for each pixel, rows from the top.
 typedef struct {
     uint32_t width, height;
-    CertaintyMark *marks;            // owned
+    CertaintyMark *marks;             // owned
     uint64_t counts[CERTAINTY_KINDS]; // of pixels
 } CertaintyMap;
 

@@ -56,11 +56,10 @@ static bool draw_plain(Certified *certified, const Office *office, const Scene *
     settings.group_width = settings.group_height = kernel_group_side(&setup.source.choice);
     FlatScene flat = {0};
     Renderer renderer = {0};
-    const bool ok =
-        flatten(&flat, scene, setup.source.choice.nodes, error) &&
-        renderer_open(&renderer, &setup, &flat, &settings, error) &&
-        framebuffer_make(&certified->plain, settings.width, settings.height, error) &&
-        renderer_draw(&renderer, &certified->camera, NULL, &certified->plain, error);
+    const bool ok = flatten(&flat, scene, setup.source.choice.nodes, error) &&
+                    renderer_open(&renderer, &setup, &flat, &settings, error) &&
+                    framebuffer_make(&certified->plain, settings.width, settings.height, error) &&
+                    renderer_draw(&renderer, &certified->camera, NULL, &certified->plain, error);
     renderer_close(&renderer);
     flat_free(&flat);
     return ok;
@@ -70,15 +69,14 @@ static bool certify(Certified *certified, const Office *office, Error *error)
 {
     Certifier certifier = {0};
     const RenderSettings *settings = &certified->settings;
-    const RendererSetup setup = {.device = &office->device,
-                                 .cache = &office->cache,
-                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                            .choice = certifier_choice()}};
-    const bool ok =
-        certifier_open(&certifier, &setup, &certified->flat, settings, error) &&
-        certainty_map_make(&certified->map, settings->width, settings->height, error) &&
-        certifier_certify(&certifier, &certified->camera, NULL, &certified->map,
-                          &certified->picture, error);
+    const RendererSetup setup = {
+        .device = &office->device,
+        .cache = &office->cache,
+        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = certifier_choice()}};
+    const bool ok = certifier_open(&certifier, &setup, &certified->flat, settings, error) &&
+                    certainty_map_make(&certified->map, settings->width, settings->height, error) &&
+                    certifier_certify(&certifier, &certified->camera, NULL, &certified->map,
+                                      &certified->picture, error);
     certifier_close(&certifier);
     return ok;
 }

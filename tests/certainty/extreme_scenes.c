@@ -121,8 +121,8 @@ static Scene soup(void)
 }
 
 const ExtremeScene extreme_scenes[] = {
-    {"slivers", slivers},   {"far_away", far_away},         {"planets", planets},
-    {"contacts", contacts}, {"mirror_room", mirror_room},   {"mixed_scales", mixed_scales},
+    {"slivers", slivers},   {"far_away", far_away},       {"planets", planets},
+    {"contacts", contacts}, {"mirror_room", mirror_room}, {"mixed_scales", mixed_scales},
     {"soup", soup},
 };
 

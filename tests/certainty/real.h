@@ -14,11 +14,11 @@ typedef struct {
 } RealView;
 
 typedef struct {
-    bool settled;        // all decisions of the tree are beyond the arithmetic's error
-    bool first_settled;  // those at the first hit are
-    uint32_t first_id;   // NOTHING where the camera ray meets nothing
-    uint32_t lit;        // a bit for each of the first 32 lights that shine on the first hit
-    uint32_t signature;  // of all decisions, as certify.cl mixes them
+    bool settled;       // all decisions of the tree are beyond the arithmetic's error
+    bool first_settled; // those at the first hit are
+    uint32_t first_id;  // NOTHING where the camera ray meets nothing
+    uint32_t lit;       // a bit for each of the first 32 lights that shine on the first hit
+    uint32_t signature; // of all decisions, as certify.cl mixes them
 } RealDecisions;
 
 // Of the sample in that column and row.

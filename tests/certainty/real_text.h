@@ -32,7 +32,7 @@ typedef struct {
     const RealView *view;
     NUMBER tolerance;
     Vector origin, direction;
-    uint32_t own; // id
+    uint32_t own;       // id
     bool is_own_inside; // the ray runs on inside the sphere that it starts on
 } Path;
 

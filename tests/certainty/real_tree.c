@@ -122,10 +122,8 @@ static bool enters(const RealWalk *walk, const RealNode *node, double reach)
     double enter = 0, leave = reach;
     for (int axis = 0; axis < 3; axis++) {
         const double padding = PADDING * (fabs(walk->origin[axis]) + 1);
-        const double low =
-            (node->low[axis] - padding - walk->origin[axis]) * walk->inverse[axis];
-        const double high =
-            (node->high[axis] + padding - walk->origin[axis]) * walk->inverse[axis];
+        const double low = (node->low[axis] - padding - walk->origin[axis]) * walk->inverse[axis];
+        const double high = (node->high[axis] + padding - walk->origin[axis]) * walk->inverse[axis];
         enter = fmax(enter, fmin(low, high));
         leave = fmin(leave, fmax(low, high));
     }

@@ -44,8 +44,8 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     const uint64_t *counts = certified.map.counts;
     const uint64_t pixels = counts[0] + counts[1] + counts[2];
     const uint64_t wrong = comparison.first + comparison.deeper + comparison.unsettled;
-    const uint64_t changed = count_changed(&certified, CERTAINTY_CERTIFIED) +
-                             count_changed(&certified, CERTAINTY_OPEN);
+    const uint64_t changed =
+        count_changed(&certified, CERTAINTY_CERTIFIED) + count_changed(&certified, CERTAINTY_OPEN);
     print_message("%s view %u: %.2f %% certified, %.2f %% repaired, %.2f %% open; %llu compared, "
                   "%llu in 113 bits, wrong first %llu, deeper %llu, unsettled %llu; %llu changed\n",
                   name, view, 100 * (double)counts[CERTAINTY_CERTIFIED] / (double)pixels,
