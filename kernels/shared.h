@@ -153,6 +153,24 @@ typedef struct {
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
 
+// How sure the decisions of a pixel's ray trees are: what is met, and which lights are seen.
+typedef enum {
+    CERTAINTY_OPEN,      // one of them may differ from what real arithmetic decides
+    CERTAINTY_REPAIRED,  // they are real arithmetic's in fp64
+    CERTAINTY_CERTIFIED, // and in fp32 too
+    CERTAINTY_KINDS
+} Certainty;
+
+// What certify.cl finds out about a pixel, by its last sample; decisions that are not certain are
+// not to be read.
+typedef struct {
+    uint certainty; // a Certainty
+    uint first_id;  // of what the camera ray meets, or NOTHING
+    uint lit;       // a bit for each of the first 32 lights that shine on it
+    uint signature; // of all decisions of the ray tree
+} CertaintyMark;
+CLRT_SAME_SIZE(CertaintyMark, 16)
+
 // What one pixel cost, where statistics are asked for.
 typedef enum {
     TALLY_CAMERA_RAYS,

@@ -50,11 +50,22 @@ static bool check_format(Options *options, Error *error)
                      image_format_names());
 }
 
+static bool check_certainty(const Options *options, Error *error)
+{
+    if (!aov_needs(options->aovs, AOV_NEEDS_CERTAINTY))
+        return true;
+    if (options_are_adaptive(options))
+        return error_set(error, "--aov certainty is of the samples of --aa: leave out "
+                                "--aa-adaptive, --error and --time");
+    return options->kernel.choice.precision == PRECISION_FP32 ||
+           error_set(error, "--aov certainty is of pictures in fp32: leave out --precision fp64");
+}
+
 static bool check_aovs(const Options *options, Error *error)
 {
-    if (options->contrast > 0 && aov_needs_tests(options->aovs))
+    if (options_are_adaptive(options) && aov_needs(options->aovs, AOV_NEEDS_TESTS))
         return error_set(error, "--aov boxtests and tritests count a grid of samples: leave out "
-                                "--aa-adaptive");
+                                "--aa-adaptive, --error and --time");
     return options->aovs == 0 || image_format_takes_layers(options->format) ||
            error_set(error, "--aov needs an EXR file (-o FILE.exr): %s holds colors alone",
                      options->format);
@@ -81,6 +92,7 @@ bool options_check_purpose(Options *options, Error *error)
     const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
                       strcmp(options->statistics_path, "-") == 0;
     return check_format(options, error) && check_aovs(options, error) &&
+           check_certainty(options, error) &&
            (!both || error_set(error, "the picture and the statistics cannot both go to standard "
                                       "output"));
 }

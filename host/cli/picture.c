@@ -3,6 +3,7 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "cli/certain_picture.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
 #include "image/image_file.h"
@@ -69,6 +70,13 @@ static bool trace_layers(Run *run, const AovPass *pass, Error *error)
     return ok;
 }
 
+static bool certify(Run *run, Error *error)
+{
+    const CameraData camera = camera_of(run, run->settings.samples);
+    return !aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY) ||
+           certain_picture_make(run, &camera, error);
+}
+
 // The channels beside the colors.  A picture that was stopped has none of their values.
 static bool draw_layers(Run *run, Error *error)
 {
@@ -80,7 +88,8 @@ static bool draw_layers(Run *run, Error *error)
                               .camera = camera_of(run, settings->samples),
                               .center = camera_of(run, 1),
                               .samples = run->samples,
-                              .scene = {&run->normalization, run->flat.light_count}};
+                              .scene = {&run->normalization, run->flat.light_count},
+                              .certainty = run->certainty.marks != NULL ? &run->certainty : NULL};
     aov_name_layers(aovs, &run->layers);
     if (!layers_make(&run->layers, settings->width, settings->height, error))
         return false;
@@ -194,7 +203,8 @@ ExitCode picture_make(Run *run, Error *error)
     if (!run_open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    if (!draw(run, error) || !draw_layers(run, error) || !measure_error(run, error))
+    if (!draw(run, error) || !certify(run, error) || !draw_layers(run, error) ||
+        !measure_error(run, error))
         return EXIT_DEVICE;
     if (!write_picture(run, error) || !write_reference(run, error) ||
         !write_statistics(run, start, error))

@@ -91,6 +91,12 @@ void report_write_text(const Report *report, FILE *stream)
             report->tallies[TALLY_TRIANGLE_TESTS], per_ray(report, TALLY_TRIANGLE_TESTS));
     fprintf(stream, "%" PRIu64 " box tests, %.2f per ray\n", report->tallies[TALLY_BOX_TESTS],
             per_ray(report, TALLY_BOX_TESTS));
+    const uint64_t *pixels = report->certainty.pixels;
+    if (aov_needs(report->options->aovs, AOV_NEEDS_CERTAINTY))
+        fprintf(stream,
+                "%" PRIu64 " pixels certified, %" PRIu64 " repaired, %" PRIu64 " open, %.3f s\n",
+                pixels[CERTAINTY_CERTIFIED], pixels[CERTAINTY_REPAIRED], pixels[CERTAINTY_OPEN],
+                report->certainty.seconds);
 }
 
 void report_write_error(const Report *report, FILE *stream)
@@ -215,6 +221,16 @@ static json_t *reference_json(const Report *report)
                      result->seconds);
 }
 
+static json_t *certainty_json(const Report *report)
+{
+    const uint64_t *pixels = report->certainty.pixels;
+    if (!aov_needs(report->options->aovs, AOV_NEEDS_CERTAINTY))
+        return json_null();
+    return json_pack("{s:o, s:o, s:o, s:f}", "certified", integer(pixels[CERTAINTY_CERTIFIED]),
+                     "repaired", integer(pixels[CERTAINTY_REPAIRED]), "open",
+                     integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
+}
+
 // The parts of the report, each under its name.
 static void add_parts(json_t *json, const Report *report, const ReportTexts *texts)
 {
@@ -227,6 +243,7 @@ static void add_parts(json_t *json, const Report *report, const ReportTexts *tex
     json_object_set_new(json, "seconds", seconds_json(report));
     json_object_set_new(json, "frame_seconds", frames_json(report));
     json_object_set_new(json, "reference", reference_json(report));
+    json_object_set_new(json, "certainty", certainty_json(report));
 }
 
 static json_t *report_json(const Report *report)

@@ -17,6 +17,12 @@ typedef struct {
     double seconds;
 } ReferenceResult;
 
+// How many pixels are how certain.
+typedef struct {
+    uint64_t pixels[CERTAINTY_KINDS]; // zeros where nobody asked
+    double seconds;
+} CertaintyResult;
+
 // Everything about one run that is told to the user.
 typedef struct {
     const Options *options;
@@ -42,6 +48,7 @@ typedef struct {
     double frame_seconds[FRAMES_MAX]; // of every picture drawn; the first is trace
     uint32_t frame_count;
     ReferenceResult reference;
+    CertaintyResult certainty;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 

@@ -153,6 +153,7 @@ void run_free(Run *run)
     framebuffer_free(&run->reference);
     layers_free(&run->layers);
     free(run->samples);
+    certainty_map_free(&run->certainty);
     starter_wait_kernel(&run->starter);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);

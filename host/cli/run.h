@@ -8,7 +8,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/starter.h"
-#include "render/renderer.h"
+#include "render/certifier.h"
 
 typedef struct {
     const Options *options;
@@ -20,9 +20,10 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
-    Framebuffer reference; // empty unless one was asked for
-    Layers layers;         // beside the colors
-    uint32_t *samples;     // of each pixel, for the layers; NULL where all have as many
+    Framebuffer reference;  // empty unless one was asked for
+    Layers layers;          // beside the colors
+    uint32_t *samples;      // of each pixel, for the layers; NULL where all have as many
+    CertaintyMap certainty; // empty unless it was asked for
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

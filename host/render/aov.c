@@ -87,37 +87,70 @@ static void take_triangle_tests(uint32_t *values, const AovPixel *pixel, const A
     values[0] = float_bits(pixel->tests[TALLY_TRIANGLE_TESTS]);
 }
 
+static void take_certainty(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)scene;
+    values[0] = float_bits(0.5 * pixel->certainty);
+}
+
 const Aov aov_table[] = {
     {"depth",
      {"Z"},
      false,
-     false,
+     AOV_NEEDS_PATH,
      "distance along the view's axis; infinity where nothing is met",
      take_depth},
-    {"normal", {"N.X", "N.Y", "N.Z"}, false, false, "unit normal that is shaded with", take_normal},
-    {"position", {"P.X", "P.Y", "P.Z"}, false, false, "the point that is met", take_position},
+    {"normal",
+     {"N.X", "N.Y", "N.Z"},
+     false,
+     AOV_NEEDS_PATH,
+     "unit normal that is shaded with",
+     take_normal},
+    {"position",
+     {"P.X", "P.Y", "P.Z"},
+     false,
+     AOV_NEEDS_PATH,
+     "the point that is met",
+     take_position},
     {"primitive",
      {"primitive"},
      true,
-     false,
+     AOV_NEEDS_PATH,
      "number of the sphere, or of the triangle behind all spheres",
      take_primitive},
     {"material",
      {"material"},
      true,
-     false,
+     AOV_NEEDS_PATH,
      "number of the material: the course's 0 to 3, then each define",
      take_material},
-    {"shadow", {"shadow"}, false, false, "share of the lights that reach the point", take_shadow},
-    {"bounces", {"bounces"}, false, false, "reflected rays followed", take_bounces},
-    {"samples", {"samples"}, false, false, "samples taken", take_samples},
-    {"boxtests", {"boxtests"}, false, true, "boxes tested, over all samples", take_box_tests},
+    {"shadow",
+     {"shadow"},
+     false,
+     AOV_NEEDS_PATH,
+     "share of the lights that reach the point",
+     take_shadow},
+    {"bounces", {"bounces"}, false, AOV_NEEDS_PATH, "reflected rays followed", take_bounces},
+    {"samples", {"samples"}, false, AOV_NEEDS_PATH, "samples taken", take_samples},
+    {"boxtests",
+     {"boxtests"},
+     false,
+     AOV_NEEDS_TESTS,
+     "boxes tested, over all samples",
+     take_box_tests},
     {"tritests",
      {"tritests"},
      false,
-     true,
+     AOV_NEEDS_TESTS,
      "triangles tested, over all samples",
      take_triangle_tests},
+    {"certainty",
+     {"certainty"},
+     false,
+     AOV_NEEDS_CERTAINTY,
+     "1 where no rounding can change a decision, 0.5 where fp64 decided again, which changes the "
+     "picture there, 0 elsewhere",
+     take_certainty},
 };
 
 const size_t aov_count = sizeof aov_table / sizeof aov_table[0];
@@ -166,11 +199,11 @@ bool aov_read_list(const char *list, AovSet *set, Error *error)
     }
 }
 
-bool aov_needs_tests(AovSet set)
+bool aov_needs(AovSet set, AovNeed need)
 {
     bool needs = false;
     for (size_t i = 0; i < aov_count; i++)
-        needs |= aov_has(set, i) && aov_table[i].needs_tests;
+        needs |= aov_has(set, i) && aov_table[i].need == need;
     return needs;
 }
 

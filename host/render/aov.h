@@ -11,6 +11,7 @@ typedef struct {
     const PathData *path;  // of the ray through its center
     const uint32_t *tests; // TALLY_KINDS counts over all its samples; NULL where none is asked for
     uint32_t samples;
+    uint32_t certainty; // of all its samples, a Certainty
 } AovPixel;
 
 // The same for all pixels.
@@ -21,11 +22,18 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
+// What a channel takes beside the path of the ray through a pixel's center.
+typedef enum {
+    AOV_NEEDS_PATH,
+    AOV_NEEDS_TESTS,    // every sample is traced again, alone
+    AOV_NEEDS_CERTAINTY // every sample is certified
+} AovNeed;
+
 typedef struct {
     const char *name;                     // in --aov
     const char *channels[AOV_COMPONENTS]; // in the file; NULL behind the last
     bool is_integer;                      // unsigned; else float
-    bool needs_tests;                     // every sample is traced again, alone
+    AovNeed need;
     const char *help;
     // Fills values, which are floats by their bits where they are no integers.
     void (*take)(uint32_t *values, const AovPixel *pixel, const AovScene *scene);
@@ -40,7 +48,8 @@ typedef uint32_t AovSet;
 // The channels of a list of names between commas; false and a sentence where it is none.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
-bool aov_needs_tests(AovSet set);
+// Whether some channel of the set has that need.
+bool aov_needs(AovSet set, AovNeed need);
 
 // Names the channels of set, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);

@@ -75,7 +75,8 @@ static bool make_room(AovPass *pass, Error *error)
 
 bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error)
 {
-    *pass = (AovPass){.source = source, .set = set, .counts_tests = aov_needs_tests(set)};
+    *pass =
+        (AovPass){.source = source, .set = set, .counts_tests = aov_needs(set, AOV_NEEDS_TESTS)};
     const int lock = cache_lock(source->setup->cache);
     const bool ok = make_room(pass, error) && build(pass, error);
     cache_unlock(lock);
@@ -144,6 +145,12 @@ static uint32_t samples_of(const AovPass *pass, uint32_t x, uint32_t y)
                                    : settings->samples * settings->samples;
 }
 
+static uint32_t certainty_at(const AovPass *pass, uint32_t x, uint32_t y)
+{
+    const CertaintyMap *map = pass->source->certainty;
+    return map != NULL ? map->marks[(size_t)y * map->width + x].certainty : CERTAINTY_OPEN;
+}
+
 static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
 {
     for (uint32_t row = 0; row < tile->height; row++)
@@ -152,7 +159,7 @@ static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
             const uint32_t x = tile->x + column, y = tile->y + row;
             const AovPixel pixel = {&pass->host_paths[place],
                                     pass->counts_tests ? pass->host_tests[place] : NULL,
-                                    samples_of(pass, x, y)};
+                                    samples_of(pass, x, y), certainty_at(pass, x, y)};
             aov_take(pass->set, layers_at(layers, x, y), &pixel, &pass->source->scene);
         }
 }

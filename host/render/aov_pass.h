@@ -4,7 +4,7 @@
 #pragma once
 
 #include "render/aov.h"
-#include "render/renderer.h"
+#include "render/certifier.h"
 
 typedef struct {
     const RendererSetup *setup;
@@ -13,6 +13,7 @@ typedef struct {
     CameraData center;        // the same with one sample a pixel
     const uint32_t *samples;  // of each pixel, row by row; NULL where all have as many
     AovScene scene;
+    const CertaintyMap *certainty; // of the picture; NULL where no channel needs it
 } AovSource;
 
 typedef struct {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The certifier walks pairs, whatever the picture was drawn with: the scene is flattened again.
+#include "cli/certain_picture.h"
+
+#include "base/clock.h"
+#include "cli/threads.h"
+#include "render/certifier.h"
+
+#include <string.h>
+
+static bool flatten(const Run *run, FlatScene *flat, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    Crew *crew = crew_open(threads_allowed(run->options->threads));
+    const NodeLayout layout = certifier_choice().nodes;
+    const BvhSettings tree = {run->options->builder, flat_leaves(layout)};
+    const FlatSource source = {&run->scene, &triangles, &bvh, &run->normalization, layout, crew};
+    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, crew, error) &&
+                    bvh_build(&bvh, &triangles, &tree, crew, error) &&
+                    flat_make(flat, &source, error);
+    crew_close(crew);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+    return ok;
+}
+
+static bool certify(Run *run, const CameraData *camera, const FlatScene *flat, Error *error)
+{
+    Certifier certifier;
+    RendererSetup setup = run->starter.setup;
+    setup.source.choice = certifier_choice();
+    if (!certifier_open(&certifier, &setup, flat, &run->settings, error))
+        return false;
+    Progress progress = progress_begin(run->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok =
+        certifier_certify(&certifier, camera, &observer, &run->certainty, &run->framebuffer, error);
+    run->stopped_by = progress_end(&progress);
+    certifier_close(&certifier);
+    return ok;
+}
+
+bool certain_picture_make(Run *run, const CameraData *camera, Error *error)
+{
+    FlatScene flat = {0};
+    double moment = clock_seconds();
+    const RenderSettings *settings = &run->settings;
+    if (!certainty_map_make(&run->certainty, settings->width, settings->height, error))
+        return false;
+    if (run->stopped_by != 0)
+        return true;
+    const bool ok = flatten(run, &flat, error) && certify(run, camera, &flat, error);
+    flat_free(&flat);
+    run->report.complete = run->report.complete && run->stopped_by == 0;
+    run->report.certainty.seconds = run_lap(&moment);
+    memcpy(run->report.certainty.pixels, run->certainty.counts, sizeof run->certainty.counts);
+    return ok;
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The kernel of --aov certainty: decides the ray tree of each pixel again with thick rays
+// (thick.cl). Where no rounding of the tracer in fp32 could have changed any decision, the pixel is
+// certified; where that holds of the tracer in fp64 alone, it is repaired: it gets that one's
+// color.  The others are open.  It is compiled behind render.cl with CLRT_FP64, and only where it
+// is wanted.
+#include "sure_surface.cl"
+
+// What has been decided, as a tracer of real arithmetic would.
+typedef struct {
+    uint first_id, lit, signature; // as a CertaintyMark's
+} Decisions;
+
+static inline void note_decision(Decisions *decisions, uint word)
+{
+    const uint mixed = (decisions->signature ^ word) * 0x9e3779b1u;
+    decisions->signature = mixed ^ mixed >> 15;
+}
+
+// Of a light and a point: it is turned away, sees the light, or does not.
+typedef enum { LIGHT_BEHIND, LIGHT_SEEN, LIGHT_HIDDEN, LIGHT_UNKNOWN } LightSight;
+
+static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
+                                     const FatSurface *surface, const ThickRay *from_light)
+{
+    const Answer faces = surely_faces(surface, from_light);
+    if (faces == ANSWER_UNKNOWN || !is_usable(from_light))
+        return LIGHT_UNKNOWN;
+    if (faces == ANSWER_NO)
+        return LIGHT_BEHIND;
+    const Answer blocked = surely_blocked(scene, frame, from_light);
+    if (blocked == ANSWER_UNKNOWN)
+        return LIGHT_UNKNOWN;
+    return blocked == ANSWER_YES ? LIGHT_HIDDEN : LIGHT_SEEN;
+}
+
+// Fills lit for the first 32 lights.
+static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
+                                 const FatSurface *surface, Real u, Decisions *decisions)
+{
+    uint lit = 0;
+    for (uint index = 0; index < frame->light_count; index++) {
+        const Real3 light = load3(scene->lights[index].position);
+        const ThickRay ray = thick_shadow_ray(surface, light, u);
+        const LightSight sight = surely_seen(scene, frame, surface, &ray);
+        if (sight == LIGHT_UNKNOWN)
+            return false;
+        note_decision(decisions, sight);
+        if (index < 32 && sight == LIGHT_SEEN)
+            lit |= 1u << index;
+    }
+    decisions->lit = lit;
+    return true;
+}
+
+// The decisions of a sample's ray tree; false where one of them is not certain.
+static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 sample, Real u,
+                          Decisions *decisions)
+{
+    ThickRay ray = thick_camera_ray(frame, sample, u);
+    *decisions = (Decisions){NOTHING, 0, 0};
+    for (uint level = 0; level < frame->max_level; level++) {
+        if (!is_usable(&ray))
+            return false;
+        const Nearest nearest = surely_nearest(scene, frame, &ray);
+        if (!nearest_is_sure(&nearest))
+            return false;
+        note_decision(decisions, nearest.id);
+        if (nearest.id == NOTHING)
+            return true;
+        const FatSurface surface = fat_surface(scene, frame, &ray, &nearest);
+        const MaterialLanes material = fetch_material(scene, surface.material);
+        Decisions here = {nearest.id, 0, decisions->signature};
+        if (material.shader != SHADER_SILHOUETTE &&
+            !decide_lights(scene, frame, &surface, u, &here))
+            return false;
+        *decisions =
+            level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
+        if (material.reflectivity == 0.0f)
+            return true;
+        ray = thick_reflected_ray(&surface, &ray);
+    }
+    return true;
+}
+
+// Decides a pixel as its least certain sample; the decisions are those of its last.
+static inline Certainty decide_pixel(const SceneView *scene, const FrameData *frame, uint2 pixel,
+                                     Decisions *decisions)
+{
+    const uint side = frame->samples;
+    Certainty certainty = CERTAINTY_CERTIFIED;
+    for (uint sample = 0; sample < side * side; sample++) {
+        const uint2 place = pixel * side + (uint2)(sample % side, sample / side);
+        if (decide(scene, frame, place, 0x1p-24f, decisions))
+            continue;
+        certainty = CERTAINTY_REPAIRED;
+        if (!decide(scene, frame, place, 0x1p-53f, decisions))
+            return CERTAINTY_OPEN;
+    }
+    return certainty;
+}
+
+// marks holds a mark for each pixel of the tile, pixels a color for those that are repaired.  The
+// range is padded to whole work-groups.
+kernel void certify_tile(const FrameData frame, global const PointLight *lights,
+                         global const Material *materials, global const SphereData *spheres,
+                         global const Node *nodes, global const Triangles *triangles,
+                         global const TriangleLook *looks, global const CornerNormals *normals,
+                         global float *pixels, global CertaintyMark *marks)
+{
+    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    const uint column = (uint)get_global_id(0), row = (uint)get_global_id(1);
+    if (column >= frame.tile_width || row >= frame.tile_height)
+        return;
+    const size_t place = (size_t)row * frame.tile_width + column;
+    const uint2 pixel = (uint2)(frame.tile_x + column, frame.tile_y + row);
+    Decisions decisions;
+    const Certainty certainty = decide_pixel(&scene, &frame, pixel, &decisions);
+    marks[place] =
+        (CertaintyMark){certainty, decisions.first_id, decisions.lit, decisions.signature};
+    if (certainty != CERTAINTY_REPAIRED)
+        return;
+    const Places places = {pixel.x, pixel.y, true};
+    Tally tally = {0};
+    const Real3 color = pixel_color(&scene, &frame, &places, &tally);
+    store_lane(pixels + 3 * place, &color, 0);
+}

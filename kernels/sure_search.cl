@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// What a thick ray meets first, and whether anything stands between a point and a light, where that
+// is certain.  Boxes grow by the blur of their farthest corner, below 18u of its distance beside
+// the cone, and by 111u more: then the axis is inside before it comes to where a triangle in there
+// may be met, even to one that is met behind the origin by what a distance may be off.
+#ifndef CLRT_SURE_SEARCH_CL
+#define CLRT_SURE_SEARCH_CL
+#include "sure_sphere.cl"
+
+// The nearest primitive that is met surely, and the least depth at which any other may be met.
+typedef struct {
+    Count id, index;
+    Real low, high; // INFINITY where nothing is met
+    Real other;
+} Nearest;
+
+static inline bool nearest_is_sure(const Nearest *nearest)
+{
+    return nearest->id == NOTHING ? nearest->other == INFINITY : nearest->other > nearest->high;
+}
+
+static inline void nearest_add(Nearest *nearest, const Candidate *candidate, uint id, uint index)
+{
+    if (candidate->met == ANSWER_YES && candidate->high < nearest->high) {
+        nearest->other = min(nearest->other, nearest->low);
+        *nearest = (Nearest){id, index, candidate->low, candidate->high, nearest->other};
+    } else if (candidate->met != ANSWER_NO) {
+        nearest->other = min(nearest->other, candidate->low);
+    }
+}
+
+// A shadow ray that this many triangles may block is given up: cones that wide see too much.
+#define DOUBTS_MOST 32
+
+typedef struct {
+    const ThickRay *ray;
+    Real origin[3], inverse[3]; // of the ray and its direction
+    Nearest nearest;
+    Answer blocked; // a shadow ray
+    uint doubts;    // triangles that may block it
+} Search;
+
+// How much a box whose farthest corner is `far` away has to grow.
+static inline Real growth_at(const ThickRay *ray, Real far)
+{
+    const Real rounding = 140.0f * ray->u + 200.0f * OWN_ROUNDOFF;
+    return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
+}
+
+// A zero direction is replaced by one that leads aside by less than the rounding.
+static inline Real inverse_of(Real direction)
+{
+    return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
+}
+
+static inline Search search_along(const ThickRay *ray)
+{
+    const Real3 o = ray->origin, d = ray->along;
+    return (Search){.ray = ray,
+                    .origin = {o.x, o.y, o.z},
+                    .inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)},
+                    .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
+                    .blocked = ANSWER_NO};
+}
+
+// Beyond the nearest nothing can be first; beyond another that may be met nothing can be first for
+// sure.
+static inline Real search_reach(const Search *search)
+{
+    if (search->ray->kind == RAY_SHADOW)
+        return 1.01f * search->ray->length;
+    return min(search->nearest.high, search->nearest.other);
+}
+
+// Where the cone enters the box of a node's child, INFINITY where it does not before `reach`.
+static inline Real box_entry(const Search *search, global const BvhPair *node, uint child,
+                             Real reach)
+{
+    Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
+    for (uint axis = 0; axis < 3; axis++) {
+        low[axis] = node->planes[axis][0][child] - search->origin[axis];
+        high[axis] = node->planes[axis][1][child] - search->origin[axis];
+        far += max(fabs(low[axis]), fabs(high[axis]));
+    }
+    const Real growth = growth_at(search->ray, far);
+    for (uint axis = 0; axis < 3; axis++) {
+        const Real one = (low[axis] - growth) * search->inverse[axis];
+        const Real other = (high[axis] + growth) * search->inverse[axis];
+        enter = max(enter, min(one, other));
+        leave = min(leave, max(one, other));
+    }
+    return enter <= leave && low[0] <= high[0] ? enter : INFINITY;
+}
+
+static inline void wait_for_cone(const SceneView *scene, const Search *search, uint node,
+                                 Waiting *waiting)
+{
+    const Real reach = search_reach(search);
+    const Real first = box_entry(search, &scene->nodes[node], 0, reach);
+    const Real second = box_entry(search, &scene->nodes[node], 1, reach);
+    const bool second_nearer = second < first;
+    if (!second_nearer && second < INFINITY)
+        wait_for_child(waiting, 2 * node + 1, second);
+    if (first < INFINITY)
+        wait_for_child(waiting, 2 * node, first);
+    if (second_nearer)
+        wait_for_child(waiting, 2 * node + 1, second);
+}
+
+static inline void search_leaf(const SceneView *scene, Search *search, uint2 range)
+{
+    for (uint index = range.x; index < range.x + range.y; index++) {
+        global const TriangleData *triangle = &scene->triangles[index];
+        const Candidate candidate = triangle_candidate(search->ray, triangle);
+        if (search->ray->kind != RAY_SHADOW)
+            nearest_add(&search->nearest, &candidate, triangle->id, index);
+        search->blocked = max(search->blocked, candidate.met);
+        search->doubts += candidate.met == ANSWER_UNKNOWN;
+    }
+}
+
+static inline bool search_is_over(const Search *search)
+{
+    return search->ray->kind == RAY_SHADOW &&
+           (search->blocked == ANSWER_YES || search->doubts > DOUBTS_MOST);
+}
+
+static void search_triangles(const SceneView *scene, Search *search)
+{
+    Waiting waiting;
+    waiting.count = 0;
+    wait_for_cone(scene, search, 0, &waiting);
+    while (waiting.count > 0 && !search_is_over(search)) {
+        waiting.count--;
+        if (waiting.entry[waiting.count] > search_reach(search))
+            continue;
+        const uint child = waiting.child[waiting.count];
+        const uint first = scene->nodes[child >> 1].first[child & 1];
+        const uint count = scene->nodes[child >> 1].count[child & 1];
+        if (count == 0)
+            wait_for_cone(scene, search, first, &waiting);
+        else
+            search_leaf(scene, search, (uint2)(first, count));
+    }
+}
+
+static inline Nearest surely_nearest(const SceneView *scene, const FrameData *frame,
+                                     const ThickRay *ray)
+{
+    Search search = search_along(ray);
+    for (uint index = 0; index < frame->sphere_count; index++) {
+        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+        const Chord chord = chord_of(ray, &sphere);
+        const Candidate candidate =
+            index == ray->own ? own_sphere_candidate(ray, &sphere) : sphere_candidate(&chord);
+        nearest_add(&search.nearest, &candidate, index, index);
+    }
+    if (frame->triangle_count > 0)
+        search_triangles(scene, &search);
+    return search.nearest;
+}
+
+// A shadow ray as spheres are met by it: from the surface to the light.
+static inline ThickRay turned_around(const ThickRay *ray)
+{
+    ThickRay turned = *ray;
+    turned.origin = ray->end.point;
+    turned.along = negative3(ray->along);
+    turned.around = radius_of(&ray->end);
+    return turned;
+}
+
+static inline Answer spheres_block(const SceneView *scene, const FrameData *frame,
+                                   const ThickRay *ray)
+{
+    const ThickRay turned = turned_around(ray);
+    const Real margin = turned.around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
+    Answer blocked = ANSWER_NO;
+    for (uint index = 0; index < frame->sphere_count; index++) {
+        if (index == ray->own)
+            continue;
+        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+        const Chord chord = chord_of(&turned, &sphere);
+        blocked = max(blocked, sphere_blocks(&chord, ray->length - margin, ray->length + margin));
+    }
+    return blocked;
+}
+
+static inline Answer surely_blocked(const SceneView *scene, const FrameData *frame,
+                                    const ThickRay *ray)
+{
+    Search search = search_along(ray);
+    search.blocked = spheres_block(scene, frame, ray);
+    if (frame->triangle_count > 0 && search.blocked != ANSWER_YES)
+        search_triangles(scene, &search);
+    return search.blocked;
+}
+
+#endif

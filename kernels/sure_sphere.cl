@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// A thick ray against a sphere.  sphere.cl computes with sums of two floats: for roundoff u, its
+// error of the discriminant radius^2 - distance^2 is below 2^6 u^2 (distance + radius) (|f| +
+// radius + |center|), f from the center to the origin, and below 64 u^3 |f|^2 for the foot of the
+// perpendicular.  Either is less than moving the ray aside by `distance_doubt` does, and so is the
+// error of the product of the distances; what else goes into a distance is right to 8u of its size.
+#ifndef CLRT_SURE_SPHERE_CL
+#define CLRT_SURE_SPHERE_CL
+#include "sure_triangle.cl"
+
+typedef struct {
+    Real3 center;
+    Real radius;
+} PlainSphere;
+
+// The stored sums have 48 bits, which one double holds.
+static inline PlainSphere plain_sphere(global const SphereData *data)
+{
+    const Sphere sphere = sphere_at(data);
+    return (PlainSphere){real3_of(sphere.center.x.high, sphere.center.y.high, sphere.center.z.high),
+                         sphere.radius.high};
+}
+
+// What this program's own arithmetic loses of a distance is 2^-49 of the same sum.
+static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
+{
+    const Real sizes = apart + sphere->radius + length_of(sphere->center);
+    return max(0x1p8f * u * u, (Real)(0x1p-48f)) * sizes +
+           0x1p8f * u * u * u * apart * apart / sphere->radius;
+}
+
+typedef struct {
+    Real low, high;
+} Range;
+
+// The depths at which a line enters and leaves the sphere.
+typedef struct {
+    Answer met; // by the line
+    Range enter, leave;
+    Real shift; // how far the origin may lie elsewhere, as the tracer rounds
+} Chord;
+
+// power / sum, where sum is above zero.
+static inline Range quotient(Range power, Range sum)
+{
+    return (Range){power.low / (power.low > 0.0f ? sum.high : sum.low),
+                   power.high / (power.high > 0.0f ? sum.low : sum.high)};
+}
+
+static inline Range negative_range(Range range)
+{
+    return (Range){-range.high, -range.low};
+}
+
+static inline Range rounded_range(const ThickRay *ray, Range range, Real shift)
+{
+    const Real factor = 16.0f * (ray->u + OWN_ROUNDOFF) + ray->spread * ray->spread;
+    return (Range){range.low - factor * fabs(range.low) - shift,
+                   range.high + factor * fabs(range.high) + shift};
+}
+
+// Turning the line moves it by `spread` of |middle| aside where it passes the center at `distance`,
+// and by as much of that along.  The nearer wall is at (|f|^2 - radius^2) / (|middle| + half the
+// chord): the power above does not depend on the direction.  So the tracer computes it, and so a
+// nearby wall of a huge sphere is known as well as that of a small one.
+static inline Chord chord_of(const ThickRay *ray, const PlainSphere *sphere)
+{
+    const Real3 f = difference(sphere->center, ray->origin);
+    const Real middle = dot_product(f, ray->along), r = sphere->radius, apart = length_of(f);
+    const Real distance = length_of(difference(f, scaled3(middle, ray->along)));
+    const Real shift = 1.01f * (ray->around + distance_doubt(ray->u, apart, sphere));
+    const Real bend = 1.01f * ray->spread * ray->spread * apart;
+    const Real aside = shift + bend + 1.01f * ray->spread * fabs(middle);
+    const Real doubt = shift + bend + 1.01f * ray->spread * distance;
+    const Real least = max(distance - aside, (Real)(0.0f)), most = distance + aside;
+    Chord chord = {.met = ANSWER_NO, .shift = shift};
+    if (least > r)
+        return chord;
+    chord.met = most < r ? ANSWER_YES : ANSWER_UNKNOWN;
+    const Real longest = sqrt((r - least) * (r + least));
+    const Real shortest = most < r ? sqrt((r - most) * (r + most)) : 0.0f;
+    const Real height = apart - r, bulk = apart + r;
+    const Range power = {height * bulk - 2.02f * shift * (apart + shift),
+                         height * bulk + 2.02f * shift * (apart + shift)};
+    Range enter = {middle - longest - doubt, middle - shortest + doubt};
+    Range leave = {middle + shortest - doubt, middle + longest + doubt};
+    if (middle > doubt)
+        enter = quotient(power, leave);
+    else if (middle < -doubt)
+        leave = negative_range(quotient(power, negative_range(enter)));
+    chord.enter = rounded_range(ray, enter, shift);
+    chord.leave = rounded_range(ray, leave, shift);
+    return chord;
+}
+
+// A ray that starts inside meets the far wall.
+static inline Candidate sphere_candidate(const Chord *chord)
+{
+    if (chord->met == ANSWER_NO || chord->leave.high < 0.0f)
+        return candidate_none();
+    if (chord->met == ANSWER_YES && chord->enter.low > 0.0f)
+        return (Candidate){ANSWER_YES, chord->enter.low, chord->enter.high};
+    if (chord->met == ANSWER_YES && chord->enter.high < 0.0f && chord->leave.low > 0.0f)
+        return (Candidate){ANSWER_YES, chord->leave.low, chord->leave.high};
+    return (Candidate){ANSWER_UNKNOWN, max(chord->enter.low, (Real)(0.0f)), chord->leave.high};
+}
+
+// Whether a wall stands between the ray's start and its end, within [least, most].
+static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
+{
+    if (chord->met == ANSWER_NO || chord->leave.high < 0.0f || chord->enter.low > most)
+        return ANSWER_NO;
+    if (chord->met == ANSWER_UNKNOWN)
+        return ANSWER_UNKNOWN;
+    if (chord->enter.high < 0.0f && chord->leave.low > most)
+        return ANSWER_NO;
+    const bool enters = chord->enter.low > 0.0f && chord->enter.high < least;
+    const bool leaves =
+        chord->enter.high < 0.0f && chord->leave.low > 0.0f && chord->leave.high < least;
+    return enters || leaves ? ANSWER_YES : ANSWER_UNKNOWN;
+}
+
+// The sphere that the ray starts on is met again from inside, where its chord is longer than what
+// sphere_chord asks for.
+static inline Candidate own_sphere_candidate(const ThickRay *ray, const PlainSphere *sphere)
+{
+    const Real3 f = difference(sphere->center, ray->origin);
+    const Real middle = dot_product(f, ray->along), r = sphere->radius;
+    const Real doubt = 1.1f * (ray->around + ray->spread * (r + ray->around)) +
+                       distance_doubt(ray->u, r, sphere) + 16.0f * ray->u * fabs(middle);
+    const Real least = ray->u * max(64.0f * r, 2.0f * sum_of_sizes(ray->origin));
+    if (middle < -doubt)
+        return candidate_none();
+    const bool is_sure = middle - doubt > 1.1f * least;
+    return (Candidate){is_sure ? ANSWER_YES : ANSWER_UNKNOWN,
+                       is_sure ? 2.0f * (middle - doubt) : 0.0f, 2.0f * (middle + doubt)};
+}
+
+#endif

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Where a thick ray is surely met, a fat surface: its point and normals with bounds on how far
+// those of the tracer and of real arithmetic lie from them; and the thick rays that it sends on.
+#ifndef CLRT_SURE_SURFACE_CL
+#define CLRT_SURE_SURFACE_CL
+#include "sure_search.cl"
+
+// Unit vectors, and the chords by which they may differ.
+typedef struct {
+    FatPoint end;
+    Real3 normal, face, toward_viewer; // as a Surface's
+    Real normal_doubt, face_doubt, viewer_doubt;
+    Count id, material;
+    bool is_sphere;
+} FatSurface;
+
+// What moves a vector of this length by `doubt` turns it by less than this.
+static inline Real turn_of(Real doubt, Real length)
+{
+    return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
+}
+
+// Interpolated by the weights, which sliding along the triangle changes by the slide over the
+// heights of its corners.
+static inline void interpolate_normal(FatSurface *surface, const Corners *normals, Real3 weights,
+                                      const Corners *corners, Real u)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real area = length_of(cross_product(ab, ac));
+    const Real of_b = length_of(ac) / area * length_of(difference(normals->b, normals->a));
+    const Real of_c = length_of(ab) / area * length_of(difference(normals->c, normals->a));
+    const Real longest =
+        max(max(length_of(normals->a), length_of(normals->b)), length_of(normals->c));
+    const Real doubt =
+        1.01f * surface->end.slide * (of_b + of_c) + (6.1f * u + 12.0f * OWN_ROUNDOFF) * longest;
+    const Real3 sum = weighted(weights, normals);
+    surface->normal = unit_vector(sum);
+    surface->normal_doubt = turn_of(doubt, length_of(sum)) + 5.0f * (u + OWN_ROUNDOFF);
+}
+
+static inline void face_viewer(FatSurface *surface, bool front)
+{
+    if (front)
+        return;
+    surface->normal = negative3(surface->normal);
+    surface->face = negative3(surface->face);
+}
+
+static inline FatPoint fat_point(const ThickRay *ray, const Corners *corners, const Sight *sight,
+                                 Real3 weights)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real3 normal = cross_product(ab, ac);
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Corners sizes = {magnitudes(corners->a), magnitudes(corners->b), magnitudes(corners->c)};
+    const Real size = length_of(weighted(weights, &sizes));
+    const Real area = length_of(normal);
+    FatPoint end;
+    end.point = weighted(weights, corners);
+    end.face = scaled3(1.0f / area, normal);
+    end.slide =
+        sight->broad ? 1.25f * sight->blur * area / fabs(sight->edges.determinant) : INFINITY;
+    end.lift = (11.1f * ray->u + 32.0f * OWN_ROUNDOFF) * size +
+               16.0f * OWN_ROUNDOFF * edges / area * end.slide;
+    return end;
+}
+
+static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *frame,
+                                      const ThickRay *ray, const Hit *hit)
+{
+    const Corners corners = fetch_corners(scene, hit->index);
+    const Look look = fetch_look(scene, hit, frame->sphere_count);
+    const Sight sight = sight_of(ray, &corners);
+    const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Real u = ray->u + OWN_ROUNDOFF, r = 1.0f / sight.edges.determinant;
+    const Real3 weights = {sight.edges.u * r, sight.edges.v * r, sight.edges.w * r};
+    FatSurface surface = {
+        .end = fat_point(ray, &corners, &sight, weights), .id = hit->id, .material = look.material};
+    surface.normal = surface.face = surface.end.face;
+    surface.face_doubt = turn_of(8.0f * u * edges, length_of(cross_product(ab, ac))) + 8.0f * u;
+    surface.normal_doubt = surface.face_doubt;
+    if (look.normals != NOTHING) {
+        const Corners normals = fetch_normals(scene, look.normals);
+        interpolate_normal(&surface, &normals, weights, &corners, ray->u);
+    }
+    face_viewer(&surface, sight.edges.determinant > 0.0f);
+    return surface;
+}
+
+// The point is pulled onto the sphere, as the tracer does.
+static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
+                                    const Nearest *nearest)
+{
+    const PlainSphere sphere = plain_sphere(&scene->spheres[nearest->index]);
+    const Chord chord = chord_of(ray, &sphere);
+    const Real depth = 0.5f * (nearest->low + nearest->high);
+    const Real3 met = sum3(ray->origin, scaled3(depth, ray->along));
+    FatSurface surface = {.id = nearest->id,
+                          .material = fetch_sphere_material(scene, nearest->index),
+                          .is_sphere = true};
+    surface.normal = surface.face = unit_vector(difference(met, sphere.center));
+    surface.end.point = sum3(sphere.center, scaled3(sphere.radius, surface.normal));
+    surface.end.face = surface.normal;
+    surface.end.lift = 2.0f * (nearest->high - nearest->low) + 2.0f * chord.shift +
+                       2.0f * ray->spread * fabs(depth) +
+                       8.0f * (ray->u + OWN_ROUNDOFF) * sum_of_sizes(surface.end.point);
+    surface.normal_doubt =
+        turn_of(surface.end.lift, sphere.radius) + 8.0f * (ray->u + OWN_ROUNDOFF);
+    return surface;
+}
+
+static inline FatSurface fat_surface(const SceneView *scene, const FrameData *frame,
+                                     const ThickRay *ray, const Nearest *nearest)
+{
+    const Hit hit = {nearest->low, nearest->id, nearest->index};
+    FatSurface surface = nearest->id < frame->sphere_count ? fat_sphere(scene, ray, nearest)
+                                                           : fat_triangle(scene, frame, ray, &hit);
+    surface.toward_viewer = negative3(ray->along);
+    surface.viewer_doubt = ray->spread + 4.0f * (ray->u + OWN_ROUNDOFF);
+    return surface;
+}
+
+static inline ThickRay thick_shadow_ray(const FatSurface *surface, Real3 light, Real u)
+{
+    const Real3 apart = difference(surface->end.point, light);
+    const Real length = length_of(apart);
+    const Real doubt = radius_of(&surface->end) + (u + 8.0f * OWN_ROUNDOFF) * length;
+    ThickRay ray = {.origin = light,
+                    .spread = spread_of(turn_of(doubt, length)),
+                    .length = length,
+                    .u = u,
+                    .own = surface->id,
+                    .kind = RAY_SHADOW,
+                    .end = surface->end};
+    look_along(&ray, unit_vector(apart));
+    return ray;
+}
+
+// Whether the shaded side is turned to the light at the ray's origin.
+static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_surface)
+{
+    const Real cosine = -dot_product(surface->normal, to_surface->along);
+    const Real doubt =
+        surface->normal_doubt + to_surface->spread + 8.0f * (to_surface->u + OWN_ROUNDOFF);
+    if (!(fabs(cosine) > doubt))
+        return ANSWER_UNKNOWN;
+    return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
+}
+
+// Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near
+// it either is taken, with the difference in doubt.  A sphere's face is its normal.
+static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
+{
+    const Real u = before->u + OWN_ROUNDOFF;
+    const Real cosine = dot_product(surface->normal, surface->toward_viewer);
+    Real3 direction = difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
+    Real doubt = 2.1f * surface->normal_doubt + 1.01f * surface->viewer_doubt + 12.0f * u;
+    const Real height = dot_product(direction, surface->face);
+    const Real height_doubt = doubt + surface->face_doubt + 4.0f * u;
+    if (!surface->is_sphere && height < -height_doubt) {
+        direction = difference(direction, scaled3(2.0f * height, surface->face));
+        doubt = 1.01f * doubt + 4.2f * surface->face_doubt + 12.0f * u;
+    } else if (!surface->is_sphere && height <= height_doubt) {
+        doubt += 4.0f * height_doubt + 12.0f * u;
+    }
+    ThickRay ray = {.origin = surface->end.point,
+                    .around = radius_of(&surface->end),
+                    .spread = spread_of(1.01f * doubt),
+                    .length = INFINITY,
+                    .u = before->u,
+                    .own = surface->id,
+                    .kind = RAY_REFLECTED,
+                    .end = surface->end};
+    look_along(&ray, unit_vector(direction));
+    return ray;
+}
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// A thick ray against a triangle: it meets it for sure, not at all, or who knows; and how deep.
+#ifndef CLRT_SURE_TRIANGLE_CL
+#define CLRT_SURE_TRIANGLE_CL
+#include "thick.cl"
+
+typedef enum { ANSWER_NO, ANSWER_UNKNOWN, ANSWER_YES } Answer;
+
+// If it is met, then at a depth of [low, high] along the ray, as the tracer rounds it too.
+typedef struct {
+    Answer met;
+    Real low, high;
+} Candidate;
+
+// The triangle in the ray's frame.
+typedef struct {
+    Corners corners;
+    Edges edges; // across; the determinant is twice the area, above zero where the front is seen
+    Real blur;   // of all corners
+    Real size;   // the distance of the farthest of them, or more
+    Real sides;  // the two edges that leave the first corner, added
+    bool clear;  // the axis passes all edges by more than the blur
+    bool inside; // and goes through
+    bool faces;  // which side is seen is certain
+    bool broad;  // the triangle is so broad that its plane can be computed with
+} Sight;
+
+static inline bool corners_pass(const Corners *c, Real blur)
+{
+    return min(min(c->a.x, c->b.x), c->c.x) > blur || max(max(c->a.x, c->b.x), c->c.x) < -blur ||
+           min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
+}
+
+// Whether the axis passes the edge from p to q, whose edge function is given.
+static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
+{
+    const Real x = q.x - p.x, y = q.y - p.y;
+    const Real length = x * x + y * y, place = -(p.x * x + p.y * y);
+    if (place <= 0.0f)
+        return p.x * p.x + p.y * p.y > blur * blur;
+    if (place >= length)
+        return q.x * q.x + q.y * q.y > blur * blur;
+    return edge * edge > blur * blur * length;
+}
+
+static inline Real length_across(Real3 p, Real3 q)
+{
+    const Real x = q.x - p.x, y = q.y - p.y;
+    return sqrt(x * x + y * y);
+}
+
+static inline Sight sight_of(const ThickRay *ray, const Corners *corners)
+{
+    Sight sight;
+    const Corners seen = {seen_by(ray, corners->a), seen_by(ray, corners->b),
+                          seen_by(ray, corners->c)};
+    const Real blur = max(max(blur_at(ray, seen.a), blur_at(ray, seen.b)), blur_at(ray, seen.c));
+    sight.corners = seen;
+    sight.blur = blur;
+    sight.size = max(max(sum_of_sizes(seen.a), sum_of_sizes(seen.b)), sum_of_sizes(seen.c)) +
+                 2.0f * ray->around;
+    sight.inside = sight.faces = sight.broad = false;
+    sight.clear = corners_pass(&seen, blur);
+    if (sight.clear)
+        return sight;
+    sight.edges = edges_of(&seen);
+    sight.sides = length_across(seen.a, seen.b) + length_across(seen.a, seen.c);
+    sight.clear = edge_is_clear(seen.b, seen.c, sight.edges.u, blur) &&
+                  edge_is_clear(seen.c, seen.a, sight.edges.v, blur) &&
+                  edge_is_clear(seen.a, seen.b, sight.edges.w, blur);
+    sight.inside = sight.clear && edges_contain(&sight.edges);
+    const Real area = fabs(sight.edges.determinant);
+    sight.broad = area > 8.0f * blur * sight.sides;
+    sight.faces = sight.inside || sight.broad;
+    return sight;
+}
+
+// How much deeper the plane is, at most, for each step across.
+static inline Real slope_of(const Sight *sight)
+{
+    const Real3 ab = difference(sight->corners.b, sight->corners.a);
+    const Real3 ac = difference(sight->corners.c, sight->corners.a);
+    const Real x = difference_of_products(ab.z, ac.y, ac.z, ab.y);
+    const Real y = difference_of_products(ac.z, ab.x, ab.z, ac.x);
+    return sqrt(x * x + y * y) / fabs(sight->edges.determinant);
+}
+
+// A triangle is met where it is within the blur of the axis: no deeper than its corners, and no
+// farther from where the axis meets its plane than the plane's slope allows.  A broad one is more
+// than 8 blurs high, so that weights stay within [-1/4, 5/4] and own rounding tilts the plane by
+// less than half of 1 + slope: 4 (1 + slope) blurs hold all that.
+static inline Candidate depth_of(const Sight *sight, Real u)
+{
+    const Corners *c = &sight->corners;
+    const Real rounding = 26.0f * (u + OWN_ROUNDOFF) * sight->size + 4.0f * sight->blur;
+    Candidate depth = {ANSWER_UNKNOWN, min(min(c->a.z, c->b.z), c->c.z) - rounding,
+                       max(max(c->a.z, c->b.z), c->c.z) + rounding};
+    if (sight->broad) {
+        const Real middle = triangle_depth(c, &sight->edges);
+        const Real doubt = rounding + 4.0f * sight->blur * slope_of(sight);
+        depth.low = max(depth.low, middle - doubt);
+        depth.high = min(depth.high, middle + doubt);
+    }
+    return depth;
+}
+
+// At least what surface_ray_distance takes for the error of a distance.
+static inline Real margin_of(const Sight *sight, Real u)
+{
+    return 64.0f * (u + OWN_ROUNDOFF) * sight->size;
+}
+
+// On which side of a triangle's plane a point lies: 1 before its front, -1 behind, 0 unknown; as
+// real arithmetic has it and as height_over does, which may also find zero where this is 0.  Its
+// error is below 12u n.|apart| + 12u E |apart|, its own threshold below the bound that is doubled.
+static inline int side_of(const Corners *corners, const FatPoint *fat, Real u)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real3 normal = cross_product(ab, ac), apart = difference(fat->point, corners->a);
+    const Real3 size = magnitudes(normal);
+    const Real radius = radius_of(fat);
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Real rounding =
+        16.0f * (dot_product(size, magnitudes(fat->point)) + dot_product(size, magnitudes(apart)) +
+                 edges * largest_component(apart) + 2.0f * radius * (sum_of_sizes(normal) + edges));
+    const Real length = length_of(normal);
+    const Real tilt = length_of(cross_product(normal, fat->face)) + 0x1p-48f * length;
+    const Real doubt = 1.01f * (fat->slide * tilt + fat->lift * length);
+    const Real height = dot_product(normal, apart);
+    if (!(fabs(height) > doubt + 2.0f * (u + OWN_ROUNDOFF) * rounding))
+        return 0;
+    return height > 0.0f ? 1 : -1;
+}
+
+static inline Candidate candidate_none(void)
+{
+    return (Candidate){ANSWER_NO, INFINITY, INFINITY};
+}
+
+static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight)
+{
+    Candidate candidate = depth_of(sight, ray->u);
+    if (candidate.high < 0.0f)
+        return candidate_none();
+    candidate.met = sight->inside && candidate.low > 0.0f ? ANSWER_YES : ANSWER_UNKNOWN;
+    return candidate;
+}
+
+static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *sight, int side)
+{
+    Candidate candidate = depth_of(sight, ray->u);
+    const Real margin = margin_of(sight, ray->u);
+    const bool front = sight->edges.determinant > 0.0f;
+    const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
+    const bool behind = front ? side < 0 : side > 0;
+    if (candidate.high < -margin || (sight->faces && behind))
+        return candidate_none();
+    const bool clear = front || candidate.low > margin;
+    candidate.met = sight->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    candidate.low = max(candidate.low, (Real)(0.0f));
+    return candidate;
+}
+
+// The light lies at the ray's origin; the point at its end is on `side`.  What has both on one side
+// is not between them.
+static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight, int side,
+                                         int light_side)
+{
+    Candidate candidate = depth_of(sight, ray->u);
+    const Real margin = margin_of(sight, ray->u);
+    const bool front = sight->edges.determinant > 0.0f;
+    const bool same = side != 0 && side == light_side;
+    if (candidate.high < 0.0f || (sight->faces && same))
+        return candidate_none();
+    const Real end = ray->length - radius_of(&ray->end) - 2.0f * ray->u * ray->length;
+    const bool between = side != 0 && side == -light_side && candidate.low > margin;
+    const bool clear = !front || candidate.high + margin < end;
+    candidate.met = sight->inside && between && clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    return candidate;
+}
+
+// As triangle_is_open, where the side that is seen is certain.
+static inline bool is_surely_open(const ThickRay *ray, const Sight *sight, bool two_sided)
+{
+    const bool front = sight->edges.determinant > 0.0f;
+    return !two_sided && sight->faces && front == (ray->kind == RAY_SHADOW);
+}
+
+static inline Candidate triangle_candidate(const ThickRay *ray, global const TriangleData *triangle)
+{
+    const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
+    if (triangle->id == ray->own)
+        return candidate_none();
+    const Sight sight = sight_of(ray, &corners);
+    const bool two_sided = (triangle->material & TRIANGLE_TWO_SIDED) != 0;
+    if ((sight.clear && !sight.inside) || is_surely_open(ray, &sight, two_sided))
+        return candidate_none();
+    if (ray->kind == RAY_CAMERA)
+        return camera_candidate(ray, &sight);
+    const int side = side_of(&corners, &ray->end, ray->u);
+    if (ray->kind == RAY_REFLECTED)
+        return reflected_candidate(ray, &sight, side);
+    const FatPoint light = {ray->origin, ray->along, 0.0f, 0.0f};
+    return shadow_candidate(ray, &sight, side, side_of(&corners, &light, 0.0f));
+}
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A scene -> what is certain in its picture, by the stages that the program has.
+#pragma once
+
+#include "render/certifier.h"
+
+// A device that stays open for a group of tests.
+typedef struct {
+    Device device;
+    Cache cache;
+} Office;
+
+bool office_open(Office *office, Error *error);
+void office_close(Office *office);
+
+typedef struct {
+    uint32_t view;          // from 1
+    uint32_t width, height; // 0: the scene's
+    uint32_t samples;       // per pixel and axis
+} CertifiedView;
+
+typedef struct {
+    FlatScene flat; // of pairs
+    CameraData camera;
+    RenderSettings settings;
+    Framebuffer plain, picture; // as without certainty, and with what was repaired
+    CertaintyMap map;
+} Certified;
+
+bool certified_make(Certified *certified, const Office *office, const Scene *scene,
+                    const CertifiedView *view, Error *error);
+void certified_free(Certified *certified);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Scenes at the edges of what float arithmetic bears: slivers, places far away, spheres as large as
+// planets, contacts, mirrors that face each other.
+#pragma once
+
+#include "scene/scene.h"
+
+typedef struct {
+    const char *name;
+    Scene (*make)(void);
+} ExtremeScene;
+
+extern const ExtremeScene extreme_scenes[];
+extern const size_t extreme_scene_count;

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: MIT
+// A recursive-free tracer of decisions, compiled for two types (real_64.c, real_113.c).  A sign
+// counts as settled where it is clear of zero by TOLERANCE times the sum of the terms' sizes: a
+// thousand roundings.  From level to level errors may grow by GROWTH, which triangles and normals
+// of ordinary shapes stay far below; at the first hit nothing has grown yet.
+#include "certainty/real.h"
+
+#include <math.h>
+
+#define GROWTH 4096
+
+typedef struct {
+    NUMBER x, y, z;
+} Vector;
+
+typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
+
+// Where a ray stops.
+typedef struct {
+    NUMBER t, low; // INFINITY for none; the true one is low or more, and as little above t
+    uint32_t id, place;
+    NUMBER v, w; // weights of a triangle's second and third corner
+    bool front;
+} Stop;
+
+typedef struct {
+    Stop stop;
+    NUMBER other; // low of all others that are met or may be
+} Nearest;
+
+typedef struct {
+    const RealView *view;
+    NUMBER tolerance;
+    Vector origin, direction;
+    uint32_t own;       // id
+    bool is_own_inside; // the ray runs on inside the sphere that it starts on
+} Path;
+
+static NUMBER size_of(NUMBER a)
+{
+    return a < 0 ? -a : a;
+}
+
+static Vector vector(NUMBER x, NUMBER y, NUMBER z)
+{
+    return (Vector){x, y, z};
+}
+
+static Vector of_floats(const float v[3])
+{
+    return vector(v[0], v[1], v[2]);
+}
+
+static Vector minus(Vector a, Vector b)
+{
+    return vector(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static Vector stepped(Vector a, NUMBER step, Vector b)
+{
+    return vector(a.x + step * b.x, a.y + step * b.y, a.z + step * b.z);
+}
+
+static NUMBER dot(Vector a, Vector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static Vector cross(Vector a, Vector b)
+{
+    return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+// Not below the length.
+static NUMBER extent(Vector a)
+{
+    return size_of(a.x) + size_of(a.y) + size_of(a.z);
+}
+
+static Vector unit(Vector a)
+{
+    return stepped(vector(0, 0, 0), 1 / ROOT(dot(a, a)), a);
+}
+
+// Whether all corners, seen along the ray, lie on one side of some line through it.
+static bool is_aside(const Path *path, const Vector corners[3])
+{
+    const Vector d = unit(path->direction);
+    Vector across[3];
+    for (int i = 0; i < 3; i++) {
+        const Vector apart = minus(corners[i], path->origin);
+        across[i] = stepped(apart, -dot(apart, d), d);
+    }
+    for (int i = 0; i < 3; i++) {
+        bool aside = true;
+        for (int j = 0; j < 3; j++) {
+            const NUMBER sizes =
+                extent(minus(corners[i], path->origin)) * extent(minus(corners[j], path->origin));
+            aside = aside && dot(across[i], across[j]) > path->tolerance * sizes;
+        }
+        if (aside)
+            return true;
+    }
+    return false;
+}
+
+static NUMBER smallest(NUMBER a, NUMBER b)
+{
+    return a < b ? a : b;
+}
+
+// Moeller and Trumbore's determinants, none divided before its sign is settled.
+static Outcome meet_triangle(const Path *path, const TriangleData *triangle, Stop *stop)
+{
+    const Vector corners[3] = {of_floats(triangle->a), of_floats(triangle->b),
+                               of_floats(triangle->c)};
+    const Vector first = minus(corners[1], corners[0]), second = minus(corners[2], corners[0]);
+    const Vector s = minus(path->origin, corners[0]), d = path->direction;
+    const Vector p = cross(d, second), q = cross(s, first);
+    NUMBER determinant = dot(first, p), v = dot(s, p), w = dot(d, q), t = dot(second, q);
+    const NUMBER error = path->tolerance * extent(d) * (extent(first) + extent(second)) *
+                         (extent(first) + extent(second) + extent(s));
+    const NUMBER t_error = path->tolerance * extent(first) * extent(second) * extent(s);
+    const bool front = determinant > 0;
+    if (!front) {
+        determinant = -determinant;
+        v = -v;
+        w = -w;
+        t = -t;
+    }
+    const NUMBER u = determinant - v - w;
+    const bool faces = determinant > error;
+    if (faces && (v < -error || w < -error || u < -error || t < -t_error))
+        return MISSES;
+    if (faces && !front && !(triangle->material & TRIANGLE_TWO_SIDED))
+        return MISSES;
+    const bool inside = smallest(smallest(u, v), w) > error && faces && t > t_error;
+    if (!inside && is_aside(path, corners))
+        return MISSES;
+    *stop = (Stop){.t = faces ? t / determinant : 0, .id = triangle->id, .front = front};
+    stop->low = faces && t > t_error ? (t - t_error) / (determinant + error) : 0;
+    stop->v = v / determinant;
+    stop->w = w / determinant;
+    return inside ? MEETS : UNCLEAR;
+}
+
+// Half of what the sphere cuts out of the line, from the height of its cap.
+static Outcome meet_sphere(const Path *path, const SphereData *sphere, Stop *stop)
+{
+    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
+                           (NUMBER)sphere->center[1] + sphere->center_low[1],
+                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    const NUMBER radius = (NUMBER)sphere->radius + sphere->radius_low;
+    const NUMBER length = ROOT(dot(path->direction, path->direction));
+    const Vector d = unit(path->direction), f = minus(center, path->origin);
+    const NUMBER middle = dot(f, d);
+    const Vector foot = stepped(f, -middle, d);
+    const NUMBER distance = ROOT(dot(foot, foot));
+    const NUMBER error = path->tolerance * (extent(f) + radius + extent(path->origin));
+    if (distance - radius > error || middle + radius < -error)
+        return MISSES;
+    if (radius - distance <= error) {
+        *stop = (Stop){0};
+        return UNCLEAR;
+    }
+    const NUMBER half = ROOT((radius - distance) * (radius + distance));
+    const NUMBER doubt = error * (1 + (radius + distance) / half);
+    const NUMBER enters = middle - half, leaves = middle + half;
+    if (leaves < -doubt)
+        return MISSES;
+    const bool outside = enters > doubt, within = enters < -doubt && leaves > doubt;
+    *stop = (Stop){.t = (enters > 0 ? enters : leaves) / length};
+    stop->low = outside ? (enters - doubt) / length : within ? (leaves - doubt) / length : 0;
+    return outside || within ? MEETS : UNCLEAR;
+}
+
+static Outcome meet_own_sphere(const Path *path, const SphereData *sphere, Stop *stop)
+{
+    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
+                           (NUMBER)sphere->center[1] + sphere->center_low[1],
+                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    const Vector f = minus(center, path->origin);
+    const NUMBER along = dot(f, path->direction);
+    const NUMBER error = path->tolerance * (extent(f) + extent(path->origin));
+    if (!path->is_own_inside || along < -error * extent(path->direction))
+        return MISSES;
+    *stop = (Stop){.t = 2 * along / dot(path->direction, path->direction)};
+    stop->low = stop->t - error;
+    return along > error * extent(path->direction) ? MEETS : UNCLEAR;
+}
+
+static void take_stop(Nearest *nearest, const Stop *stop, Outcome outcome)
+{
+    if (outcome == MEETS && stop->t < nearest->stop.t) {
+        nearest->other = smallest(nearest->other, nearest->stop.low);
+        nearest->stop = *stop;
+    } else if (outcome != MISSES) {
+        nearest->other = smallest(nearest->other, stop->low);
+    }
+}
+
+static bool nearest_is_settled(const Nearest *nearest)
+{
+    const Stop *stop = &nearest->stop;
+    if (stop->id == NOTHING)
+        return nearest->other == INFINITY;
+    return nearest->other > stop->t + (stop->t - stop->low);
+}
+
+// Beyond reach nothing is looked for.
+static Nearest meet_all(const Path *path, NUMBER reach)
+{
+    const FlatScene *flat = path->view->flat;
+    const Vector o = path->origin, d = path->direction;
+    Nearest nearest = {.stop = {.t = INFINITY, .low = INFINITY, .id = NOTHING}, .other = INFINITY};
+    Stop stop;
+    for (uint32_t i = 0; i < flat->sphere_count; i++) {
+        const Outcome outcome = i == path->own ? meet_own_sphere(path, &flat->spheres[i], &stop)
+                                               : meet_sphere(path, &flat->spheres[i], &stop);
+        stop.id = stop.place = i;
+        take_stop(&nearest, &stop, outcome);
+    }
+    RealWalk walk;
+    real_walk_begin(&walk, path->view->tree, (double[3]){(double)o.x, (double)o.y, (double)o.z},
+                    (double[3]){(double)d.x, (double)d.y, (double)d.z});
+    const RealNode *leaf;
+    while ((leaf = real_walk_next(&walk, (double)smallest(reach, nearest.stop.t) * (1 + 1e-9))))
+        for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
+            const uint32_t place = path->view->tree->order[i];
+            if (flat->triangles[place].id == path->own)
+                continue;
+            const Outcome outcome = meet_triangle(path, &flat->triangles[place], &stop);
+            stop.place = place;
+            take_stop(&nearest, &stop, outcome);
+        }
+    return nearest;
+}
+
+// Where a path has come to; normals have any length.
+typedef struct {
+    Vector point, normal, face;
+    uint32_t id, material;
+    bool is_sphere, is_inside;
+} Surface;
+
+static Surface sphere_surface(const Path *path, const Stop *stop)
+{
+    const SphereData *sphere = &path->view->flat->spheres[stop->place];
+    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
+                           (NUMBER)sphere->center[1] + sphere->center_low[1],
+                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    Surface surface = {.point = stepped(path->origin, stop->t, path->direction),
+                       .id = stop->id,
+                       .material = sphere->material,
+                       .is_sphere = true};
+    surface.normal = surface.face = minus(surface.point, center);
+    surface.is_inside = dot(surface.normal, path->direction) > 0;
+    return surface;
+}
+
+static Vector weighted(const Vector corners[3], const Stop *stop)
+{
+    const Vector first = minus(corners[1], corners[0]), second = minus(corners[2], corners[0]);
+    return stepped(stepped(corners[0], stop->v, first), stop->w, second);
+}
+
+static Surface triangle_surface(const Path *path, const Stop *stop)
+{
+    const FlatScene *flat = path->view->flat;
+    const TriangleData *triangle = &flat->triangles[stop->place];
+    const Vector corners[3] = {of_floats(triangle->a), of_floats(triangle->b),
+                               of_floats(triangle->c)};
+    Surface surface = {.point = weighted(corners, stop),
+                       .id = stop->id,
+                       .material = triangle->material & ~TRIANGLE_TWO_SIDED};
+    surface.normal = surface.face =
+        cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    if (triangle->normals != NOTHING) {
+        const CornerNormals *stored = &flat->normals[triangle->normals];
+        const Vector normals[3] = {of_floats(stored->normals[0]), of_floats(stored->normals[1]),
+                                   of_floats(stored->normals[2])};
+        surface.normal = weighted(normals, stop);
+    }
+    if (!stop->front) {
+        surface.normal = minus(vector(0, 0, 0), surface.normal);
+        surface.face = minus(vector(0, 0, 0), surface.face);
+    }
+    return surface;
+}
+
+static void note(RealDecisions *decisions, uint32_t word)
+{
+    const uint32_t mixed = (decisions->signature ^ word) * 0x9e3779b1u;
+    decisions->signature = mixed ^ mixed >> 15;
+}
+
+// 0 where the surface is turned away from the light, 1 where it is lit, 2 in shadow.
+static uint32_t see_light(const Path *path, const Surface *surface, const PointLight *light,
+                          bool *settled)
+{
+    const Vector apart = minus(of_floats(light->position), surface->point);
+    const NUMBER cosine = dot(surface->normal, apart);
+    const NUMBER error = path->tolerance * extent(surface->normal) *
+                         (extent(surface->point) + extent(apart)) * GROWTH;
+    *settled = *settled && size_of(cosine) > error;
+    if (cosine <= 0)
+        return 0;
+    const Path shadow = {.view = path->view,
+                         .tolerance = path->tolerance,
+                         .origin = surface->point,
+                         .direction = apart,
+                         .own = surface->id};
+    const Nearest nearest = meet_all(&shadow, 1);
+    const NUMBER high = nearest.stop.t + (nearest.stop.t - nearest.stop.low);
+    if (nearest.stop.id != NOTHING && high < 1)
+        return 2;
+    *settled = *settled && smallest(nearest.other, nearest.stop.low) > 1;
+    return 1;
+}
+
+static bool see_lights(const Path *path, const Surface *surface, RealDecisions *decisions)
+{
+    const FlatScene *flat = path->view->flat;
+    bool settled = true;
+    decisions->lit = 0;
+    if (flat->materials[surface->material].shader == SHADER_SILHOUETTE)
+        return true;
+    for (uint32_t i = 0; i < flat->light_count; i++) {
+        const uint32_t seen = see_light(path, surface, &flat->lights[i], &settled);
+        note(decisions, seen);
+        if (i < 32 && seen == 1)
+            decisions->lit |= 1u << i;
+    }
+    return settled;
+}
+
+// Lengths do not matter and stay near 1.
+static Path reflected(const Path *path, const Surface *surface)
+{
+    const Vector v = minus(vector(0, 0, 0), unit(path->direction)), n = unit(surface->normal);
+    const Vector f = unit(surface->face);
+    Vector direction = stepped(minus(vector(0, 0, 0), v), 2 * dot(n, v), n);
+    const NUMBER height = dot(direction, f);
+    if (!surface->is_sphere && height < 0)
+        direction = stepped(direction, -2 * height, f);
+    return (Path){.view = path->view,
+                  .tolerance = path->tolerance * GROWTH,
+                  .origin = surface->point,
+                  .direction = direction,
+                  .own = surface->id,
+                  .is_own_inside = surface->is_inside};
+}
+
+static Path camera_path(const RealView *view, uint32_t column, uint32_t row)
+{
+    const NUMBER x = 2 * (NUMBER)column + 1 - view->width;
+    const NUMBER y = 2 * (NUMBER)row + 1 - view->height;
+    const Vector forward = of_floats(view->camera->forward);
+    const Vector right = of_floats(view->camera->right_step);
+    const Vector down = of_floats(view->camera->down_step);
+    return (Path){.view = view,
+                  .tolerance = TOLERANCE,
+                  .origin = of_floats(view->camera->eye),
+                  .direction = stepped(stepped(forward, y, down), x, right),
+                  .own = NOTHING};
+}
+
+RealDecisions DECIDE(const RealView *view, uint32_t column, uint32_t row)
+{
+    RealDecisions decisions = {.settled = true, .first_settled = true, .first_id = NOTHING};
+    Path path = camera_path(view, column, row);
+    for (uint32_t level = 0; level < view->max_level; level++) {
+        RealDecisions here = decisions;
+        const Nearest nearest = meet_all(&path, INFINITY);
+        bool settled = nearest_is_settled(&nearest);
+        note(&here, nearest.stop.id);
+        const bool met = nearest.stop.id != NOTHING;
+        Surface surface = {0};
+        if (met) {
+            surface = nearest.stop.id < view->flat->sphere_count
+                          ? sphere_surface(&path, &nearest.stop)
+                          : triangle_surface(&path, &nearest.stop);
+            settled = see_lights(&path, &surface, &here) && settled;
+        }
+        decisions.signature = here.signature;
+        decisions.settled = decisions.settled && settled;
+        if (level == 0) {
+            decisions.first_id = nearest.stop.id;
+            decisions.lit = here.lit;
+            decisions.first_settled = settled;
+        }
+        if (!met || !(view->flat->materials[surface.material].reflectivity > 0))
+            break;
+        path = reflected(&path, &surface);
+    }
+    return decisions;
+}

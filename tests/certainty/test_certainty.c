@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// What --aov certainty promises: a pixel that is certified or repaired has real arithmetic's
+// decisions; most pixels are certified; and the picture changes where pixels are repaired alone.
+// At tier 0 a share of the pixels is compared, at tier 1 all, more than ten million.
+#include "certainty/extreme_scenes.h"
+#include "certainty/real_draw.h"
+#include "extremes/support/check.h"
+#include "extremes/support/tier.h"
+#include "image/inline_scenes.h"
+#include "scene/scn.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static Office office;
+
+typedef struct {
+    uint64_t pixels, compared, wrong, poor; // poor: views with fewer certified than asked for
+} Sum;
+
+static uint64_t count_changed(const Certified *certified, Certainty certainty)
+{
+    uint64_t changed = 0;
+    const size_t count = (size_t)certified->map.width * certified->map.height;
+    for (size_t pixel = 0; pixel < count; pixel++)
+        changed += certified->map.marks[pixel].certainty == (uint32_t)certainty &&
+                   memcmp(certified->plain.pixels[pixel], certified->picture.pixels[pixel],
+                          sizeof certified->plain.pixels[pixel]) != 0;
+    return changed;
+}
+
+// floor: of 1000 pixels, how many must be certified.
+static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t view,
+                       uint32_t floor)
+{
+    Error error = {0};
+    Certified certified;
+    Comparison comparison;
+    const CertifiedView wanted = {.view = view, .samples = 1};
+    const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 16 : 8, 1);
+    require(certified_make(&certified, &office, scene, &wanted, &error) &&
+                real_compare(&comparison, &certified, step, &error),
+            &error);
+    const uint64_t *counts = certified.map.counts;
+    const uint64_t pixels = counts[0] + counts[1] + counts[2];
+    const uint64_t wrong = comparison.first + comparison.deeper + comparison.unsettled;
+    const uint64_t changed =
+        count_changed(&certified, CERTAINTY_CERTIFIED) + count_changed(&certified, CERTAINTY_OPEN);
+    print_message("%s view %u: %.2f %% certified, %.2f %% repaired, %.2f %% open; %llu compared, "
+                  "%llu in 113 bits, wrong first %llu, deeper %llu, unsettled %llu; %llu changed\n",
+                  name, view, 100 * (double)counts[CERTAINTY_CERTIFIED] / (double)pixels,
+                  100 * (double)counts[CERTAINTY_REPAIRED] / (double)pixels,
+                  100 * (double)counts[CERTAINTY_OPEN] / (double)pixels,
+                  (unsigned long long)comparison.compared, (unsigned long long)comparison.in_113,
+                  (unsigned long long)comparison.first, (unsigned long long)comparison.deeper,
+                  (unsigned long long)comparison.unsettled, (unsigned long long)changed);
+    sum->pixels += pixels;
+    sum->compared += comparison.compared;
+    sum->wrong += wrong + changed;
+    sum->poor += counts[CERTAINTY_CERTIFIED] * 1000 < floor * pixels;
+    certified_free(&certified);
+}
+
+static void check_views(Sum *sum, const Scene *scene, const char *name, uint32_t floor)
+{
+    const uint32_t most = (uint32_t)tier_size(1, 6);
+    for (uint32_t view = 1; view <= scene->viewpoints.count && view <= most; view++)
+        check_view(sum, scene, name, view, floor);
+}
+
+static void check_file(Sum *sum, const char *path, uint32_t floor)
+{
+    Error error = {0};
+    Scene scene = {0};
+    require(scn_load(&scene, path, &error), &error);
+    check_views(sum, &scene, strrchr(path, '/') + 1, floor);
+    scene_free(&scene);
+}
+
+static void judge(const Sum *sum)
+{
+    print_message("%llu of %llu pixels compared\n", (unsigned long long)sum->compared,
+                  (unsigned long long)sum->pixels);
+    assert_int_equal(sum->wrong, 0);
+    assert_int_equal(sum->poor, 0);
+}
+
+static void certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic(void **state)
+{
+    Sum sum = {0};
+    (void)state;
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", 990);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/matte.scn", 990);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", 990);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/reflections.scn", 980);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/simple.scn", 990);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 950);
+    judge(&sum);
+}
+
+static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **state)
+{
+    Sum sum = {0};
+    (void)state;
+    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
+        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        return;
+    }
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/creature.scn", 950);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/figure.scn", 850);
+    if (tier() > 0)
+        check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/coral.scn", 900);
+    judge(&sum);
+}
+
+static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(void **state)
+{
+    Sum sum = {0};
+    (void)state;
+    for (size_t i = 0; i < extreme_scene_count; i++) {
+        Scene scene = extreme_scenes[i].make();
+        check_views(&sum, &scene, extreme_scenes[i].name, 0);
+        scene_free(&scene);
+    }
+    judge(&sum);
+}
+
+static void certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic(void **state)
+{
+    InlineScenes inline_scenes;
+    Error error = {0};
+    Sum sum = {0};
+    (void)state;
+    require(inline_scenes_write(&inline_scenes, &error), &error);
+    for (int scene = 0; scene < INLINE_COUNT; scene++) {
+        char path[INLINE_PATH_SIZE];
+        inline_scenes_path(&inline_scenes, (InlineScene)scene, path);
+        check_file(&sum, path, 0);
+    }
+    inline_scenes_remove(&inline_scenes);
+    judge(&sum);
+}
+
+static int open_office(void **state)
+{
+    Error error = {0};
+    (void)state;
+    if (office_open(&office, &error))
+        return 0;
+    print_message("%s\n", error.text);
+    return -1;
+}
+
+static int close_office(void **state)
+{
+    (void)state;
+    office_close(&office);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic),
+        cmocka_unit_test(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic),
+        cmocka_unit_test(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic),
+        cmocka_unit_test(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic),
+    };
+    return cmocka_run_group_tests(tests, open_office, close_office);
+}
