@@ -18,20 +18,20 @@ static inline void note_decision(Decisions *decisions, uint word)
 }
 
 // Of a light and a point: it is turned away, sees the light, or does not.
-typedef enum { LIGHT_BEHIND, LIGHT_SEEN, LIGHT_HIDDEN, LIGHT_UNKNOWN } LightSight;
+typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightSight;
 
 static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
                                      const FatSurface *surface, const ThickRay *from_light)
 {
     const Answer faces = surely_faces(surface, from_light);
     if (faces == ANSWER_UNKNOWN || !is_usable(from_light))
-        return LIGHT_UNKNOWN;
+        return SIGHT_OPEN;
     if (faces == ANSWER_NO)
-        return LIGHT_BEHIND;
+        return SIGHT_BEHIND;
     const Answer blocked = surely_blocked(scene, frame, from_light);
     if (blocked == ANSWER_UNKNOWN)
-        return LIGHT_UNKNOWN;
-    return blocked == ANSWER_YES ? LIGHT_HIDDEN : LIGHT_SEEN;
+        return SIGHT_OPEN;
+    return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
 }
 
 // Fills lit for the first 32 lights.
@@ -43,10 +43,10 @@ static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
         const Real3 light = load3(scene->lights[index].position);
         const ThickRay ray = thick_shadow_ray(surface, light, u);
         const LightSight sight = surely_seen(scene, frame, surface, &ray);
-        if (sight == LIGHT_UNKNOWN)
+        if (sight == SIGHT_OPEN)
             return false;
         note_decision(decisions, sight);
-        if (index < 32 && sight == LIGHT_SEEN)
+        if (index < 32 && sight == SIGHT_CLEAR)
             lit |= 1u << index;
     }
     decisions->lit = lit;

@@ -36,6 +36,8 @@ TRIALS = {
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
+    "error": (PLAIN, PLAIN + ["--error", "1%"]),
+    "time": (PLAIN, PLAIN + ["--time", "0.2"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
     "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),
