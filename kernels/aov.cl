@@ -57,7 +57,7 @@ static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ra
         if (level == 0)
             path = path_to(scene, frame, &hit, &surface, met);
         const MaterialLanes material = fetch_material(scene, surface.material);
-        ray = ray_reflected(&surface, met && material.reflectivity != 0.0f);
+        ray = ray_reflected(scene, &surface, met && material.reflectivity != 0.0f);
     }
     return path;
 }

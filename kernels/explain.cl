@@ -165,7 +165,7 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
         if (any_lane(ends))
             return color;
         weight = weight * material.reflectivity;
-        ray = ray_reflected(&surface, met);
+        ray = ray_reflected(scene, &surface, met);
     }
     note(end, 3, weight);
     return sum3(color, scaled3(weight, load_private3(frame->background)));
