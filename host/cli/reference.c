@@ -38,6 +38,7 @@ static Options options_of(const Options *picture)
     Options options = *picture;
     options.kernel = (KernelWish){.choice.precision = PRECISION_FP64};
     options.samples = 1;
+    options.contrast = options.error_goal = options.time_goal = 0;
     options.group_width = options.group_height = 0;
     options.statistics = false;
     options.quiet = true;
