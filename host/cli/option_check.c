@@ -14,6 +14,8 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--tile is for files: give one with -o FILE");
     if (options->bad_geometry != BAD_GEOMETRY_DROP)
         return error_set(error, "--bad-geometry is for files: give one with -o FILE");
+    if (options->fits_level)
+        return error_set(error, "--max-level auto is for files: give one with -o FILE");
     if (options->contrast > 0)
         return error_set(error, "--aa-adaptive is for files: give one with -o FILE");
     if (options->reference)

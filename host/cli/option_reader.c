@@ -101,10 +101,13 @@ bool read_no_bvh(Options *options, const char *value, Error *error)
 bool read_max_level(Options *options, const char *value, Error *error)
 {
     const char *end = value + strlen(value);
+    options->fits_level = strcmp(value, "auto") == 0;
+    if (options->fits_level)
+        return true;
     if (integer_parse(value, end, &options->max_level) == end && options->max_level >= 0 &&
         options->max_level <= MAX_LEVEL_LIMIT)
         return true;
-    return error_set(error, "--max-level wants an integer between 0 and %d, not '%s'",
+    return error_set(error, "--max-level wants auto or an integer between 0 and %d, not '%s'",
                      MAX_LEVEL_LIMIT, value);
 }
 

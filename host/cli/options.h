@@ -51,6 +51,7 @@ typedef struct {
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's
     int64_t max_level;       // negative: the scene's
+    bool fits_level;         // max_level is the least whose error no file shows
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;

@@ -179,16 +179,16 @@ static json_t *tree_json(const Report *report)
 static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
-                     integer(report->options->view), "width", integer(settings->width), "height",
-                     integer(settings->height), "samples", integer(settings->samples), "max_level",
-                     integer(settings->max_level), "tile", integer(settings->tile_width),
-                     integer(settings->tile_height), "work_group", integer(settings->group_width),
-                     integer(settings->group_height), "specialized", report->specialized, "kernel",
-                     kernel_family_name(report->choice->family), "nodes",
-                     kernel_nodes_name(report->choice->nodes), "lanes",
-                     integer(report->choice->lanes), "precision",
-                     kernel_precision_name(report->choice->precision));
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
+        integer(report->options->view), "width", integer(settings->width), "height",
+        integer(settings->height), "samples", integer(settings->samples), "max_level",
+        integer(settings->max_level), "truncation_bound", report->truncation, "tile",
+        integer(settings->tile_width), integer(settings->tile_height), "work_group",
+        integer(settings->group_width), integer(settings->group_height), "specialized",
+        report->specialized, "kernel", kernel_family_name(report->choice->family), "nodes",
+        kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
+        "precision", kernel_precision_name(report->choice->precision));
 }
 
 static json_t *samples_json(const Report *report)

@@ -29,7 +29,8 @@ typedef struct {
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at every depth
     size_t upload_size;
-    uint64_t samples; // of all pixels together
+    double truncation; // bound of the error that max_level makes
+    uint64_t samples;  // of all pixels together
     bool specialized;
     bool complete;
     uint64_t tallies[TALLY_KINDS];

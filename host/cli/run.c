@@ -5,8 +5,10 @@
 #include "base/clock.h"
 #include "cli/check.h"
 #include "cli/threads.h"
+#include "image/image_file.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
+#include "scene/truncation.h"
 
 #include <stdlib.h>
 
@@ -24,6 +26,13 @@ double run_lap(double *moment)
     return *moment - before;
 }
 
+static uint32_t max_level_of(const Options *options, const Scene *scene)
+{
+    if (options->fits_level)
+        return truncation_level(scene, image_format_half_step(options->format, options->encoding));
+    return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;
+}
+
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
@@ -31,7 +40,7 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
         .samples = options->samples,
-        .max_level = options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level,
+        .max_level = max_level_of(options, scene),
         .tile_width = options->tile_width,
         .tile_height = options->tile_height,
         .group_width = options->group_width,
@@ -58,6 +67,7 @@ bool run_load_scene(Run *run, Error *error)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
+    run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
     return ok;
 }
 

@@ -72,6 +72,12 @@ const char *image_format_names(void)
 #endif
 }
 
+double image_format_half_step(const char *format, Encoding encoding)
+{
+    const double steepest = encoding == ENCODE_SRGB ? 12.92 : 1; // of the curve, at black
+    return find_format(format)->is_float ? 0x1p-25 : 1 / (510 * steepest);
+}
+
 void image_prepare(const char *format)
 {
     if (find_format(format)->module != NULL)

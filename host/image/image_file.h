@@ -36,6 +36,10 @@ bool image_format_takes_layers(const char *name);
 // All format names this build writes, for messages.
 const char *image_format_names(void);
 
+// Half of the smallest step between the values from 0 to 1 that the format holds: what no file
+// shows.
+double image_format_half_step(const char *format, Encoding encoding);
+
 // Starts loading what writing the format needs, in another process; returns at once.  For main
 // alone, while no other thread runs.
 void image_prepare(const char *format);

@@ -116,6 +116,17 @@ check "a contrast is a part of one" refuses 2 \
   "--aa-adaptive wants a number above 0 and up to 1, not '2'" --aa-adaptive=2 "$scene" -o a.pfm
 check "--max-level has an effect" pixels b.pfm --max-level 1
 check "... on the picture" differ plain.pfm b.pfm
+check "--max-level auto finds the least that shows in no file of bytes" \
+  run 0 "$scene" -s 48x32 -o a.ppm --format png --max-level auto --stats=a.json
+check "... says the JSON" json a.json \
+  "d['settings']['max_level'] == 5 and 0.25 ** 5 == d['settings']['truncation_bound'] < 1 / 510"
+check "--max-level auto for floats" pixels a.pfm --max-level auto --stats=a.json
+check "... takes more" json a.json \
+  "d['settings']['max_level'] == 13 and 0.25 ** 13 == d['settings']['truncation_bound']"
+check "... which more do not change" pixels b.pfm --max-level 40
+check "... in the picture" cmp a.pfm b.pfm
+check "a level is a number or auto" refuses 2 \
+  "--max-level wants auto or an integer between 0 and 1000, not 'all'" --max-level all "$scene"
 for same in "--no-bvh" "--bvh midpoint" "--bvh sah" "-j 1" "-j 2" "--tile 16x8" "--work-group 4x2" \
   "--specialize always" "--specialize never"; do
   # shellcheck disable=SC2086
