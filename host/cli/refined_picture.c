@@ -22,11 +22,11 @@ bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserv
                           Error *error)
 {
     Adaptive adaptive;
-    const Refinement refinement = {(float)run->options->contrast, true};
+    const float contrast = (float)run->options->contrast;
     Crew *crew = crew_open(threads_allowed(run->options->threads));
     const AdaptiveSetup setup = {&run->renderer, &run->flat, camera, crew};
     bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
-              adaptive_refine(&adaptive, &refinement, observer, error);
+              adaptive_refine(&adaptive, contrast, observer, error);
     if (ok) {
         adaptive_store(&adaptive, &run->framebuffer);
         run->report.samples = adaptive.samples;

@@ -17,7 +17,7 @@
 typedef struct {
     const RefineTree *tree;
     const Footprints *footprints;
-    const Refinement *refinement;
+    float threshold;
     uint32_t first, end; // of groups
     uint16_t *marks;     // a bit for each cell of a group, or for a pixel
 } Marking;
@@ -33,14 +33,6 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
-static bool pixel_is_cut(const Marking *marking, uint32_t x, uint32_t y)
-{
-    bool is_edge;
-    const float contrast = contrast_of_pixel(marking->tree, x, y, &is_edge);
-    return contrast > marking->refinement->threshold ||
-           (is_edge && marking->refinement->cuts_outlines);
-}
-
 static void mark_rows(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -49,7 +41,8 @@ static void mark_rows(void *context, uint32_t task, uint32_t worker)
     for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
         for (uint32_t x = 0; x < tree->width; x++) {
             const size_t pixel = (size_t)y * tree->width + x;
-            marking->marks[pixel] = tree->pixel_groups[pixel] == 0 && pixel_is_cut(marking, x, y);
+            marking->marks[pixel] = tree->pixel_groups[pixel] == 0 &&
+                                    contrast_of_pixel(tree, x, y) > marking->threshold;
         }
 }
 
@@ -73,7 +66,7 @@ static unsigned footprint_marks(const Marking *marking, const CellGroup *group)
 
 static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
 {
-    const float threshold = marking->refinement->threshold;
+    const float threshold = marking->threshold;
     float contrast[GROUP_CELLS];
     if (group->level == REFINE_LEVELS)
         return 0;
@@ -115,19 +108,16 @@ static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
 }
 
 // What a group's outer cells saw may reach into the cells around it.
-static bool cut_around(RefineTree *tree, const Refinement *refinement, uint32_t number,
-                       Error *error)
+static bool cut_around(RefineTree *tree, float threshold, uint32_t number, Error *error)
 {
     for (CellSide side = 0; side < SIDE_COUNT; side++) {
         CellName name;
-        bool is_edge;
         const CellGroup *group = &tree->groups.data[number];
         if (!refine_tree_neighbor(tree, group, side, &name))
             continue;
         const SampleData *sample = refine_tree_sample(tree, &name);
-        const float contrast = contrast_across(group, side, sample, name.level, &is_edge);
-        const bool is_outline = is_edge && name.level == 0 && refinement->cuts_outlines;
-        if (!is_outline && contrast <= refinement->threshold)
+        const float contrast = contrast_across(group, side, sample, name.level);
+        if (contrast <= threshold)
             continue;
         if (!(name.group == 0 ? refine_tree_cut_pixel(tree, name.cell % tree->width,
                                                       name.cell / tree->width, error)
@@ -150,10 +140,10 @@ static void mark_footprints(const Marking *marking)
     }
 }
 
-static bool mark_and_cut_pixels(Adaptive *adaptive, const Refinement *refinement, Error *error)
+static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = {tree, &adaptive->footprints, refinement, 0, 0, NULL};
+    Marking marking = {tree, &adaptive->footprints, threshold, 0, 0, NULL};
     marking.marks = memory_raw((size_t)tree->width * tree->height, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
@@ -165,11 +155,11 @@ static bool mark_and_cut_pixels(Adaptive *adaptive, const Refinement *refinement
 }
 
 // Looks at the groups from `first` up to `end`.
-static bool mark_and_cut_groups(Adaptive *adaptive, const Refinement *refinement, uint32_t first,
-                                uint32_t end, Error *error)
+static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t first, uint32_t end,
+                                Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = {tree, &adaptive->footprints, refinement, first, end, NULL};
+    Marking marking = {tree, &adaptive->footprints, threshold, first, end, NULL};
     if (first >= end || !is_whole(adaptive))
         return true;
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
@@ -178,7 +168,7 @@ static bool mark_and_cut_groups(Adaptive *adaptive, const Refinement *refinement
     crew_run(adaptive->crew, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
     bool ok = cut_groups(tree, &marking, error);
     for (uint32_t number = first; ok && number < end; number++)
-        ok = cut_around(tree, refinement, number, error);
+        ok = cut_around(tree, threshold, number, error);
     free(marking.marks);
     return ok;
 }
@@ -228,17 +218,17 @@ static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserve
     return ok;
 }
 
-bool adaptive_refine(Adaptive *adaptive, const Refinement *refinement,
-                     const RenderObserver *observer, Error *error)
+bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                     Error *error)
 {
     const RefineTree *tree = &adaptive->tree;
     uint32_t first = (uint32_t)tree->groups.count;
-    bool ok = !is_whole(adaptive) || (mark_and_cut_pixels(adaptive, refinement, error) &&
-                                      mark_and_cut_groups(adaptive, refinement, 1, first, error));
+    bool ok = !is_whole(adaptive) || (mark_and_cut_pixels(adaptive, threshold, error) &&
+                                      mark_and_cut_groups(adaptive, threshold, 1, first, error));
     while (ok && first < tree->groups.count) {
         const uint32_t end = (uint32_t)tree->groups.count;
         ok = trace_groups(adaptive, first, observer, error) &&
-             mark_and_cut_groups(adaptive, refinement, first, end, error);
+             mark_and_cut_groups(adaptive, threshold, first, end, error);
         first = end;
     }
     return ok;

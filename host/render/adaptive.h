@@ -16,13 +16,6 @@ typedef struct {
     uint64_t samples;      // taken
 } Adaptive;
 
-// What is to be refined.
-typedef struct {
-    float threshold; // contrast, in parts of one, that a cell of a whole pixel may have; a cell of
-                     // a ninth of one may have nine times as much
-    bool cuts_outlines; // pixels beside another surface or light are cut whatever their contrast
-} Refinement;
-
 // What it stands on.
 typedef struct {
     Renderer *renderer;       // of KERNEL_SAMPLES
@@ -35,9 +28,10 @@ typedef struct {
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Refines until nothing is left above the threshold, or the observer stops it.
-bool adaptive_refine(Adaptive *adaptive, const Refinement *refinement,
-                     const RenderObserver *observer, Error *error);
+// Refines until no cell has a contrast above the threshold, in parts of one and of a pixel's area,
+// or the observer stops it.
+bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                     Error *error);
 
 // Stores the picture, as far as it is refined.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);

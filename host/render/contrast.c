@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+// Two pixels may agree in color by chance where an outline runs between them.
+#define OUTLINE_WEIGHT 4
+
 static float larger(float a, float b)
 {
     return a > b ? a : b;
@@ -42,7 +45,7 @@ static float contrast_between(const SampleData *before, const SampleData *at,
     return larger(sides, bend(before, at, after, weight));
 }
 
-float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y, bool *is_edge)
+float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
 {
     const SampleData *pixels = tree->pixels, *at = &pixels[refine_tree_place(tree, x, y)];
     const bool is_left = x == 0, is_right = x + 1 == tree->width;
@@ -51,12 +54,9 @@ float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y, bool *is
     const SampleData *right = is_right ? at : &pixels[refine_tree_place(tree, x + 1, y)];
     const SampleData *above = is_top ? at : &pixels[refine_tree_place(tree, x, y - 1)];
     const SampleData *below = is_bottom ? at : &pixels[refine_tree_place(tree, x, y + 1)];
-    *is_edge = at->signature != left->signature || at->signature != right->signature ||
-               at->signature != above->signature || at->signature != below->signature;
-    float contrast = 0;
-    if (*is_edge)
-        contrast = larger(larger(step(at, left), step(at, right)),
-                          larger(step(at, above), step(at, below)));
+    const float steps =
+        larger(larger(step(at, left), step(at, right)), larger(step(at, above), step(at, below)));
+    float contrast = OUTLINE_WEIGHT * steps;
     if (!is_left && !is_right)
         contrast = larger(contrast, bend(left, at, right, 0.5f));
     if (!is_top && !is_bottom)
@@ -82,17 +82,15 @@ static void contrast_of_line(const CellGroup *group, uint32_t first, uint32_t st
 static const float parts[REFINE_LEVELS + 1] = {1, 1 / 9.0f, 1 / 81.0f, 1 / 729.0f, 1 / 6561.0f};
 
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
-                      uint32_t level, bool *is_edge)
+                      uint32_t level)
 {
     static const uint32_t first[SIDE_COUNT] = {0, 2, 0, 6}, stride[SIDE_COUNT] = {3, 3, 1, 1};
     float most = 0;
-    *is_edge = false;
     for (uint32_t i = 0; i < GROUP_SIDE; i++) {
         const SampleData *cell = &group->cells[first[side] + i * stride[side]];
-        *is_edge = *is_edge || cell->signature != other->signature;
         most = larger(most, step(cell, other));
     }
-    return parts[level] * most;
+    return (level == 0 ? OUTLINE_WEIGHT : 1) * parts[level] * most;
 }
 
 void contrast_of_group(const CellGroup *group, float contrast[GROUP_CELLS])

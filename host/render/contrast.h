@@ -5,13 +5,13 @@
 
 #include "render/refine_tree.h"
 
-// Of a pixel; *is_edge tells whether a neighbor met another surface or light.
-float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y, bool *is_edge);
+// Of a pixel; what differs from a neighbor that met another surface or light counts four times.
+float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
 
 // Of a cell beside a group, across the side that they share; zero where all that meets there saw
-// the same.  *is_edge tells whether it did not.
+// the same.
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
-                      uint32_t level, bool *is_edge);
+                      uint32_t level);
 
 // Of a group's cells, with no regard to which are cut.
 void contrast_of_group(const CellGroup *group, float contrast[GROUP_CELLS]);

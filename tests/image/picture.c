@@ -93,8 +93,7 @@ static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *err
 {
     bool ok = true;
     for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
-        const Refinement refinement = {request->contrasts[step], request->cuts_outlines};
-        ok = adaptive_refine(adaptive, &refinement, NULL, error);
+        ok = adaptive_refine(adaptive, request->contrasts[step], NULL, error);
     }
     return ok;
 }

@@ -15,7 +15,6 @@ typedef struct {
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis
     float contrasts[2];     // each above 0 refines the picture adaptively, in that order
-    bool cuts_outlines;     // adaptively
     uint32_t threads;       // of the host, adaptively
     uint64_t *sample_count; // left here, adaptively; or NULL
     int64_t max_level;      // negative: the scene's

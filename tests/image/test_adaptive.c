@@ -29,7 +29,6 @@ static PictureRequest square(const char *scene, uint32_t side)
 static PictureRequest adaptive(PictureRequest request, float contrast)
 {
     request.contrasts[0] = contrast;
-    request.cuts_outlines = true;
     return request;
 }
 
