@@ -4,7 +4,7 @@
 
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // that a check was to find, limits that a comparison breaks
+    EXIT_FAULTS = 1, // that a check was to find, limits that a comparison breaks, missed goals
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // or a picture that is read
     EXIT_DEVICE = 4,

@@ -16,8 +16,9 @@ static bool check_window(Options *options, Error *error)
         return error_set(error, "--bad-geometry is for files: give one with -o FILE");
     if (options->fits_level)
         return error_set(error, "--max-level auto is for files: give one with -o FILE");
-    if (options->contrast > 0)
-        return error_set(error, "--aa-adaptive is for files: give one with -o FILE");
+    if (options_are_adaptive(options))
+        return error_set(error, "--aa-adaptive, --error and --time are for files: give one with "
+                                "-o FILE");
     if (options->reference)
         return error_set(error, "--reference is for files: give one with -o FILE");
     if (options->aovs != 0)
@@ -59,11 +60,20 @@ static bool check_aovs(const Options *options, Error *error)
                      options->format);
 }
 
+static bool check_samples(const Options *options, Error *error)
+{
+    const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
+                     (options->time_goal > 0);
+    return ways <= 1 ||
+           error_set(error, "--aa, --aa-adaptive, --error and --time each choose the samples: give "
+                            "one");
+}
+
 bool options_check_purpose(Options *options, Error *error)
 {
     const char *path = options->output_path;
-    if (options->contrast > 0 && options->samples > 1)
-        return error_set(error, "--aa-adaptive chooses the samples: leave out --aa");
+    if (!check_samples(options, error))
+        return false;
     if (path == NULL)
         return check_window(options, error);
     if (options->keys != NULL || options->quit_after > 0)

@@ -41,6 +41,27 @@ bool read_explain_pixel(Options *options, const char *value, Error *error)
     return true;
 }
 
+bool read_error(Options *options, const char *value, Error *error)
+{
+    const size_t length = strlen(value);
+    const bool is_percent = length > 0 && value[length - 1] == '%';
+    const char *end = value + length - is_percent;
+    const bool ok = number_parse(value, end, &options->error_goal) == end;
+    options->error_goal /= is_percent ? 100 : 1;
+    return (ok && options->error_goal > 0 && options->error_goal <= 1) ||
+           error_set(error, "--error wants a number above 0 and up to 1, or 100%%, not '%s'",
+                     value);
+}
+
+bool read_time(Options *options, const char *value, Error *error)
+{
+    const char *end = value + strlen(value);
+    return (number_parse(value, end, &options->time_goal) == end && options->time_goal > 0 &&
+            options->time_goal <= TIME_GOAL_MOST) ||
+           error_set(error, "--time wants seconds above 0 and up to %d, not '%s'", TIME_GOAL_MOST,
+                     value);
+}
+
 bool read_output(Options *options, const char *value, Error *error)
 {
     options->output_path = value;

@@ -26,6 +26,10 @@ const Option option_table[] = {
     {"max-level", 0, "N|auto", read_max_level, GROUP_QUALITY, CLASS_BOUNDED,
      "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
      "scene's highest reflectivity; auto: the least N for which that shows in no file"},
+    {"error", 0, "E", read_error, GROUP_QUALITY, CLASS_STATISTICAL,
+     "choose samples, levels and precision for a root mean square error of E, as 0.005 or 0.5%"},
+    {"time", 0, "S", read_time, GROUP_QUALITY, CLASS_STATISTICAL,
+     "choose the samples so that tracing takes S seconds"},
     {"precision", 0, "fp32|fp64", read_precision, GROUP_QUALITY, CLASS_STATISTICAL,
      "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
 

@@ -35,6 +35,8 @@ typedef enum {
 // Sides of tiles unless they are given; a window chooses its own.
 #define OPTIONS_TILE 128
 
+#define TIME_GOAL_MOST 1000000 // seconds
+
 // The contrast that --aa-adaptive leaves unless it is given.
 #define OPTIONS_CONTRAST 0.02
 
@@ -47,7 +49,9 @@ typedef struct {
     const char *format;      // one of image_format_names; NULL without an output
     AovSet aovs;             // channels beside the colors
     uint32_t samples;        // per pixel and axis
-    double contrast;         // that adaptive anti-aliasing leaves; 0: every pixel alike
+    double contrast;         // that adaptive anti-aliasing leaves; 0: none is asked for
+    double error_goal;       // root mean square that the picture may be off; 0: any
+    double time_goal;        // seconds that tracing is to take; 0: any
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's
     int64_t max_level;       // negative: the scene's
@@ -78,6 +82,12 @@ typedef struct {
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;
+
+// Whether pixels get as many samples as they need, instead of all the same.
+static inline bool options_are_adaptive(const Options *options)
+{
+    return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;
+}
 
 // Fills options from the words of the command line; false where they are not understood.
 bool options_parse(Options *options, int count, char **words, Error *error);

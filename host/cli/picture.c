@@ -9,6 +9,7 @@
 #include "render/aov_pass.h"
 #include "scene/camera.h"
 
+#include <math.h>
 #include <stdio.h>
 
 // One picture of as many as were asked for; they are the same.
@@ -20,9 +21,10 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
     const RenderSettings *settings = &run->settings;
     run->report.samples =
         (uint64_t)settings->width * settings->height * settings->samples * settings->samples;
-    const bool ok = run->options->contrast > 0 ? refined_picture_draw(run, camera, &observer, error)
-                                               : renderer_draw(&run->renderer, camera, &observer,
-                                                               &run->framebuffer, error);
+    const bool ok =
+        options_are_adaptive(run->options)
+            ? refined_picture_draw(run, camera, &observer, error)
+            : renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
     run->stopped_by = progress_end(&progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
@@ -41,7 +43,7 @@ static bool draw(Run *run, Error *error)
 {
     const RenderSettings *settings = &run->settings;
     const CameraData camera =
-        camera_of(run, run->options->contrast > 0 ? REFINE_GRID : settings->samples);
+        camera_of(run, options_are_adaptive(run->options) ? REFINE_GRID : settings->samples);
     if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
         return false;
     bool ok = true;
@@ -157,6 +159,18 @@ static void describe(const Run *run)
             report->upload_size);
 }
 
+static ExitCode goal_missed(const Run *run, Error *error)
+{
+    const Report *report = &run->report;
+    if (run->options->time_goal > 0)
+        error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
+                  report->trace);
+    else
+        error_set(error, "the error may be %.2g %%, more than --error allows",
+                  100 * fmax(report->estimate, report->truncation));
+    return EXIT_FAULTS;
+}
+
 ExitCode picture_make(Run *run, Error *error)
 {
     const double start = clock_seconds();
@@ -185,5 +199,7 @@ ExitCode picture_make(Run *run, Error *error)
     if (!write_picture(run, error) || !write_reference(run, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
-    return run->stopped_by > 0 ? (ExitCode)(128 + run->stopped_by) : EXIT_DONE;
+    if (run->stopped_by > 0)
+        return (ExitCode)(128 + run->stopped_by);
+    return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }

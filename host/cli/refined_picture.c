@@ -2,7 +2,47 @@
 // Threads of the host share what is decided between the device's passes.
 #include "cli/refined_picture.h"
 
+#include "base/clock.h"
 #include "cli/threads.h"
+#include "render/goal.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Whoever names the levels of reflections asks for the picture that they make.
+static double truncation_of(const Run *run)
+{
+    return run->options->max_level >= 0 ? 0 : run->report.truncation;
+}
+
+// The error that sampling may make beside the truncation's; below 0 where that alone is too much.
+static double error_left(const Run *run)
+{
+    const double most = run->options->error_goal, truncation = truncation_of(run);
+    return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
+}
+
+static bool refine(Run *run, Adaptive *adaptive, double start, const RenderObserver *observer,
+                   Error *error)
+{
+    const Options *options = run->options;
+    Report *report = &run->report;
+    GoalOutcome outcome = {.threshold = (float)options->contrast, .reached = true};
+    bool ok = true;
+    if (options->contrast > 0)
+        ok = adaptive_refine(adaptive, outcome.threshold, observer, error);
+    else if (options->time_goal > 0)
+        ok = goal_spend_time(adaptive, start, options->time_goal, observer, &outcome, error);
+    else if (error_left(run) > 0)
+        ok = goal_reach_error(adaptive, error_left(run), observer, &outcome, error);
+    else
+        outcome.reached = false;
+    report->contrast = (double)outcome.threshold;
+    report->estimate = outcome.estimate > 0 ? hypot(outcome.estimate, truncation_of(run)) : 0;
+    report->goal_missed = !outcome.reached;
+    report->samples = adaptive->samples;
+    return ok;
+}
 
 // Keeps how many samples each pixel has, where channels may ask for it.
 static bool keep_counts(Run *run, const RefineTree *tree, Error *error)
@@ -22,14 +62,13 @@ bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserv
                           Error *error)
 {
     Adaptive adaptive;
-    const float contrast = (float)run->options->contrast;
+    const double start = clock_seconds();
     Crew *crew = crew_open(threads_allowed(run->options->threads));
     const AdaptiveSetup setup = {&run->renderer, &run->flat, camera, crew};
     bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
-              adaptive_refine(&adaptive, contrast, observer, error);
+              refine(run, &adaptive, start, observer, error);
     if (ok) {
         adaptive_store(&adaptive, &run->framebuffer);
-        run->report.samples = adaptive.samples;
         ok = keep_counts(run, &adaptive.tree, error);
     }
     adaptive_close(&adaptive);

@@ -58,8 +58,8 @@ void report_make_texts(const Report *report, ReportTexts *texts)
     snprintf(texts->scene_hash, sizeof texts->scene_hash, "%016" PRIx64 "%016" PRIx64,
              report->scene_hash[1], report->scene_hash[0]);
     char samples[48];
-    if (report->options->contrast > 0)
-        snprintf(samples, sizeof samples, "adaptive contrast=%g", report->options->contrast);
+    if (options_are_adaptive(report->options))
+        snprintf(samples, sizeof samples, "adaptive contrast=%g", report->contrast);
     else
         snprintf(samples, sizeof samples, "%ux%u", settings->samples, settings->samples);
     snprintf(texts->settings, sizeof texts->settings,
@@ -80,6 +80,9 @@ void report_write_text(const Report *report, FILE *stream)
     fprintf(stream, "%.3f seconds\n", report->trace);
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
             samples_per_pixel(report));
+    if (report->estimate > 0)
+        fprintf(stream, "%.2g %% error estimated, of which at most %.2g %% for %u levels\n",
+                100 * report->estimate, 100 * report->truncation, report->settings->max_level);
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
             ray_count(report), report->tallies[TALLY_CAMERA_RAYS],
@@ -193,8 +196,9 @@ static json_t *settings_json(const Report *report)
 
 static json_t *samples_json(const Report *report)
 {
-    return json_pack("{s:o, s:f, s:f}", "total", integer(report->samples), "per_pixel",
-                     samples_per_pixel(report), "contrast", report->options->contrast);
+    return json_pack("{s:o, s:f, s:f, s:f, s:b}", "total", integer(report->samples), "per_pixel",
+                     samples_per_pixel(report), "contrast", report->contrast, "error_estimate",
+                     report->estimate, "goal_reached", !report->goal_missed);
 }
 
 static json_t *reference_json(const Report *report)

@@ -29,6 +29,9 @@ typedef struct {
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at every depth
     size_t upload_size;
+    double contrast;   // that refining left, 0 where nothing was refined
+    double estimate;   // of the error, with the bound of the truncation; 0 where there is none
+    bool goal_missed;  // of --error or --time
     double truncation; // bound of the error that max_level makes
     uint64_t samples;  // of all pixels together
     bool specialized;

@@ -15,6 +15,9 @@
 // With so many, a tree takes longer to build than a compiled kernel to be loaded.
 #define MANY_TRIANGLES 20000
 
+// The part of the error asked for that too few levels of reflections may make: they cost least.
+#define TRUNCATION_PART 0.25
+
 // Blocks of so few triangles are tested sooner than a tree is walked: packets take 0.92, 0.91 and
 // 0.95 times as long at 8, 16 and 32 triangles, but 1.06 times at 64.
 #define FEW_TRIANGLES 32
@@ -28,8 +31,11 @@ double run_lap(double *moment)
 
 static uint32_t max_level_of(const Options *options, const Scene *scene)
 {
+    const char *format = options->format != NULL ? options->format : "png";
     if (options->fits_level)
-        return truncation_level(scene, image_format_half_step(options->format, options->encoding));
+        return truncation_level(scene, image_format_half_step(format, options->encoding));
+    if (options->max_level < 0 && options->error_goal > 0)
+        return truncation_level(scene, options->error_goal * TRUNCATION_PART);
     return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;
 }
 
@@ -134,7 +140,7 @@ bool run_open_renderer(Run *run, Error *error)
 
 void run_begin(Run *run)
 {
-    const KernelEntry entry = run->options->contrast > 0 ? KERNEL_SAMPLES : KERNEL_TILE;
+    const KernelEntry entry = options_are_adaptive(run->options) ? KERNEL_SAMPLES : KERNEL_TILE;
     const RendererSetup setup = {
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};

@@ -11,15 +11,13 @@
 #define ROWS_OF_TASK   16
 #define GROUPS_OF_TASK 512
 
-#define NEW_SAMPLES (GROUP_CELLS - 1) // of a group
-
 // What one marking works on.
 typedef struct {
     const RefineTree *tree;
     const Footprints *footprints;
     float threshold;
     uint32_t first, end; // of groups
-    uint16_t *marks;     // a bit for each cell of a group, or for a pixel
+    uint16_t *marks;     // a bit for each cell of a group and each side, or for a pixel
 } Marking;
 
 static uint32_t tasks_of(size_t whole, uint32_t part)
@@ -64,13 +62,28 @@ static unsigned footprint_marks(const Marking *marking, const CellGroup *group)
     return marks;
 }
 
+// What a group's outer cells saw may reach into the cells around it: a bit for each side.
+static unsigned marks_around(const Marking *marking, const CellGroup *group)
+{
+    unsigned marks = 0;
+    for (CellSide side = 0; side < SIDE_COUNT; side++) {
+        CellName name;
+        if (refine_tree_neighbor(marking->tree, group, side, &name) &&
+            contrast_across(group, side, refine_tree_sample(marking->tree, &name), name.level) >
+                marking->threshold)
+            marks |= 1u << side;
+    }
+    return marks;
+}
+
 static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
 {
     const float threshold = marking->threshold;
     float contrast[GROUP_CELLS];
+    unsigned marks = marks_around(marking, group) << GROUP_CELLS;
     if (group->level == REFINE_LEVELS)
-        return 0;
-    unsigned marks = footprint_marks(marking, group);
+        return (uint16_t)marks;
+    marks |= footprint_marks(marking, group);
     contrast_of_group(group, contrast);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
         if (group->groups[cell] == 0 && contrast[cell] > threshold)
@@ -97,37 +110,40 @@ static bool cut_pixels(RefineTree *tree, const uint16_t *marks, Error *error)
     return true;
 }
 
-static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
+static bool cut_named(RefineTree *tree, const CellName *name, Error *error)
 {
-    for (uint32_t number = marking->first; number < marking->end; number++)
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-            if ((marking->marks[number - marking->first] >> cell & 1) &&
-                !refine_tree_cut_cell(tree, number, cell, error))
-                return false;
-    return true;
+    return name->group == 0 ? refine_tree_cut_pixel(tree, name->cell % tree->width,
+                                                    name->cell / tree->width, error)
+                            : refine_tree_cut_cell(tree, name->group, name->cell, error);
 }
 
-// What a group's outer cells saw may reach into the cells around it.
-static bool cut_around(RefineTree *tree, float threshold, uint32_t number, Error *error)
+// Cuts the cells around a group that are marked; another group may have cut them by now.
+static bool cut_around(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
 {
     for (CellSide side = 0; side < SIDE_COUNT; side++) {
         CellName name;
-        const CellGroup *group = &tree->groups.data[number];
-        if (!refine_tree_neighbor(tree, group, side, &name))
-            continue;
-        const SampleData *sample = refine_tree_sample(tree, &name);
-        const float contrast = contrast_across(group, side, sample, name.level);
-        if (contrast <= threshold)
-            continue;
-        if (!(name.group == 0 ? refine_tree_cut_pixel(tree, name.cell % tree->width,
-                                                      name.cell / tree->width, error)
-                              : refine_tree_cut_cell(tree, name.group, name.cell, error)))
+        if ((marks >> (GROUP_CELLS + side) & 1) &&
+            refine_tree_neighbor(tree, &tree->groups.data[number], side, &name) &&
+            !cut_named(tree, &name, error))
             return false;
     }
     return true;
 }
 
-static bool is_whole(const Adaptive *adaptive)
+static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
+{
+    for (uint32_t number = marking->first; number < marking->end; number++) {
+        const unsigned marks = marking->marks[number - marking->first];
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+            if ((marks >> cell & 1) && !refine_tree_cut_cell(tree, number, cell, error))
+                return false;
+        if (marks >> GROUP_CELLS != 0 && !cut_around(tree, number, marks, error))
+            return false;
+    }
+    return true;
+}
+
+bool adaptive_is_whole(const Adaptive *adaptive)
 {
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
@@ -160,15 +176,13 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
 {
     RefineTree *tree = &adaptive->tree;
     Marking marking = {tree, &adaptive->footprints, threshold, first, end, NULL};
-    if (first >= end || !is_whole(adaptive))
+    if (first >= end || !adaptive_is_whole(adaptive))
         return true;
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
     crew_run(adaptive->crew, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
-    bool ok = cut_groups(tree, &marking, error);
-    for (uint32_t number = first; ok && number < end; number++)
-        ok = cut_around(tree, threshold, number, error);
+    const bool ok = cut_groups(tree, &marking, error);
     free(marking.marks);
     return ok;
 }
@@ -198,7 +212,9 @@ static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserve
                          Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    const uint32_t count = NEW_SAMPLES * ((uint32_t)tree->groups.count - first);
+    if (first == tree->groups.count)
+        return true;
+    const uint32_t count = ADAPTIVE_CUT * ((uint32_t)tree->groups.count - first);
     SamplePlace *places = memory_raw(count, sizeof *places, error);
     SampleData *samples = memory_raw(count, sizeof *samples, error);
     const SampleList list = {places, samples, count};
@@ -207,8 +223,9 @@ static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserve
         list_places(tree, first, places);
         ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     }
-    if (ok && is_whole(adaptive)) {
+    if (ok && adaptive_is_whole(adaptive)) {
         take_samples(tree, first, samples);
+        tree->traced = (uint32_t)tree->groups.count;
         adaptive->samples += count;
     } else {
         refine_tree_uncut(tree, first);
@@ -218,13 +235,27 @@ static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserve
     return ok;
 }
 
+static bool cut_all(Adaptive *adaptive, float threshold, Error *error)
+{
+    const uint32_t end = (uint32_t)adaptive->tree.groups.count;
+    return !adaptive_is_whole(adaptive) ||
+           (mark_and_cut_pixels(adaptive, threshold, error) &&
+            mark_and_cut_groups(adaptive, threshold, 1, end, error));
+}
+
+bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                          Error *error)
+{
+    const uint32_t first = (uint32_t)adaptive->tree.groups.count;
+    return cut_all(adaptive, threshold, error) && trace_groups(adaptive, first, observer, error);
+}
+
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error)
 {
     const RefineTree *tree = &adaptive->tree;
     uint32_t first = (uint32_t)tree->groups.count;
-    bool ok = !is_whole(adaptive) || (mark_and_cut_pixels(adaptive, threshold, error) &&
-                                      mark_and_cut_groups(adaptive, threshold, 1, first, error));
+    bool ok = cut_all(adaptive, threshold, error);
     while (ok && first < tree->groups.count) {
         const uint32_t end = (uint32_t)tree->groups.count;
         ok = trace_groups(adaptive, first, observer, error) &&

@@ -7,6 +7,9 @@
 #include "render/footprint.h"
 #include "render/renderer.h"
 
+// Samples that cutting a cell takes.
+#define ADAPTIVE_CUT (GROUP_CELLS - 1)
+
 typedef struct {
     Renderer *renderer; // of KERNEL_SAMPLES; borrowed
     Crew *crew;         // borrowed
@@ -32,6 +35,13 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
 // or the observer stops it.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
+
+// The same in one pass, which leaves the cells that it makes as they are.
+bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                          Error *error);
+
+// Whether the observer has not stopped it.
+bool adaptive_is_whole(const Adaptive *adaptive);
 
 // Stores the picture, as far as it is refined.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);

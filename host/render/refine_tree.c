@@ -40,45 +40,6 @@ static bool append_group(RefineTree *tree, CellGroup **group, Error *error)
     return true;
 }
 
-bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error)
-{
-    CellGroup *group = NULL;
-    if (!append_group(tree, &group, error))
-        return false;
-    const uint32_t half = REFINE_GRID / 2, right = x + 1 < tree->width ? x + 1 : x;
-    const uint32_t below = y + 1 < tree->height ? y + 1 : y;
-    *group = (CellGroup){.x = REFINE_GRID * x + half, .y = REFINE_GRID * y + half, .level = 1};
-    group->beyond[SIDE_LEFT] = tree->pixels[refine_tree_place(tree, x > 0 ? x - 1 : x, y)];
-    group->beyond[SIDE_RIGHT] = tree->pixels[refine_tree_place(tree, right, y)];
-    group->beyond[SIDE_ABOVE] = tree->pixels[refine_tree_place(tree, x, y > 0 ? y - 1 : y)];
-    group->beyond[SIDE_BELOW] = tree->pixels[refine_tree_place(tree, x, below)];
-    group->cells[GROUP_MIDDLE] = tree->pixels[refine_tree_place(tree, x, y)];
-    tree->pixel_groups[(size_t)y * tree->width + x] = (uint32_t)tree->groups.count - 1;
-    return true;
-}
-
-bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Error *error)
-{
-    CellGroup *group = NULL;
-    uint32_t place[2];
-    if (!append_group(tree, &group, error))
-        return false;
-    CellGroup *parent = &tree->groups.data[number];
-    const uint32_t column = cell % GROUP_SIDE, row = cell / GROUP_SIDE;
-    refine_tree_cell_place(parent, cell, place);
-    *group = (CellGroup){.x = place[0], .y = place[1], .level = parent->level + 1};
-    group->beyond[SIDE_LEFT] = column > 0 ? parent->cells[cell - 1] : parent->beyond[SIDE_LEFT];
-    group->beyond[SIDE_RIGHT] =
-        column + 1 < GROUP_SIDE ? parent->cells[cell + 1] : parent->beyond[SIDE_RIGHT];
-    group->beyond[SIDE_ABOVE] =
-        row > 0 ? parent->cells[cell - GROUP_SIDE] : parent->beyond[SIDE_ABOVE];
-    group->beyond[SIDE_BELOW] =
-        row + 1 < GROUP_SIDE ? parent->cells[cell + GROUP_SIDE] : parent->beyond[SIDE_BELOW];
-    group->cells[GROUP_MIDDLE] = parent->cells[cell];
-    parent->groups[cell] = (uint32_t)tree->groups.count - 1;
-    return true;
-}
-
 void refine_tree_uncut(RefineTree *tree, uint32_t first)
 {
     for (size_t i = 0; i < (size_t)tree->width * tree->height; i++)
@@ -97,21 +58,37 @@ uint32_t refine_tree_cell_side(uint32_t level)
     return sides[level];
 }
 
-// A coordinate of the nearest cells beyond a side; below 0 where that is outside.
-static int64_t coordinate_beyond(uint32_t middle, uint32_t level, int direction)
+void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2])
 {
-    const int64_t reach = refine_tree_cell_side(level - 1) / 2 + 1;
-    return (int64_t)middle + direction * reach;
+    const uint32_t side = refine_tree_cell_side(group->level);
+    place[0] = group->x + cell % GROUP_SIDE * side - side;
+    place[1] = group->y + cell / GROUP_SIDE * side - side;
 }
 
-// Goes down from a pixel to the cell of that level at a place.
-static bool find_uncut(const RefineTree *tree, const uint32_t place[2], uint32_t level,
-                       CellName *name)
+// The place of the nearest cells beyond a side of the cell that a group cuts; false outside.
+static bool place_beyond(const RefineTree *tree, const CellGroup *group, CellSide side,
+                         uint32_t place[2])
+{
+    const uint32_t reach = refine_tree_cell_side(group->level - 1) / 2 + 1;
+    place[0] = group->x;
+    place[1] = group->y;
+    uint32_t *along = &place[side == SIDE_ABOVE || side == SIDE_BELOW];
+    const bool is_low = side == SIDE_LEFT || side == SIDE_ABOVE;
+    if (is_low && *along < reach)
+        return false;
+    *along = is_low ? *along - reach : *along + reach;
+    return place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID;
+}
+
+// Goes down from a pixel to the cell at a place, of that level at most and in a group below `end`.
+// Returns the group that the cell is cut into, 0 where it is not.
+static uint32_t descend(const RefineTree *tree, const uint32_t place[2], uint32_t level,
+                        uint32_t end, CellName *name)
 {
     const uint32_t column = place[0] / REFINE_GRID, row = place[1] / REFINE_GRID;
     *name = (CellName){.cell = row * tree->width + column};
     uint32_t below = tree->pixel_groups[name->cell];
-    while (below != 0 && name->level < level) {
+    while (below != 0 && below < end && name->level < level) {
         const CellGroup *group = &tree->groups.data[below];
         const uint32_t side = refine_tree_cell_side(group->level), half = 3 * side / 2;
         name->group = below;
@@ -120,21 +97,15 @@ static bool find_uncut(const RefineTree *tree, const uint32_t place[2], uint32_t
             (place[1] + half - group->y) / side * GROUP_SIDE + (place[0] + half - group->x) / side;
         below = group->groups[name->cell];
     }
-    return below == 0;
+    return below;
 }
 
 bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSide side,
                           CellName *name)
 {
-    static const int steps[SIDE_COUNT][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    const int64_t x = coordinate_beyond(group->x, group->level, steps[side][0]);
-    const int64_t y = coordinate_beyond(group->y, group->level, steps[side][1]);
-    const uint32_t place[2] = {steps[side][0] == 0 ? group->x : (uint32_t)x,
-                               steps[side][1] == 0 ? group->y : (uint32_t)y};
-    if (x < 0 || y < 0 || place[0] >= tree->width * REFINE_GRID ||
-        place[1] >= tree->height * REFINE_GRID)
-        return false;
-    return find_uncut(tree, place, group->level - 1, name);
+    uint32_t place[2];
+    return place_beyond(tree, group, side, place) &&
+           descend(tree, place, group->level - 1, UINT32_MAX, name) == 0;
 }
 
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name)
@@ -145,11 +116,50 @@ const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *nam
                                            name->cell / tree->width)];
 }
 
-void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2])
+// What was seen beyond a side of the cell that a group cuts, from the nearest cell no smaller than
+// that; its own where the picture ends.
+static SampleData sample_beyond(const RefineTree *tree, const CellGroup *group, CellSide side)
 {
-    const uint32_t side = refine_tree_cell_side(group->level);
-    place[0] = group->x + cell % GROUP_SIDE * side - side;
-    place[1] = group->y + cell / GROUP_SIDE * side - side;
+    CellName name;
+    uint32_t place[2];
+    if (!place_beyond(tree, group, side, place))
+        return group->cells[GROUP_MIDDLE];
+    descend(tree, place, group->level - 1, tree->traced, &name);
+    return *refine_tree_sample(tree, &name);
+}
+
+// Fills a new group with what is known before it is traced.
+static void begin_group(const RefineTree *tree, CellGroup *group, const SampleData *middle)
+{
+    group->cells[GROUP_MIDDLE] = *middle;
+    for (CellSide side = 0; side < SIDE_COUNT; side++)
+        group->beyond[side] = sample_beyond(tree, group, side);
+}
+
+bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error)
+{
+    const uint32_t half = REFINE_GRID / 2;
+    CellGroup *group = NULL;
+    if (!append_group(tree, &group, error))
+        return false;
+    *group = (CellGroup){.x = REFINE_GRID * x + half, .y = REFINE_GRID * y + half, .level = 1};
+    begin_group(tree, group, &tree->pixels[refine_tree_place(tree, x, y)]);
+    tree->pixel_groups[(size_t)y * tree->width + x] = (uint32_t)tree->groups.count - 1;
+    return true;
+}
+
+bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Error *error)
+{
+    CellGroup *group = NULL;
+    uint32_t place[2];
+    if (!append_group(tree, &group, error))
+        return false;
+    CellGroup *parent = &tree->groups.data[number];
+    refine_tree_cell_place(parent, cell, place);
+    *group = (CellGroup){.x = place[0], .y = place[1], .level = parent->level + 1};
+    begin_group(tree, group, &parent->cells[cell]);
+    parent->groups[cell] = (uint32_t)tree->groups.count - 1;
+    return true;
 }
 
 static void add_group(const RefineTree *tree, uint32_t number, uint64_t sum[3])
@@ -181,18 +191,22 @@ uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
     return group == 0 ? 1 : 1 + count_added(tree, group);
 }
 
+void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
+{
+    const uint64_t side = refine_tree_cell_side(tree->groups.data[group].level - 1);
+    uint64_t sum[3] = {0};
+    add_group(tree, group, sum);
+    for (int channel = 0; channel < 3; channel++)
+        mean[channel] = (float)((sum[channel] + side * side / 2) / (side * side)) * 0x1p-32f;
+}
+
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3])
 {
-    const uint64_t cells = (uint64_t)REFINE_GRID * REFINE_GRID;
     for (uint32_t x = 0; x < tree->width; x++) {
         const uint32_t group = tree->pixel_groups[(size_t)y * tree->width + x];
-        uint64_t sum[3] = {0};
-        if (group == 0) {
+        if (group != 0)
+            refine_tree_mean(tree, group, colors[x]);
+        else
             memcpy(colors[x], tree->pixels[refine_tree_place(tree, x, y)].color, sizeof *colors);
-            continue;
-        }
-        add_group(tree, group, sum);
-        for (int channel = 0; channel < 3; channel++)
-            colors[x][channel] = (float)((sum[channel] + cells / 2) / cells) * 0x1p-32f;
     }
 }

@@ -19,7 +19,7 @@ typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellS
 typedef struct {
     uint32_t x, y;                 // of its middle, in cells of the last level
     uint32_t level;                // of its cells, from 1
-    SampleData beyond[SIDE_COUNT]; // what was seen from the next cell of the size that was cut
+    SampleData beyond[SIDE_COUNT]; // from the next cells of the size that was cut, or larger ones
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
 } CellGroup;
@@ -29,6 +29,7 @@ typedef struct {
     SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
     uint32_t *pixel_groups;          // in rows; 0 where the pixel is not cut
     ARRAY(CellGroup) groups;         // from 1
+    uint32_t traced;                 // groups below have all their samples
 } RefineTree;
 
 // A tree with nothing seen yet.
@@ -76,5 +77,8 @@ void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t plac
 // How many samples a pixel has.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
 
-// The mean over the samples of a row of pixels, weighted by their cells.
+// The mean over the samples of what a group cuts, weighted by their cells.
+void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);
+
+// The same of a row of pixels, weighted by their cells.
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3]);

@@ -29,7 +29,8 @@ if [ "${WINDOW:-}" = ON ]; then
   check "a format is for files" refuses 2 "--format is for files: give one with -o FILE" --format png "$scene"
   check "tiles are for files" refuses 2 "--tile is for files: give one with -o FILE" --tile 8x8 "$scene"
   check "adaptive samples are for files" \
-    refuses 2 "--aa-adaptive is for files: give one with -o FILE" --aa-adaptive "$scene"
+    refuses 2 "--aa-adaptive, --error and --time are for files: give one with -o FILE" \
+    --aa-adaptive "$scene"
   check "repeated pictures are for files" \
     refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
   check "channels are for files" \
@@ -111,9 +112,30 @@ check "... and per pixel" json c.json "d['samples']['per_pixel'] == d['samples']
 check "threads refine the same" pixels d.pfm --aa-adaptive=0.001 -j 1 --kernel ray --nodes pair
 check "... picture" cmp c.pfm d.pfm
 check "adaptive samples are no grid" refuses 2 \
-  "--aa-adaptive chooses the samples: leave out --aa" --aa=3 --aa-adaptive "$scene" -o a.pfm
+  "--aa, --aa-adaptive, --error and --time each choose the samples: give one" --aa=3 --aa-adaptive "$scene" -o a.pfm
 check "a contrast is a part of one" refuses 2 \
   "--aa-adaptive wants a number above 0 and up to 1, not '2'" --aa-adaptive=2 "$scene" -o a.pfm
+check "an error is asked for" pixels b.pfm --error 0.5% --stats=b.json
+check "... held as far as one can tell" json b.json \
+  "d['samples']['goal_reached'] and 0 < d['samples']['error_estimate'] <= 0.005"
+check "... with the levels that it takes" json b.json "d['settings']['truncation_bound'] <= 0.00125"
+check "... and is told" pixels b.pfm --error 0.005 --stats
+check "... in percent" says "% error estimated, of which at most 0.098 % for 5 levels$"
+check "a smaller error takes more samples" pixels c.pfm --error 0.001 --stats=c.json
+check "... says the JSON" json c.json \
+  "d['samples']['total'] > 1600 and d['samples']['error_estimate'] <= 0.001"
+printf 'define it matte reflectivity 1\nmaterial it\nsphere 0 0 0 1\n' >mirror.scn
+check "an error that no levels hold is exit 1" run 1 mirror.scn -s 8x8 --error 1% -o a.pfm
+check "... and says so" says "clrt: the error may be 1e+02 %, more than --error allows"
+check "an error is a number" refuses 2 \
+  "--error wants a number above 0 and up to 1, or 100%, not 'low'" --error low "$scene" -o a.pfm
+check "time is spent" pixels b.pfm --time 0.5 --stats=b.json
+check "... on samples" json b.json "d['samples']['goal_reached'] and d['samples']['total'] > 10000"
+check "... and no more" json b.json "d['seconds']['trace'] < 2"
+check "too little time is exit 1" run 1 "$scene" --time 1e-9 -o a.pfm
+check "... and says so" says "longer than --time allows$"
+check "time is a number of seconds" refuses 2 \
+  "--time wants seconds above 0 and up to 1000000, not '0'" --time 0 "$scene" -o a.pfm
 check "--max-level has an effect" pixels b.pfm --max-level 1
 check "... on the picture" differ plain.pfm b.pfm
 check "--max-level auto finds the least that shows in no file of bytes" \

@@ -91,7 +91,11 @@ static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
 
 static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
 {
+    GoalOutcome outcome;
     bool ok = true;
+    if (request->error_goal > 0)
+        return goal_reach_error(adaptive, request->error_goal, NULL, &outcome, error) &&
+               (outcome.reached || error_set(error, "the goal is missed"));
     for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
         ok = adaptive_refine(adaptive, request->contrasts[step], NULL, error);
     }
@@ -163,7 +167,7 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
-    const bool is_adaptive = request->contrasts[0] > 0;
+    const bool is_adaptive = request->contrasts[0] > 0 || request->error_goal > 0;
     const RendererSetup setup = {.device = &pipeline->device,
                                  .cache = &pipeline->cache,
                                  .source = {.extra_options = request->extra_options,

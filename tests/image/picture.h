@@ -2,9 +2,9 @@
 // A scene file -> its picture, by the same stages as the program's main, for tests.
 #pragma once
 
-#include "render/adaptive.h"
 #include "render/aov.h"
 #include "render/explainer.h"
+#include "render/goal.h"
 
 // Is shown a picture, and an explainer of its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);
@@ -15,6 +15,7 @@ typedef struct {
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis
     float contrasts[2];     // each above 0 refines the picture adaptively, in that order
+    double error_goal;      // refines until the error is estimated to be that
     uint32_t threads;       // of the host, adaptively
     uint64_t *sample_count; // left here, adaptively; or NULL
     int64_t max_level;      // negative: the scene's

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Thresholds fall step by step, and every step takes up all samples that there are.
+#include "render/goal.h"
+
+#include "base/clock.h"
+#include "render/cell_sums.h"
+
+#include <math.h>
+
+// What the estimate is multiplied by: measured, it is 0.9 to 1.4 of the error.
+#define MARGIN 1.12
+
+// Contrasts in this relation to the error leave about that error; the threshold starts above.
+#define CONTRAST_OF_ERROR 60
+#define LEAST_THRESHOLD   1e-7f
+
+// A step of the threshold.
+#define FALL_MOST  0.3
+#define FALL_LEAST 0.85
+
+// Spending time.  Thresholds fall slowly, since cells that a pass makes may be worth more than
+// others that it could afford.
+#define TIME_FALL_MOST    0.25f
+#define SAMPLES_THAT_TELL 10000 // how long one takes
+
+// The part of what is left that a step may take, the part of all from which one step takes the
+// rest, and the part that is not worth another.
+#define PART_OF_STEP 0.5
+#define PART_OF_LAST 0.2
+#define PART_UNSPENT 0.03
+
+static bool estimate(const Adaptive *adaptive, CellSums *sums, GoalOutcome *outcome, Error *error)
+{
+    if (!cell_sums_make(sums, adaptive, error))
+        return false;
+    outcome->estimate = MARGIN * cell_sums_error(sums);
+    return true;
+}
+
+static float lower_threshold(float threshold, double estimate, double most)
+{
+    const double fall = pow(most / estimate, 1.2);
+    return (float)((double)threshold * fmin(fmax(fall, FALL_MOST), FALL_LEAST));
+}
+
+bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *observer,
+                      GoalOutcome *outcome, Error *error)
+{
+    CellSums sums;
+    *outcome = (GoalOutcome){.threshold = (float)(CONTRAST_OF_ERROR * most)};
+    for (;;) {
+        if (!adaptive_refine(adaptive, outcome->threshold, observer, error) ||
+            !estimate(adaptive, &sums, outcome, error))
+            return false;
+        outcome->reached = outcome->estimate <= most;
+        if (outcome->reached || !adaptive_is_whole(adaptive) ||
+            outcome->threshold < LEAST_THRESHOLD)
+            return true;
+        outcome->threshold = lower_threshold(outcome->threshold, outcome->estimate, most);
+    }
+}
+
+// What passes are known to take.
+typedef struct {
+    double start, seconds; // of all
+    double of_sample;      // seconds, in the latest pass
+    double of_look;        // seconds of looking at all cells, which storing takes as well
+} Pace;
+
+// How many samples there is time for.
+static double samples_in_time(const Pace *pace)
+{
+    const double left = pace->seconds - (clock_seconds() - pace->start) - pace->of_look;
+    if (left < PART_UNSPENT * pace->seconds)
+        return 0;
+    return (left < PART_OF_LAST * pace->seconds ? 1 : PART_OF_STEP) * left / pace->of_sample;
+}
+
+// Returns whether there was time for a pass, and something to do.
+static bool pass_in_time(Adaptive *adaptive, const CellSums *sums, Pace *pace,
+                         const RenderObserver *observer, GoalOutcome *outcome, Error *error)
+{
+    const double cells = samples_in_time(pace) / ADAPTIVE_CUT;
+    const float affordable = cell_sums_threshold(sums, cells);
+    const float threshold = fmaxf(affordable, outcome->threshold * TIME_FALL_MOST);
+    const double start = clock_seconds();
+    const uint64_t before = adaptive->samples;
+    if (cells < 1 || !adaptive_is_whole(adaptive) ||
+        !adaptive_refine_once(adaptive, threshold, observer, error))
+        return false;
+    const double taken = clock_seconds() - start;
+    const uint64_t samples = adaptive->samples - before;
+    outcome->threshold = threshold;
+    if (samples > SAMPLES_THAT_TELL)
+        pace->of_sample = taken / (double)samples;
+    return samples > 0 || threshold > LEAST_THRESHOLD;
+}
+
+bool goal_spend_time(Adaptive *adaptive, double start, double seconds,
+                     const RenderObserver *observer, GoalOutcome *outcome, Error *error)
+{
+    const double passed = clock_seconds() - start;
+    Pace pace = {start, seconds, passed / (double)adaptive->samples, 0};
+    CellSums sums;
+    *outcome = (GoalOutcome){.threshold = 1, .reached = passed < seconds};
+    do {
+        const double look = clock_seconds();
+        if (!estimate(adaptive, &sums, outcome, error))
+            return false;
+        pace.of_look = clock_seconds() - look;
+    } while (pass_in_time(adaptive, &sums, &pace, observer, outcome, error));
+    return error->text[0] == '\0';
+}

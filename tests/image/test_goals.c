@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Errors that were asked for are held, at a fraction of what samples everywhere would cost.
+#include "image/picture.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define SCENES CLRT_SOURCE_FOLDER "/scenes/"
+#define SIDE   200
+
+static const struct {
+    const char *path;
+    uint32_t view;
+} pictures[] = {
+    {SCENES "simple.scn", 1},      {SCENES "simple.scn", 4},
+    {SCENES "reflections.scn", 1}, {SCENES "reflections.scn", 3},
+    {SCENES "blinn_phong.scn", 2}, {SCENES "matte.scn", 1},
+    {SCENES "silhouette.scn", 5},  {SCENES "creature.scn", 1},
+    {SCENES "creature.scn", 3},    {CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1}};
+#define PICTURE_COUNT (sizeof pictures / sizeof pictures[0])
+
+static const double goals[] = {0.02, 0.01, 0.005, 0.002};
+#define GOAL_COUNT (sizeof goals / sizeof goals[0])
+
+static Framebuffer rendered(const PictureRequest *request)
+{
+    Framebuffer picture;
+    Error error = {0};
+    if (!picture_render(&picture, request, &error))
+        fail_msg("%s", error.text);
+    return picture;
+}
+
+static double error_between(const Framebuffer *one, const Framebuffer *other)
+{
+    const size_t values = (size_t)one->width * one->height * 3;
+    const float *first = &one->pixels[0][0], *second = &other->pixels[0][0];
+    double sum = 0;
+    for (size_t i = 0; i < values; i++)
+        sum += pow((double)first[i] - (double)second[i], 2);
+    return sqrt(sum / (double)values);
+}
+
+// Returns whether the error is within a tenth of the goal, and adds the samples that it took.
+static bool holds(const PictureRequest *request, double goal, const Framebuffer *reference,
+                  uint64_t *samples)
+{
+    uint64_t count;
+    PictureRequest wanted = *request;
+    wanted.error_goal = goal;
+    wanted.sample_count = &count;
+    Framebuffer picture = rendered(&wanted);
+    const double reached = error_between(&picture, reference);
+    framebuffer_free(&picture);
+    *samples += count;
+    if (reached > 1.1 * goal)
+        print_message("%s, view %u: %g instead of %g\n", request->scene_path, request->view,
+                      reached, goal);
+    return reached <= 1.1 * goal;
+}
+
+// The fewest samples of a grid, along a side, whose error is no larger than the goal.
+static uint32_t side_that_holds(const PictureRequest *request, double goal,
+                                const Framebuffer *reference)
+{
+    for (uint32_t side = 1;; side++) {
+        PictureRequest uniform = *request;
+        uniform.samples = side;
+        Framebuffer picture = rendered(&uniform);
+        const double reached = error_between(&picture, reference);
+        framebuffer_free(&picture);
+        if (reached <= goal)
+            return side;
+    }
+}
+
+static void errors_asked_for_are_held_in_95_percent_of_pictures(void **state)
+{
+    (void)state;
+    unsigned held = 0;
+    uint64_t samples[GOAL_COUNT] = {0}, uniform[GOAL_COUNT] = {0};
+    for (size_t i = 0; i < PICTURE_COUNT; i++) {
+        PictureRequest request = picture_request(pictures[i].path, pictures[i].view);
+        request.width = request.height = SIDE;
+        PictureRequest many = request;
+        many.samples = 20;
+        Framebuffer reference = rendered(&many);
+        for (size_t goal = 0; goal < GOAL_COUNT; goal++) {
+            const uint32_t side = side_that_holds(&request, goals[goal], &reference);
+            held += holds(&request, goals[goal], &reference, &samples[goal]);
+            uniform[goal] += (uint64_t)SIDE * SIDE * side * side;
+        }
+        framebuffer_free(&reference);
+    }
+    assert_true(100 * held >= 95 * PICTURE_COUNT * GOAL_COUNT);
+    for (size_t goal = 0; goal < GOAL_COUNT; goal++) {
+        print_message("%g: %.1f times fewer samples\n", goals[goal],
+                      (double)uniform[goal] / (double)samples[goal]);
+        assert_true(2 * samples[goal] <= 3 * uniform[goal]);
+        assert_true(goals[goal] > 0.005 || 3 * samples[goal] <= uniform[goal]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_asked_for_are_held_in_95_percent_of_pictures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
