@@ -66,10 +66,11 @@ bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserv
     Crew *crew = crew_open(threads_allowed(run->options->threads));
     const AdaptiveSetup setup = {&run->renderer, &run->flat, camera, crew};
     bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
-              refine(run, &adaptive, start, observer, error) &&
-              keep_counts(run, &adaptive.tree, error);
-    if (ok)
+              refine(run, &adaptive, start, observer, error);
+    if (ok) {
         adaptive_store(&adaptive, &run->framebuffer);
+        ok = keep_counts(run, &adaptive.tree, error);
+    }
     adaptive_close(&adaptive);
     crew_close(crew);
     return ok;

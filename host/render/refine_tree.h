@@ -77,7 +77,6 @@ void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t plac
 // How many samples a pixel has.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
 
-// The mean over the samples of a row of pixels, weighted by their cells.
 // The mean over the samples of what a group cuts, weighted by their cells.
 void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);
 
