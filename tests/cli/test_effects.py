@@ -36,8 +36,6 @@ TRIALS = {
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
-    "error": (PLAIN, PLAIN + ["--error", "1%"]),
-    "time": (PLAIN, PLAIN + ["--time", "0.2"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
     "error": (PLAIN, PLAIN + ["--error", "0.1%"]),
     "time": (PLAIN, PLAIN + ["--time", "0.1"]),
