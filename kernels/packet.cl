@@ -211,7 +211,9 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     const Real clear = closed && t > 0.0f ? t : INFINITY;
     Truth near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
-        near = near && triangle_is_at_eye(t, shear);
+        near = near && triangle_is_at_origin(t, shear);
+    else if (ray->kind == RAY_REFLECTED)
+        near = near && (t > 0.0f || triangle_is_at_origin(t, shear));
     if (!any_lane(near))
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);

@@ -118,7 +118,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
         return INFINITY;
     const Real t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
-    if (ray->kind == RAY_CAMERA && !triangle_is_at_eye(t, &query->shear))
+    if (ray->kind == RAY_CAMERA && !triangle_is_at_origin(t, &query->shear))
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};

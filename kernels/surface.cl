@@ -16,7 +16,7 @@ typedef struct {
     Real3 toward_viewer; // unit
     Count id, material;
     Count index;     // of a triangle; NOTHING for spheres
-    Real room, edge; // the first over the second is the point's distance from the edges, at least
+    Real room, edge; // the point is room / edge away from the edges, to a factor of 2
 } Surface;
 
 static inline Truth has_length(Real3 v)
@@ -76,13 +76,13 @@ static inline View view_of(const Corners *corners, Real3 origin, Real3 direction
 }
 
 // A weight is the share of the altitude that a point is away from an edge, and the altitude twice
-// the area over the edge's length; largest components are within a factor of 2 of lengths.
+// the area over the edge's length.
 static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real area = largest_component(cross_product(ab, ac));
     surface->room = min(min(weights.x, weights.y), weights.z) * area;
-    surface->edge = 2.0f * (largest_component(ab) + largest_component(ac));
+    surface->edge = largest_component(ab) + largest_component(ac);
 }
 
 static inline Surface triangle_surface(const SceneView *scene, const FrameData *frame,
@@ -201,7 +201,7 @@ static inline Real3 point_left(const SceneView *scene, const Surface *surface, R
                                Truth active)
 {
     const Real sine = fabs(dot_product(surface->face, direction));
-    const Real least = 4.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
+    const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
     const Truth near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
         return surface->point;

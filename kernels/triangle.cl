@@ -77,9 +77,9 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Whether a camera ray meets the triangle so near to the eye that rounding may decide whether it
-// does so before or behind: coordinates are at most 1, which bounds that error by 2^-17.
-static inline Truth OVERLOAD triangle_is_at_eye(Real t, const Shear *shear)
+// Whether a ray meets the triangle so near to its origin that rounding may decide whether it does
+// so before or behind: coordinates are at most 1, which bounds that error by 2^-17.
+static inline Truth OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }

@@ -170,7 +170,9 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const float8 clear = closed && t > 0.0f ? t : INFINITY;
     int8 near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
-        near = near && triangle_is_at_eye(t, shear);
+        near = near && triangle_is_at_origin(t, shear);
+    else if (ray->kind == RAY_REFLECTED)
+        near = near && (t > 0.0f || triangle_is_at_origin(t, shear));
     if (lane_bits(near) == 0)
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
