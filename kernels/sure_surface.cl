@@ -12,6 +12,7 @@ typedef struct {
     Real normal_doubt, face_doubt, viewer_doubt;
     Count id, material;
     bool is_sphere;
+    Real room, edge; // the first over the second is the point's distance from the edges, at least
 } FatSurface;
 
 // What moves a vector of this length by `doubt` turns it by less than this.
@@ -44,6 +45,17 @@ static inline void face_viewer(FatSurface *surface, bool front)
         return;
     surface->normal = negative3(surface->normal);
     surface->face = negative3(surface->face);
+}
+
+// How far from the edges sliding leaves the point.
+static inline void note_room(FatSurface *surface, const Corners *corners, Real3 weights)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real area = largest_component(cross_product(ab, ac));
+    const Real sides = length_of(ab) + length_of(ac);
+    surface->room =
+        min(min(weights.x, weights.y), weights.z) * area - 1.01f * surface->end.slide * sides;
+    surface->edge = 2.0f * (largest_component(ab) + largest_component(ac));
 }
 
 static inline FatPoint fat_point(const ThickRay *ray, const Corners *corners, const Sight *sight,
@@ -84,6 +96,7 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
         const Corners normals = fetch_normals(scene, look.normals);
         interpolate_normal(&surface, &normals, weights, &corners, ray->u);
     }
+    note_room(&surface, &corners, weights);
     face_viewer(&surface, sight.edges.determinant > 0.0f);
     return surface;
 }
@@ -149,7 +162,8 @@ static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_
 }
 
 // Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near
-// it either is taken, with the difference in doubt.  A sphere's face is its normal.
+// it either is taken, with the difference in doubt.  A sphere's face is its normal.  Nearer to an
+// edge than 64u over the sine at which it leaves, a ray may start up to 26u beside its point.
 static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;
@@ -164,14 +178,18 @@ static inline ThickRay thick_reflected_ray(const FatSurface *surface, const Thic
     } else if (!surface->is_sphere && height <= height_doubt) {
         doubt += 4.0f * height_doubt + 12.0f * u;
     }
-    ThickRay ray = {.origin = surface->end.point,
-                    .around = radius_of(&surface->end),
+    FatPoint start = surface->end;
+    const Real sine = fabs(dot_product(direction, surface->face)) - doubt - surface->face_doubt;
+    if (!surface->is_sphere && !(surface->room * sine > 71.0f * u * surface->edge))
+        start.lift += 26.0f * u;
+    ThickRay ray = {.origin = start.point,
+                    .around = radius_of(&start),
                     .spread = spread_of(1.01f * doubt),
                     .length = INFINITY,
                     .u = before->u,
                     .own = surface->id,
                     .kind = RAY_REFLECTED,
-                    .end = surface->end};
+                    .end = start};
     look_along(&ray, unit_vector(direction));
     return ray;
 }

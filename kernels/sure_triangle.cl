@@ -137,15 +137,6 @@ static inline Candidate candidate_none(void)
     return (Candidate){ANSWER_NO, INFINITY, INFINITY};
 }
 
-static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight)
-{
-    Candidate candidate = depth_of(sight, ray->u);
-    if (candidate.high < 0.0f)
-        return candidate_none();
-    candidate.met = sight->inside && candidate.low > 0.0f ? ANSWER_YES : ANSWER_UNKNOWN;
-    return candidate;
-}
-
 static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *sight, int side)
 {
     Candidate candidate = depth_of(sight, ray->u);
@@ -158,6 +149,25 @@ static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *si
     const bool clear = front || candidate.low > margin;
     candidate.met = sight->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;
     candidate.low = max(candidate.low, (Real)(0.0f));
+    return candidate;
+}
+
+// Nearer to the eye than this a camera ray's start counts as a surface point.
+#define AT_EYE 0x1p-15f
+
+static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight,
+                                         const Corners *corners)
+{
+    Candidate candidate = depth_of(sight, ray->u);
+    if (candidate.high < -margin_of(sight, ray->u))
+        return candidate_none();
+    const bool is_clear = sight->inside && candidate.low > AT_EYE;
+    candidate.met = is_clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    if (candidate.low > AT_EYE)
+        return candidate;
+    const Candidate near = reflected_candidate(ray, sight, side_of(corners, &ray->end, ray->u));
+    if (near.met == ANSWER_NO || (near.met == ANSWER_YES && candidate.low > 0.0f))
+        return near;
     return candidate;
 }
 
@@ -196,7 +206,7 @@ static inline Candidate triangle_candidate(const ThickRay *ray, global const Tri
     if ((sight.clear && !sight.inside) || is_surely_open(ray, &sight, two_sided))
         return candidate_none();
     if (ray->kind == RAY_CAMERA)
-        return camera_candidate(ray, &sight);
+        return camera_candidate(ray, &sight, &corners);
     const int side = side_of(&corners, &ray->end, ray->u);
     if (ray->kind == RAY_REFLECTED)
         return reflected_candidate(ray, &sight, side);

@@ -147,7 +147,8 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
         .length = INFINITY,
         .u = u,
         .own = NOTHING,
-        .kind = RAY_CAMERA};
+        .kind = RAY_CAMERA,
+        .end = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
     look_along(&thick, unit_vector(ray.direction));
     return thick;
 }

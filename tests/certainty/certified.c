@@ -47,6 +47,27 @@ static RenderSettings settings_of(const Scene *scene, const CertifiedView *view)
                             .specialization = SPECIALIZE_NEVER};
 }
 
+static bool look(Certified *certified, const RendererSetup *setup, const Renderer *renderer,
+                 const Normalization *normalization, Error *error)
+{
+    AovSet set = 0;
+    AovPass pass = {0};
+    Layers *seen = &certified->seen;
+    const AovSource source = {.setup = setup,
+                              .renderer = renderer,
+                              .camera = certified->camera,
+                              .center = certified->camera,
+                              .scene = {normalization, certified->flat.light_count}};
+    if (!aov_read_list("primitive,material,shadow", &set, error))
+        return false;
+    aov_name_layers(set, seen);
+    const bool ok =
+        layers_make(seen, certified->settings.width, certified->settings.height, error) &&
+        aov_pass_open(&pass, set, &source, error) && aov_pass_draw(&pass, NULL, seen, error);
+    aov_pass_close(&pass);
+    return ok;
+}
+
 static bool draw_plain(Certified *certified, const Office *office, const Scene *scene, Error *error)
 {
     const KernelWish nothing = {0};
@@ -56,10 +77,12 @@ static bool draw_plain(Certified *certified, const Office *office, const Scene *
     settings.group_width = settings.group_height = kernel_group_side(&setup.source.choice);
     FlatScene flat = {0};
     Renderer renderer = {0};
+    const Normalization normalization = normalization_of(scene);
     const bool ok = flatten(&flat, scene, setup.source.choice.nodes, error) &&
                     renderer_open(&renderer, &setup, &flat, &settings, error) &&
                     framebuffer_make(&certified->plain, settings.width, settings.height, error) &&
-                    renderer_draw(&renderer, &certified->camera, NULL, &certified->plain, error);
+                    renderer_draw(&renderer, &certified->camera, NULL, &certified->plain, error) &&
+                    look(certified, &setup, &renderer, &normalization, error);
     renderer_close(&renderer);
     flat_free(&flat);
     return ok;
@@ -108,6 +131,7 @@ bool certified_make(Certified *certified, const Office *office, const Scene *sce
 void certified_free(Certified *certified)
 {
     certainty_map_free(&certified->map);
+    layers_free(&certified->seen);
     framebuffer_free(&certified->plain);
     framebuffer_free(&certified->picture);
     flat_free(&certified->flat);

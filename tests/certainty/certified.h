@@ -2,7 +2,7 @@
 // A scene -> what is certain in its picture, by the stages that the program has.
 #pragma once
 
-#include "render/certifier.h"
+#include "render/aov_pass.h"
 
 // A device that stays open for a group of tests.
 typedef struct {
@@ -24,6 +24,7 @@ typedef struct {
     CameraData camera;
     RenderSettings settings;
     Framebuffer plain, picture; // as without certainty, and with what was repaired
+    Layers seen; // of the plain picture's first hits: primitive, material, share of lights
     CertaintyMap map;
 } Certified;
 

@@ -9,6 +9,7 @@
 #include "image/inline_scenes.h"
 #include "scene/scn.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -29,6 +30,39 @@ static uint64_t count_changed(const Certified *certified, Certainty certainty)
     return changed;
 }
 
+// The plain picture's first hit, its material, and the share of lights that shine there.
+typedef struct {
+    uint32_t primitive, material;
+    float share;
+} Seen;
+
+// On silhouettes no light is looked for.
+static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
+{
+    if (seen->primitive != mark->first_id)
+        return false;
+    if (seen->primitive == NOTHING ||
+        certified->flat.materials[seen->material].shader == SHADER_SILHOUETTE)
+        return true;
+    const long lights = lroundf(seen->share * (float)certified->flat.light_count);
+    return lights == __builtin_popcount(mark->lit);
+}
+
+// Certified pixels that the plain picture decided otherwise.
+static uint64_t count_unlike_plain(const Certified *certified)
+{
+    uint64_t unlike = 0;
+    const CertaintyMap *map = &certified->map;
+    for (uint32_t y = 0; y < map->height; y++)
+        for (uint32_t x = 0; x < map->width; x++) {
+            Seen seen;
+            const CertaintyMark *mark = &map->marks[(size_t)y * map->width + x];
+            memcpy(&seen, layers_at(&certified->seen, x, y), sizeof seen);
+            unlike += mark->certainty == CERTAINTY_CERTIFIED && !is_alike(certified, mark, &seen);
+        }
+    return unlike;
+}
+
 // floor: of 1000 pixels, how many must be certified.
 static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t view,
                        uint32_t floor)
@@ -44,19 +78,23 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     const uint64_t *counts = certified.map.counts;
     const uint64_t pixels = counts[0] + counts[1] + counts[2];
     const uint64_t wrong = comparison.first + comparison.deeper + comparison.unsettled;
+    const uint64_t unlike = count_unlike_plain(&certified);
     const uint64_t changed =
         count_changed(&certified, CERTAINTY_CERTIFIED) + count_changed(&certified, CERTAINTY_OPEN);
-    print_message("%s view %u: %.2f %% certified, %.2f %% repaired, %.2f %% open; %llu compared, "
-                  "%llu in 113 bits, wrong first %llu, deeper %llu, unsettled %llu; %llu changed\n",
-                  name, view, 100 * (double)counts[CERTAINTY_CERTIFIED] / (double)pixels,
-                  100 * (double)counts[CERTAINTY_REPAIRED] / (double)pixels,
-                  100 * (double)counts[CERTAINTY_OPEN] / (double)pixels,
-                  (unsigned long long)comparison.compared, (unsigned long long)comparison.in_113,
-                  (unsigned long long)comparison.first, (unsigned long long)comparison.deeper,
-                  (unsigned long long)comparison.unsettled, (unsigned long long)changed);
+    print_message(
+        "%s view %u: %.2f %% certified, %.2f %% repaired, %.2f %% open; %llu compared, "
+        "%llu in 113 bits, wrong first %llu, deeper %llu, unsettled %llu; %llu changed, %llu "
+        "unlike\n",
+        name, view, 100 * (double)counts[CERTAINTY_CERTIFIED] / (double)pixels,
+        100 * (double)counts[CERTAINTY_REPAIRED] / (double)pixels,
+        100 * (double)counts[CERTAINTY_OPEN] / (double)pixels,
+        (unsigned long long)comparison.compared, (unsigned long long)comparison.in_113,
+        (unsigned long long)comparison.first, (unsigned long long)comparison.deeper,
+        (unsigned long long)comparison.unsettled, (unsigned long long)changed,
+        (unsigned long long)unlike);
     sum->pixels += pixels;
     sum->compared += comparison.compared;
-    sum->wrong += wrong + changed;
+    sum->wrong += wrong + changed + unlike;
     sum->poor += counts[CERTAINTY_CERTIFIED] * 1000 < floor * pixels;
     certified_free(&certified);
 }
