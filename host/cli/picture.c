@@ -91,6 +91,7 @@ static bool draw_layers(Run *run, Error *error)
                               .scene = {&run->normalization, run->flat.light_count},
                               .certainty = run->certainty.marks != NULL ? &run->certainty : NULL};
     aov_name_layers(aovs, &run->layers);
+    reference_name_layer(run->options, &run->layers);
     if (!layers_make(&run->layers, settings->width, settings->height, error))
         return false;
     if (aovs == 0 || run->stopped_by != 0)
@@ -128,7 +129,7 @@ static bool write_picture(Run *run, Error *error)
                                     .encoding = options->encoding,
                                     .texts = texts.texts,
                                     .text_count = REPORT_TEXTS,
-                                    .layers = options->aovs != 0 ? &run->layers : NULL};
+                                    .layers = run->layers.count > 0 ? &run->layers : NULL};
     const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
     run->report.write = run_lap(&moment);
     return ok;

@@ -12,9 +12,12 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
+
+#define ERROR_CHANNEL "error"
 
 // The second run, of which the halves are made.
 typedef struct {
@@ -41,8 +44,9 @@ static Options options_of(const Options *picture)
     // Where the picture's levels follow from an error, the reference has as many as floats show.
     options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);
     options.format = "pfm";
-    options.contrast = options.error_goal = options.time_goal = 0;
     options.group_width = options.group_height = 0;
+    options.contrast = options.error_goal = options.time_goal = 0;
+    options.aovs = 0;
     options.statistics = false;
     options.quiet = true;
     return options;
@@ -134,6 +138,28 @@ static StoredImage stored_view(const Framebuffer *framebuffer)
                          .values = framebuffer->pixels[0]};
 }
 
+// The largest of the three colors' differences.
+static float error_of(const float drawn[3], const float truth[3])
+{
+    float largest = 0;
+    for (int color = 0; color < 3; color++)
+        largest = fmaxf(largest, fabsf(drawn[color] - truth[color]));
+    return largest;
+}
+
+static void store_errors(Run *picture)
+{
+    Layers *layers = &picture->layers;
+    if (layers->count == 0 || strcmp(layers->list[layers->count - 1].name, ERROR_CHANNEL) != 0)
+        return;
+    const size_t pixels = (size_t)layers->width * layers->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        const float off =
+            error_of(picture->framebuffer.pixels[pixel], picture->reference.pixels[pixel]);
+        memcpy(&layers->values[(pixel + 1) * layers->count - 1], &off, sizeof off);
+    }
+}
+
 static bool measure(Reference *reference, Run *picture, Error *error)
 {
     ReferenceResult *result = &picture->report.reference;
@@ -147,6 +173,7 @@ static bool measure(Reference *reference, Run *picture, Error *error)
     if (!image_pair_check(&pair, error))
         return false;
     difference_measure(&result->difference, &pair);
+    store_errors(picture);
     return true;
 }
 
@@ -160,6 +187,12 @@ static bool draw_and_measure(Reference *reference, Run *picture, Error *error)
     }
     return open_run(reference, picture, error) && draw_passes(reference, picture, error) &&
            (picture->stopped_by != 0 || measure(reference, picture, error));
+}
+
+void reference_name_layer(const Options *options, Layers *layers)
+{
+    if (options->reference && image_format_takes_layers(options->format))
+        layers->list[layers->count++] = (LayerType){.name = ERROR_CHANNEL};
 }
 
 bool reference_measure(Run *run, Error *error)

@@ -5,7 +5,12 @@
 
 #include "cli/run.h"
 
-// Draws the reference of run's picture into run->reference, and measures the difference.  Its rays
+// Adds the channel of each pixel's error behind the others, where one is asked for and the file's
+// format takes it: the largest difference of its colors.
+void reference_name_layer(const Options *options, Layers *layers);
+
+// Draws the reference of run's picture into run->reference, and measures the difference,
+// which goes to the channel as well.  Its rays
 // are followed as far as the scene or the picture's settings say, whichever is farther.  A
 // picture that was stopped is not measured, nor one whose reference is.
 bool reference_measure(Run *run, Error *error);

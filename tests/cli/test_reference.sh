@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # --reference: what it says of pictures whose error is known to fall, and of itself.
-# Usage: CLRT=path/to/clrt test_reference.sh SOURCE_FOLDER WORK_FOLDER
+# Usage: CLRT=path/to/clrt FORMATS="png, pfm" test_reference.sh SOURCE_FOLDER WORK_FOLDER
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 source=$1
@@ -54,6 +54,24 @@ told, found = json.load(open('one.json'))['reference']['own_error'], json.load(o
 assert 0.6 < found / told < 1.6, (found, told)"
 check "another grid of samples agrees" run 0 "$scene" -s 96x72 -q -o grid.pfm --aa=24 --precision fp64
 check "... within what both are off by" run 0 compare grid.pfm fine.pfm --fail rmse=0.0006
+
+check "adaptive pictures are measured" run 0 "$scene" "${small[@]}" --aa-adaptive=0.01 --reference=two.pfm --stats=adaptive.json
+check "... against the same reference" same one.pfm two.pfm
+check "... and are better than one sample" holds "r['rmse'] < 0.3 * s['rmse']" adaptive.json one.json
+
+case $FORMATS in *exr*)
+  colored="$source/tests/image/every_feature.scn"
+  errors() {
+    rate=$(python3 -c "import json; r = json.load(open('exr.json'))['reference']; print(r['maximum'], r['share_off_by_1'])")
+    read -r most share <<<"$rate"
+    "$here/read_exr.py" a.exr "types['error'] == 'float' and abs(max(c['error']) - $most) < 1e-7 and sum(e > 1 / 255 + 2 ** -22 for e in c['error']) / len(c['error']) == $share"
+  }
+  check "an EXR file has every pixel's error" run 0 "$colored" -s 96x72 -o a.exr --reference --stats=exr.json
+  check "... as the statistics sum it up" errors
+  check "... behind other channels, too" run 0 "$colored" -s 96x72 -o a.exr --aov primitive,depth --reference --stats=exr.json
+  check "... of the same values" errors
+  check "... and leaves those alone" "$here/read_exr.py" a.exr "types['primitive'] == 'uint' and len(set(c['primitive'])) > 3 and max(c['error']) < 1" ;;
+esac
 
 check "bounces left out are an error" run 0 "$scene" "${small[@]}" --aa=4 --max-level 1 --reference --stats=level.json
 check "... large enough to be seen" holds "r['rmse'] > 3 * s['rmse']" level.json four.json

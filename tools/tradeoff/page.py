@@ -24,7 +24,7 @@ th:first-child, td:first-child { text-align: left; } td:first-child { white-spac
 tr.beaten { color: #6b7280; } tr.front td:first-child { font-weight: 600; }
 .wide { overflow-x: auto; } .wide svg { max-width: 100%; height: auto; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; } figure { margin: 0; width: 17.5rem; }
-figure img { width: 100%; image-rendering: pixelated; display: block; margin-bottom: 0.3rem; }
+figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb; image-rendering: pixelated; display: block; margin-bottom: 0.3rem; }
 figcaption, .note { font-size: 0.85rem; color: #4b5563; }
 """
 
@@ -42,7 +42,7 @@ COLUMNS = [
     ("SSIM", "ssim", lambda v: f"{v:.5f}"),
     ("mean FLIP", "flip", lambda v: f"{v:.5f}"),
     ("Mrays/s", "megarays_per_second", lambda v: f"{v:.1f}"),
-    ("MB on the device", "bytes", lambda v: f"{v / 1e6:.2f}"),
+    ("kB on the device", "bytes", lambda v: f"{v / 1e3:.1f}"),
 ]
 
 

@@ -29,17 +29,20 @@ def draw_rows(axes, rows):
             axes.plot([row["fastest"], row["slowest"]], [100 * row["rmse"]] * 2, color=color,
                       linewidth=1, alpha=0.5, zorder=2)
             axes.plot(row["milliseconds"], 100 * row["rmse"], marker, color=color, markersize=7,
-                      markerfacecolor=color if row["front"] else "white", zorder=3,
-                      label=label if row is own[0] else None)
+                      markerfacecolor=color if row["front"] else "white", zorder=3)
+        if own:
+            axes.plot([], [], marker, color=color, markersize=7, label=label)
 
 
 def name_rows(axes, rows):
     """Names what is on the front, and the base."""
-    for row in rows:
-        if row["front"] or row["setting"] == grid.BASE:
-            axes.annotate(row["setting"].replace("max-level", "level"),
-                          (row["milliseconds"], 100 * row["rmse"]), xytext=(7, 5),
-                          textcoords="offset points", fontsize=8)
+    named = [row for row in rows if row["front"] or row["setting"] == grid.BASE]
+    for place, row in enumerate(sorted(named, key=lambda row: row["milliseconds"])):
+        above = place % 2 == 0  # by turns, as neighbors on the front are close
+        axes.annotate(row["setting"].replace("max-level", "level"),
+                      (row["milliseconds"], 100 * row["rmse"]), xytext=(7, 5) if above else (-7, -5),
+                      ha="left" if above else "right", va="bottom" if above else "top",
+                      textcoords="offset points", fontsize=8)
 
 
 def style(axes, scene):
