@@ -16,8 +16,8 @@ static float larger(float a, float b)
 }
 
 // Off the line, where `before` weighs weight and `after` the rest.
-static float bend(const SampleData *before, const SampleData *at, const SampleData *after,
-                  float weight)
+static inline float bend(const SampleData *before, const SampleData *at, const SampleData *after,
+                         float weight)
 {
     float most = 0;
     for (int channel = 0; channel < 3; channel++) {
