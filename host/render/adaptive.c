@@ -101,11 +101,24 @@ static void mark_groups(void *context, uint32_t task, uint32_t worker)
         marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
 }
 
+static bool cut_pixels_of_block(RefineTree *tree, const uint16_t *marks, uint32_t left,
+                                uint32_t top, Error *error)
+{
+    const uint32_t right = end_of(left / PACKET_SIDE, PACKET_SIDE, tree->width);
+    const uint32_t bottom = end_of(top / PACKET_SIDE, PACKET_SIDE, tree->height);
+    for (uint32_t y = top; y < bottom; y++)
+        for (uint32_t x = left; x < right; x++)
+            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+                return false;
+    return true;
+}
+
+// Block by block, so that samples which follow each other in a list are near each other too.
 static bool cut_pixels(RefineTree *tree, const uint16_t *marks, Error *error)
 {
-    for (uint32_t y = 0; y < tree->height; y++)
-        for (uint32_t x = 0; x < tree->width; x++)
-            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+    for (uint32_t top = 0; top < tree->height; top += PACKET_SIDE)
+        for (uint32_t left = 0; left < tree->width; left += PACKET_SIDE)
+            if (!cut_pixels_of_block(tree, marks, left, top, error))
                 return false;
     return true;
 }
