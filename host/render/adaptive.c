@@ -40,6 +40,7 @@ static void mark_rows(void *context, uint32_t task, uint32_t worker)
         for (uint32_t x = 0; x < tree->width; x++) {
             const size_t pixel = (size_t)y * tree->width + x;
             marking->marks[pixel] = tree->pixel_groups[pixel] == 0 &&
+                                    contrast_may_exceed(tree, x, y, marking->threshold) &&
                                     contrast_of_pixel(tree, x, y) > marking->threshold;
         }
 }
