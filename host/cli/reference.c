@@ -38,6 +38,9 @@ static Options options_of(const Options *picture)
     Options options = *picture;
     options.kernel = (KernelWish){.choice.precision = PRECISION_FP64};
     options.samples = 1;
+    // Where the picture's levels follow from an error, the reference has as many as floats show.
+    options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);
+    options.format = "pfm";
     options.contrast = options.error_goal = options.time_goal = 0;
     options.group_width = options.group_height = 0;
     options.statistics = false;

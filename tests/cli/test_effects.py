@@ -39,8 +39,6 @@ TRIALS = {
     "error": (PLAIN, PLAIN + ["--error", "1%"]),
     "time": (PLAIN, PLAIN + ["--time", "0.2"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
-    "error": (PLAIN, PLAIN + ["--error", "0.1%"]),
-    "time": (PLAIN, PLAIN + ["--time", "0.1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
     "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),
     "no-bvh": (PICTURE + ["--bvh", "sah"], PICTURE + ["--no-bvh"]),
