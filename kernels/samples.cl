@@ -13,10 +13,16 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, C
     sample->signature = ((const uint *)&signature)[lane];
 }
 
+// Samples that a work-item takes, a packet after the other.
+#if CLRT_LANES == 1
+#define ITEM_SAMPLES 1
+#else
+#define ITEM_SAMPLES (PACKET_SIDE * PACKET_SIDE)
+#endif
+
 // Places first to end - 1, each two coordinates in sub-pixels, are sampled into the same elements
-// of samples; the coordinate NOTHING leaves one out.  A work-item takes as many that follow each
-// other as it has lanes; tallies are written where it begins, and only where statistics are
-// compiled in.
+// of samples; the coordinate NOTHING leaves one out.  A work-item takes ITEM_SAMPLES that follow
+// each other; tallies are written where a packet begins, and only where statistics are compiled in.
 kernel void trace_samples(const FrameData frame, global const PointLight *lights,
                           global const Material *materials, global const SphereData *spheres,
                           global const Node *nodes, global const Triangles *triangles,
@@ -24,18 +30,18 @@ kernel void trace_samples(const FrameData frame, global const PointLight *lights
                           global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {
-    const uint start = first + CLRT_LANES * (uint)get_global_id(0);
-    if (start >= end)
-        return;
     const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
-    const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Count word = 2 * min(number, (Count)(end - 1));
-    const Count x = gather(places, word), y = gather(places, word + 1);
-    const Places asked = {x, y, number < end && x != NOTHING};
-    Tally tally = {0};
-    const Real3 color = scaled3(0x1p-32f, sample_color(&scene, &frame, &asked, &tally));
-    for (uint lane = 0; lane < min((uint)CLRT_LANES, end - start); lane++)
-        store_sample(samples + start + lane, &color, tally.signature, lane);
-    if (CLRT_STATISTICS)
-        store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
+    const uint begin = first + ITEM_SAMPLES * (uint)get_global_id(0);
+    for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += CLRT_LANES) {
+        const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
+        const Count word = 2 * min(number, (Count)(end - 1));
+        const Count x = gather(places, word), y = gather(places, word + 1);
+        const Places asked = {x, y, number < end && x != NOTHING};
+        Tally tally = {0};
+        const Real3 color = scaled3(0x1p-32f, sample_color(&scene, &frame, &asked, &tally));
+        for (uint lane = 0; lane < min((uint)CLRT_LANES, end - start); lane++)
+            store_sample(samples + start + lane, &color, tally.signature, lane);
+        if (CLRT_STATISTICS)
+            store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
+    }
 }

@@ -23,7 +23,7 @@ const Option option_table[] = {
      "anti-alias with N x N samples a pixel (2)"},
     {"aa-adaptive", 0, "[=T]", read_aa_adaptive, GROUP_QUALITY, CLASS_STATISTICAL,
      "anti-alias where neighbors differ, down to a contrast of T in a pixel (0.02)"},
-    {"max-level", 0, "N|auto", read_max_level, GROUP_QUALITY, CLASS_BOUNDED,
+    {"max-level", 0, "N", read_max_level, GROUP_QUALITY, CLASS_BOUNDED,
      "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
      "scene's highest reflectivity; auto: the least N for which that shows in no file"},
     {"error", 0, "E", read_error, GROUP_QUALITY, CLASS_STATISTICAL,

@@ -37,7 +37,7 @@ static bool refine(Run *run, Adaptive *adaptive, double start, const RenderObser
         ok = goal_reach_error(adaptive, error_left(run), observer, &outcome, error);
     else
         outcome.reached = false;
-    report->contrast = (double)outcome.threshold;
+    report->contrast = options->contrast > 0 ? options->contrast : (double)outcome.threshold;
     report->estimate = outcome.estimate > 0 ? hypot(outcome.estimate, truncation_of(run)) : 0;
     report->goal_missed = !outcome.reached;
     report->samples = adaptive->samples;

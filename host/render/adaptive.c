@@ -40,6 +40,7 @@ static void mark_rows(void *context, uint32_t task, uint32_t worker)
         for (uint32_t x = 0; x < tree->width; x++) {
             const size_t pixel = (size_t)y * tree->width + x;
             marking->marks[pixel] = tree->pixel_groups[pixel] == 0 &&
+                                    contrast_may_exceed(tree, x, y, marking->threshold) &&
                                     contrast_of_pixel(tree, x, y) > marking->threshold;
         }
 }
@@ -101,11 +102,24 @@ static void mark_groups(void *context, uint32_t task, uint32_t worker)
         marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
 }
 
+static bool cut_pixels_of_block(RefineTree *tree, const uint16_t *marks, uint32_t left,
+                                uint32_t top, Error *error)
+{
+    const uint32_t right = end_of(left / PACKET_SIDE, PACKET_SIDE, tree->width);
+    const uint32_t bottom = end_of(top / PACKET_SIDE, PACKET_SIDE, tree->height);
+    for (uint32_t y = top; y < bottom; y++)
+        for (uint32_t x = left; x < right; x++)
+            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+                return false;
+    return true;
+}
+
+// Block by block, so that samples which follow each other in a list are near each other too.
 static bool cut_pixels(RefineTree *tree, const uint16_t *marks, Error *error)
 {
-    for (uint32_t y = 0; y < tree->height; y++)
-        for (uint32_t x = 0; x < tree->width; x++)
-            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+    for (uint32_t top = 0; top < tree->height; top += PACKET_SIDE)
+        for (uint32_t left = 0; left < tree->width; left += PACKET_SIDE)
+            if (!cut_pixels_of_block(tree, marks, left, top, error))
                 return false;
     return true;
 }
@@ -187,24 +201,42 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
     return ok;
 }
 
-static void list_places(const RefineTree *tree, uint32_t first, SamplePlace *places)
+// What is handed to the device and taken back, group by group from `first` on.
+typedef struct {
+    RefineTree *tree;
+    uint32_t first;
+    SamplePlace *places;
+    SampleData *samples;
+} Exchange;
+
+static void list_places(void *context, uint32_t task, uint32_t worker)
 {
-    for (size_t number = first; number < tree->groups.count; number++)
+    (void)worker;
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    const size_t count = tree->groups.count - exchange->first;
+    SamplePlace *places = exchange->places + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
+    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
         for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
             uint32_t place[2];
             if (cell == GROUP_MIDDLE)
                 continue;
-            refine_tree_cell_place(&tree->groups.data[number], cell, place);
+            refine_tree_cell_place(&tree->groups.data[exchange->first + i], cell, place);
             *places++ = (SamplePlace){place[0], place[1]};
         }
 }
 
-static void take_samples(RefineTree *tree, uint32_t first, const SampleData *samples)
+static void take_samples(void *context, uint32_t task, uint32_t worker)
 {
-    for (size_t number = first; number < tree->groups.count; number++)
+    (void)worker;
+    const Exchange *exchange = context;
+    RefineTree *tree = exchange->tree;
+    const size_t count = tree->groups.count - exchange->first;
+    const SampleData *samples = exchange->samples + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
+    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
         for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
             if (cell != GROUP_MIDDLE)
-                tree->groups.data[number].cells[cell] = *samples++;
+                tree->groups.data[exchange->first + i].cells[cell] = *samples++;
 }
 
 // Traces the groups from `first` on; where the observer stops it, forgets them.
@@ -214,17 +246,19 @@ static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserve
     RefineTree *tree = &adaptive->tree;
     if (first == tree->groups.count)
         return true;
-    const uint32_t count = ADAPTIVE_CUT * ((uint32_t)tree->groups.count - first);
+    const uint32_t groups = (uint32_t)tree->groups.count - first, count = ADAPTIVE_CUT * groups;
+    const uint32_t tasks = tasks_of(groups, GROUPS_OF_TASK);
     SamplePlace *places = memory_raw(count, sizeof *places, error);
     SampleData *samples = memory_raw(count, sizeof *samples, error);
     const SampleList list = {places, samples, count};
+    Exchange exchange = {tree, first, places, samples};
     bool ok = places != NULL && samples != NULL;
     if (ok) {
-        list_places(tree, first, places);
+        crew_run(adaptive->crew, tasks, list_places, &exchange);
         ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     }
     if (ok && adaptive_is_whole(adaptive)) {
-        take_samples(tree, first, samples);
+        crew_run(adaptive->crew, tasks, take_samples, &exchange);
         tree->traced = (uint32_t)tree->groups.count;
         adaptive->samples += count;
     } else {
@@ -265,29 +299,33 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *
     return ok;
 }
 
-static void list_pixels(const RefineTree *tree, SamplePlace *places)
+// A task is a row of blocks.
+static void list_pixels(void *context, uint32_t task, uint32_t worker)
 {
-    const uint32_t count = refine_tree_places(tree), half = REFINE_GRID / 2;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t block = i / (PACKET_SIDE * PACKET_SIDE);
-        const uint32_t column = i % PACKET_SIDE, row = i / PACKET_SIDE % PACKET_SIDE;
-        const uint32_t x = block % tree->columns * PACKET_SIDE + column;
-        const uint32_t y = block / tree->columns * PACKET_SIDE + row;
-        const bool is_there = x < tree->width && y < tree->height;
-        places[i] =
-            (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
-    }
+    (void)worker;
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    const uint32_t half = REFINE_GRID / 2, top = task * PACKET_SIDE;
+    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, top);
+    for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
+        for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
+            const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
+            const bool is_there = x < tree->width && y < tree->height;
+            *places++ =
+                (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
+        }
 }
 
 static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Error *error)
 {
-    const RefineTree *tree = &adaptive->tree;
+    RefineTree *tree = &adaptive->tree;
     const uint32_t count = refine_tree_places(tree);
     SamplePlace *places = memory_raw(count, sizeof *places, error);
     const SampleList list = {places, tree->pixels, count};
     if (places == NULL)
         return false;
-    list_pixels(tree, places);
+    Exchange exchange = {.tree = tree, .places = places};
+    crew_run(adaptive->crew, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
     const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     adaptive->samples = (uint64_t)tree->width * tree->height;
     free(places);

@@ -16,8 +16,8 @@ static float larger(float a, float b)
 }
 
 // Off the line, where `before` weighs weight and `after` the rest.
-static float bend(const SampleData *before, const SampleData *at, const SampleData *after,
-                  float weight)
+static inline float bend(const SampleData *before, const SampleData *at, const SampleData *after,
+                         float weight)
 {
     float most = 0;
     for (int channel = 0; channel < 3; channel++) {
@@ -62,6 +62,45 @@ float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
     if (!is_top && !is_bottom)
         contrast = larger(contrast, bend(above, at, below, 0.5f));
     return contrast;
+}
+
+// The three channels and the signature of a sample, which processors compare at once.
+typedef float Channels __attribute__((vector_size(16)));
+typedef int32_t Bits __attribute__((vector_size(16)));
+
+static inline Channels channels_of(const SampleData *sample)
+{
+    Channels channels;
+    memcpy(&channels, sample, sizeof channels);
+    return channels;
+}
+
+static inline bool may_bend(Channels before, Channels at, Channels after, float threshold)
+{
+    const Channels bend = before + after - 2 * at;
+    const Bits beyond = (bend > threshold) | (bend < -threshold);
+    return (beyond[0] | beyond[1] | beyond[2]) != 0;
+}
+
+static inline bool saw_another(const SampleData *at, const SampleData *other)
+{
+    return at->signature != other->signature;
+}
+
+bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold)
+{
+    if (x == 0 || y == 0 || x + 1 == tree->width || y + 1 == tree->height)
+        return true;
+    const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];
+    const SampleData *left = &tree->pixels[refine_tree_place(tree, x - 1, y)];
+    const SampleData *right = &tree->pixels[refine_tree_place(tree, x + 1, y)];
+    const SampleData *above = &tree->pixels[refine_tree_place(tree, x, y - 1)];
+    const SampleData *below = &tree->pixels[refine_tree_place(tree, x, y + 1)];
+    const float least = 0.999f * threshold; // the sums are rounded in another order
+    return saw_another(at, left) || saw_another(at, right) || saw_another(at, above) ||
+           saw_another(at, below) ||
+           may_bend(channels_of(left), channels_of(at), channels_of(right), least) ||
+           may_bend(channels_of(above), channels_of(at), channels_of(below), least);
 }
 
 // The three cells of a line between what lies beyond its ends, twice as far away.

@@ -8,6 +8,9 @@
 // Of a pixel; what differs from a neighbor that met another surface or light counts four times.
 float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
 
+// Whether that may be above a threshold: false for most pixels, at a fraction of the cost.
+bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold);
+
 // Of a cell beside a group, across the side that they share; zero where all that meets there saw
 // the same.
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,

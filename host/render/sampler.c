@@ -6,15 +6,17 @@
 
 #include <stdlib.h>
 
-#define LAUNCH_ITEMS 32768
+#define LAUNCH_ITEMS 16384
 
-// The fewest lanes of wide kernels, whose number the host may not know.
-#define FEWEST_LANES 4
+// ITEM_SAMPLES of the kernel.
+static uint32_t item_samples(const Renderer *renderer)
+{
+    return renderer->nodes == NODES_WIDE ? PACKET_SIDE * PACKET_SIDE : 1;
+}
 
-// Samples that a launch takes at most, however few lanes there are.
 static uint32_t launch_samples(const Renderer *renderer)
 {
-    return renderer->nodes == NODES_WIDE ? LAUNCH_ITEMS * FEWEST_LANES : LAUNCH_ITEMS;
+    return LAUNCH_ITEMS * item_samples(renderer);
 }
 
 typedef struct {
@@ -78,8 +80,8 @@ static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
     const cl_uint first = number * most, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
     const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
-    const size_t lanes = renderer->nodes == NODES_WIDE ? FEWEST_LANES : 1;
-    const size_t grid = ((count + lanes - 1) / lanes + group - 1) / group * group;
+    const size_t samples = item_samples(renderer);
+    const size_t grid = ((count + samples - 1) / samples + group - 1) / group * group;
     cl_int status = clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof first, &first);
     status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 3, sizeof end, &end);
     if (status == CL_SUCCESS)

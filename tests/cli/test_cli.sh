@@ -129,6 +129,8 @@ check "an error that no levels hold is exit 1" run 1 mirror.scn -s 8x8 --error 1
 check "... and says so" says "clrt: the error may be 1e+02 %, more than --error allows"
 check "an error is a number" refuses 2 \
   "--error wants a number above 0 and up to 1, or 100%, not 'low'" --error low "$scene" -o a.pfm
+check "a tiny error takes doubles" pixels b.pfm --error 0.01% --stats=b.json
+check "... says the JSON" json b.json "d['settings']['precision'] == 'fp64'"
 check "time is spent" pixels b.pfm --time 0.5 --stats=b.json
 check "... on samples" json b.json "d['samples']['goal_reached'] and d['samples']['total'] > 10000"
 check "... and no more" json b.json "d['seconds']['trace'] < 2"
