@@ -69,6 +69,14 @@ class Pages(unittest.TestCase):
             self.assertRegex(page, rf"EXIT STATUS.* {code} ")
 
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_every_channel_is_in_the_page(self):
+        channels = HELP.split("\nChannels of --aov", 1)[1].split("\n\n", 1)[0]
+        names = re.findall(r"^  (\w+)", channels, re.MULTILINE)
+        self.assertTrue(names)
+        for name in names:
+            self.assertRegex(read_page(PAGES[0]), rf"CHANNELS .* {name} .* CLASSES")
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_every_command_is_in_the_page(self):
         page = read_page(PAGES[0])
         self.assertTrue(COMMANDS)
@@ -131,6 +139,8 @@ class Completions(unittest.TestCase):
             separator = "=" if value.startswith("[") else " "
             text = self.offered(shell, f"clrt a.scn --{name}{separator}")
             for word in value.strip(" [=]").split("|"):
+                if word.isupper():
+                    continue  # any value
                 self.assertRegex(text, rf"(?<!\w){word}(?!\w)", f"{shell} --{name}")
         self.assertIn("pfm", self.offered(shell, "clrt a.scn --format p"))
 

@@ -170,6 +170,11 @@ class Schemas(Run):
     def test_devices_are_as_their_schema_says(self):
         self.validate("devices", self.clrt("--list-devices=json").stdout)
 
+    def test_explanations_are_as_their_schema_says(self):
+        for pixel in ("0,0", "8,6", "7,9"):
+            words = [*SMALL, "--explain-pixel", pixel, "--json"]
+            self.validate("explanation", self.clrt(*words).stdout)
+
     def test_what_the_schemas_do_not_name_is_refused(self):
         statistics = json.loads(self.clrt(*SMALL, "-o", "a.pfm", "--stats=-").stdout)
         statistics["rays"]["lost"] = 1

@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/show.h"
+#include "render/aov.h"
 #include "value.h"
 
 #include <ctype.h>
@@ -34,14 +35,9 @@ static void write_words(FILE *stream, const Option *option)
 {
     char words[VALUE_WORDS_SIZE];
     value_name(option, words, sizeof words);
-    if (strchr(words, '|') == NULL) {
-        fprintf(stream, "Ar %s", words);
-        return;
-    }
-    char *rest = words;
-    fprintf(stream, "Cm %s", strsep(&rest, "|"));
-    while (rest != NULL)
-        fprintf(stream, " | %s", strsep(&rest, "|"));
+    const char *separator = "";
+    for (char *rest = words, *word; (word = strsep(&rest, "|")) != NULL; separator = " | ")
+        fprintf(stream, "%s%s %s", separator, isupper((unsigned char)word[0]) ? "Ar" : "Cm", word);
 }
 
 static void write_value(FILE *stream, const Option *option)
@@ -138,16 +134,24 @@ static void write_keys(FILE *stream)
     fputs(".El\n", stream);
 }
 
+static void write_channels(FILE *stream)
+{
+    fputs(".Bl -tag -width primitive\n", stream);
+    for (size_t i = 0; i < aov_count; i++) {
+        fprintf(stream, ".It Cm %s\n", aov_table[i].name);
+        write_sentence(stream, aov_table[i].help);
+    }
+    fputs(".El\n", stream);
+}
+
 static void write_line(FILE *stream, const char *line)
 {
     static const struct {
         const char *name;
         void (*write)(FILE *);
-    } gaps[] = {{"%SYNOPSIS%\n", write_synopsis},
-                {"%COMMANDS%\n", write_commands},
-                {"%OPTIONS%\n", write_options},
-                {"%CLASSES%\n", write_classes},
-                {"%KEYS%\n", write_keys}};
+    } gaps[] = {{"%SYNOPSIS%\n", write_synopsis}, {"%COMMANDS%\n", write_commands},
+                {"%OPTIONS%\n", write_options},   {"%CLASSES%\n", write_classes},
+                {"%CHANNELS%\n", write_channels}, {"%KEYS%\n", write_keys}};
     for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
         if (strcmp(line, gaps[i].name) == 0) {
             gaps[i].write(stream);

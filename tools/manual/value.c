@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The words are those that the table lists; those of --format are what the build writes.
+// The words are those that the table lists, but for names in capitals, which stand for any value;
+// those of --format are what the build writes.
 #include "value.h"
 
 #include "image/image_file.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,8 +23,9 @@ static void split(char words[VALUE_WORDS_SIZE], const char *list, const char *se
     size_t end = 0;
     while (*list != '\0') {
         const size_t length = strcspn(list, separators);
-        end += (size_t)snprintf(words + end, VALUE_WORDS_SIZE - end, "%s%.*s", end > 0 ? " " : "",
-                                (int)length, list);
+        if (!isupper((unsigned char)list[0]))
+            end += (size_t)snprintf(words + end, VALUE_WORDS_SIZE - end, "%s%.*s",
+                                    end > 0 ? " " : "", (int)length, list);
         list += length;
         list += strspn(list, separators);
     }
