@@ -21,7 +21,10 @@ bool read_aa_adaptive(Options *options, const char *value, Error *error)
 
 bool read_aov(Options *options, const char *value, Error *error)
 {
-    return aov_read_list(value, &options->aovs, error);
+    if (!aov_read_list(value, &options->aovs, error))
+        return false;
+    options->reference = options->reference || aov_needs(options->aovs, AOV_NEEDS_REFERENCE);
+    return true;
 }
 
 bool read_explain_pixel(Options *options, const char *value, Error *error)

@@ -17,8 +17,6 @@
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
 
-#define ERROR_CHANNEL "error"
-
 // The second run, of which the halves are made.
 typedef struct {
     Options options;
@@ -191,7 +189,8 @@ static bool draw_and_measure(Reference *reference, Run *picture, Error *error)
 
 void reference_name_layer(const Options *options, Layers *layers)
 {
-    if (options->reference && image_format_takes_layers(options->format))
+    const bool is_named = aov_needs(options->aovs, AOV_NEEDS_REFERENCE);
+    if (options->reference && !is_named && image_format_takes_layers(options->format))
         layers->list[layers->count++] = (LayerType){.name = ERROR_CHANNEL};
 }
 

@@ -93,6 +93,12 @@ static void take_certainty(uint32_t *values, const AovPixel *pixel, const AovSce
     values[0] = float_bits(0.5 * pixel->certainty);
 }
 
+static void take_nothing(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+{
+    (void)pixel, (void)scene;
+    values[0] = 0;
+}
+
 const Aov aov_table[] = {
     {"depth",
      {"Z"},
@@ -151,6 +157,12 @@ const Aov aov_table[] = {
      "1 where no rounding can change a decision, 0.5 where fp64 decided again, which changes the "
      "picture there, 0 elsewhere",
      take_certainty},
+    {ERROR_CHANNEL,
+     {ERROR_CHANNEL},
+     false,
+     AOV_NEEDS_REFERENCE,
+     "largest difference of the three colors from --reference, which it asks for",
+     take_nothing},
 };
 
 const size_t aov_count = sizeof aov_table / sizeof aov_table[0];

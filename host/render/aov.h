@@ -22,11 +22,15 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
+// The last in the table: each pixel's error against the reference.
+#define ERROR_CHANNEL "error"
+
 // What a channel takes beside the path of the ray through a pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,
-    AOV_NEEDS_TESTS,    // every sample is traced again, alone
-    AOV_NEEDS_CERTAINTY // every sample is certified
+    AOV_NEEDS_TESTS,     // every sample is traced again, alone
+    AOV_NEEDS_CERTAINTY, // every sample is certified
+    AOV_NEEDS_REFERENCE  // filled in by whoever draws that
 } AovNeed;
 
 typedef struct {

@@ -68,6 +68,8 @@ case $FORMATS in *exr*)
   }
   check "an EXR file has every pixel's error" run 0 "$colored" -s 96x72 -o a.exr --reference --stats=exr.json
   check "... as the statistics sum it up" errors
+  check "--aov error asks for a reference" run 0 "$colored" -s 96x72 -o a.exr --aov error,depth --stats=exr.json
+  check "... and has the same values" errors
   check "... behind other channels, too" run 0 "$colored" -s 96x72 -o a.exr --aov primitive,depth --reference --stats=exr.json
   check "... of the same values" errors
   check "... and leaves those alone" "$here/read_exr.py" a.exr "types['primitive'] == 'uint' and len(set(c['primitive'])) > 3 and max(c['error']) < 1" ;;
