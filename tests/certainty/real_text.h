@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A recursive-free tracer of decisions, compiled for two types (real_64.c, real_113.c).  A sign
+// A tracer of decisions without recursion, compiled for two types (real_64.c, real_113.c).  A sign
 // counts as settled where it is clear of zero by TOLERANCE times the sum of the terms' sizes: a
 // thousand roundings.  From level to level errors may grow by GROWTH, which triangles and normals
 // of ordinary shapes stay far below; at the first hit nothing has grown yet.
