@@ -17,12 +17,25 @@ static const char *const explain_options[] = {
     "device",        "threads", "kernel", "nodes",   "lanes",     "precision", "encode",
     "bad-geometry",  "json",    "quiet",  "verbose", NULL};
 
-static const Command explanation = {
-    .name = "--explain-pixel", .action = ACTION_EXPLAIN, .options = explain_options};
+static const char *const explain_scene_options[] = {
+    "explain",   "size",       "view",         "aa",    "bvh",     "no-bvh", "device",
+    "threads",   "specialize", "frames",       "stats", "kernel",  "nodes",  "lanes",
+    "precision", "json",       "bad-geometry", "quiet", "verbose", NULL};
 
-const Command *command_explain(void)
+// Asked for by an option.
+static const Command silent_commands[] = {
+    {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .options = explain_options},
+    {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .options = explain_scene_options},
+};
+
+#define SILENT_COMMANDS (sizeof silent_commands / sizeof silent_commands[0])
+
+const Command *command_of_action(Action action)
 {
-    return &explanation;
+    for (size_t i = 0; i < SILENT_COMMANDS; i++)
+        if (silent_commands[i].action == action)
+            return &silent_commands[i];
+    return NULL;
 }
 
 // What no picture needs.
@@ -73,6 +86,7 @@ void command_list_takers(const char *option, char *text, size_t size)
     for (size_t i = 0; i < command_count; i++)
         if (is_among(option, command_table[i].options))
             length = add_taker(command_table[i].name, text, size, length);
-    if (is_among(option, explanation.options))
-        add_taker(explanation.name, text, size, length);
+    for (size_t i = 0; i < SILENT_COMMANDS; i++)
+        if (is_among(option, silent_commands[i].options))
+            length = add_taker(silent_commands[i].name, text, size, length);
 }

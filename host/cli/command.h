@@ -19,8 +19,8 @@ extern const size_t command_count;
 // NULL where the word names none.
 const Command *command_named(const char *word);
 
-// What --explain-pixel asks for, which is no word of its own.
-const Command *command_explain(void);
+// The command that an option asks for, which has no word of its own; NULL where none did.
+const Command *command_of_action(Action action);
 
 // Whether the option of that name is for the command; NULL draws, and takes all options but those
 // of commands alone.

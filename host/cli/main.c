@@ -4,6 +4,7 @@
 #include "cli/compare.h"
 #include "cli/device_report.h"
 #include "cli/explain.h"
+#include "cli/explain_scene.h"
 #include "cli/option_help.h"
 #include "cli/picture.h"
 #include "cli/show.h"
@@ -63,6 +64,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return compare_files(&options, error);
     case ACTION_EXPLAIN:
         return perform_run(&options, explain_pixel, error);
+    case ACTION_EXPLAIN_SCENE:
+        return perform_run(&options, explain_scene, error);
     case ACTION_RENDER:
         break;
     }

@@ -27,6 +27,13 @@ bool read_aov(Options *options, const char *value, Error *error)
     return true;
 }
 
+bool read_explain(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->action = ACTION_EXPLAIN_SCENE;
+    return true;
+}
+
 bool read_explain_pixel(Options *options, const char *value, Error *error)
 {
     int64_t column, row;

@@ -68,6 +68,9 @@ const Option option_table[] = {
      "samples a pixel of the reference, an even number (256)"},
     {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
+    {"explain", 0, NULL, read_explain, GROUP_STATISTICS, CLASS_NONE,
+     "tell what of the kernels and the scene's arrays is used, what is left out and why, and draw "
+     "nothing"},
     {"explain-pixel", 0, "X,Y", read_explain_pixel, GROUP_STATISTICS, CLASS_NONE,
      "tell how the color of a pixel comes about, ray by ray, and draw nothing; X counts from the "
      "left and Y from the top, both from 0"},
@@ -78,7 +81,7 @@ const Option option_table[] = {
     {"fail", 0, "LIMITS", read_fail, GROUP_REPORT, CLASS_NONE,
      "compare: exit 1 past rmse=V, max=V, share1=V, share4=V, hits=V or below psnr=V"},
     {"json", 0, "[=FILE]", read_json, GROUP_REPORT, CLASS_NONE,
-     "write the report of check or compare, or the explanation of a pixel, as JSON, to FILE or "
+     "write the report of check or compare, or an explanation, as JSON, to FILE or "
      "instead of the text"},
 
     {"keys", 0, "KEYS", read_keys, GROUP_WINDOW, CLASS_NONE,

@@ -124,8 +124,8 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         if (!option_table[option].read(options, optarg, error))
             return false;
     }
-    if (options->action == ACTION_EXPLAIN)
-        return check_purposes(given, command_explain(), error) &&
+    if (command_of_action(options->action) != NULL)
+        return check_purposes(given, command_of_action(options->action), error) &&
                read_scene(options, count, words, error);
     if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
         return true;

@@ -17,7 +17,8 @@ typedef enum {
     ACTION_VIEW,
     ACTION_CHECK,
     ACTION_COMPARE,
-    ACTION_EXPLAIN
+    ACTION_EXPLAIN,
+    ACTION_EXPLAIN_SCENE
 } Action;
 
 // What happens to triangles of no area, which no ray can meet.
@@ -78,7 +79,7 @@ typedef struct {
     bool lists_json;       // of ACTION_LIST_DEVICES
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
-    bool json;             // of ACTION_CHECK, ACTION_COMPARE and ACTION_EXPLAIN
+    bool json;             // of ACTION_CHECK, ACTION_COMPARE, ACTION_EXPLAIN, ACTION_EXPLAIN_SCENE
     const char *json_path; // NULL or "-": standard output, in place of the text
     bool quiet, verbose;
 } Options;

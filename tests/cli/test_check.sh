@@ -108,7 +108,7 @@ check "a device that is asked for and not there is exit 4" run 4 check closed.pl
 check "check without a scene" refuses 2 "no scene is named; clrt --help shows the usage" check
 check "check of two scenes" run 2 check closed.ply open.ply
 check "check draws nothing" refuses 2 "clrt check takes no --output" check closed.ply -o a.pfm
-check "--json without check" refuses 2 "--json is for clrt check or clrt compare or clrt --explain-pixel" closed.ply --json -o a.pfm
+check "--json without check" refuses 2 "--json is for clrt check or clrt compare or clrt --explain-pixel or clrt --explain" closed.ply --json -o a.pfm
 check "a scene called check is reached by its path" bash -c "cp scene.scn check; '$CLRT' ./check -s 4x4 -o a.pfm -q 2>err"
 check "a missing scene is exit 3" \
   refuses 3 "nowhere.scn: cannot be opened: No such file or directory" check nowhere.scn

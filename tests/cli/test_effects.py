@@ -59,6 +59,7 @@ TRIALS = {
     "reference": (PICTURE, PICTURE + ["--reference"]),
     "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
     "frames": (PICTURE, PICTURE + ["--frames", "2"]),
+    "explain": (PLAIN, [SCENE, "-s", "24x16", "--explain"]),
     "explain-pixel": (EXPLAIN + ["9,9"], EXPLAIN + ["12,8"]),
     "bad-geometry": (
         [FLAT, "-s", "8x8", "-o", "a.pfm"],

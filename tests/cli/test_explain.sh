@@ -68,6 +68,34 @@ done
 check "--encode srgb has an effect" run 0 mirrors.scn --explain-pixel 2,2 --encode srgb
 check "... on the bytes" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 169 169 191"
 
+# What a scene lacks is left out of special kernels; general ones hold it idle.
+printf 'size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n' >ball.scn
+printf 'size 8 8\nmaterial 0\nply_file %s/scenes/cube.ply\n' "$source" >flat.scn
+part() { json told.json "next(p for p in d['parts'] if p['name'] == '$1') == {'name': '$1', 'needed': $2, 'compiled': $3, 'reason': '$4'}"; }
+check "a scene is explained" run 0 ball.scn --explain --specialize always
+check "... with what is compiled" tells "  spheres     1 of them"
+check "... and what is left out" tells "  tree        there are no triangles to find"
+check "... under its heading" test "$(sed -n '/^left out$/,/^uploaded/p' out | grep -c '^  ')" = 4
+check "... and what is uploaded" tells "  spheres     48 bytes"
+check "... and what is not" tells " nodes triangles looks normals"
+check "special kernels as JSON" run 0 ball.scn --explain --specialize always --json=told.json
+check "... have what the scene has" part spheres True True "1 of them"
+check "... not what it lacks" part triangles False False "there are none"
+check "... and no mirrors" part mirrors False False "no material in use reflects: no ray is followed on"
+check "... and say why they are" json told.json "d['program'] == {'special': True, 'reason': '--specialize always'}"
+check "general kernels" run 0 ball.scn --explain --specialize never --json=told.json
+check "... hold all but counters" part triangles False True "there are none"
+check "... which are asked for" part statistics False False "nobody asks to count: no --stats"
+check "counters" run 0 ball.scn --explain --specialize never --stats --json=told.json
+check "... are compiled where they are" part statistics True True "--stats counts rays and tests"
+check "silhouettes" run 0 flat.scn --explain --specialize always --json=told.json
+check "... are not lit" part lights False False "all materials in use are silhouettes: no shadow rays"
+check "... and few triangles get no tree" part tree False False "10 triangles are tested sooner than found"
+check "a tree that is asked for" run 0 flat.scn --explain --bvh sah --kernel ray --nodes pair --json=told.json
+check "... is there" json told.json "next(p for p in d['parts'] if p['name'] == 'tree')['needed'] and d['uploaded_bytes']['nodes'] > 0"
+check "... with the kernels asked for" json told.json "d['kernels'] == {'family': 'ray', 'nodes': 'pair', 'precision': 'fp32', 'reason': '--kernel asks for it'}"
+check "explaining draws nothing" refuses 2 "clrt --explain takes no --output" ball.scn --explain -o a.pfm
+
 check "a pixel outside is named" refuses 2 \
   "--explain-pixel 2,9: the picture has 5 x 5 pixels, counted from 0" mirrors.scn --explain-pixel 2,9
 check "half a pixel is refused" refuses 2 "--explain-pixel wants X,Y counted from 0, X from the left and \

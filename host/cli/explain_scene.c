@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Goes as far as a picture does before it is drawn, and tells what stands there.
+#include "cli/explain_scene.h"
+
+#include "cli/json_file.h"
+#include "cli/scene_parts.h"
+
+#include <stdio.h>
+
+#define SCHEMA_VERSION 1
+
+static void write_kernels(const Run *run)
+{
+    const KernelChoice *choice = &run->starter.setup.source.choice;
+    printf("%s on %s\n", run->options->scene_path, run->starter.device.name);
+    printf("  %-11s %s over %s nodes in %s: %s\n", "kernels", kernel_family_name(choice->family),
+           kernel_nodes_name(choice->nodes), kernel_precision_name(choice->precision),
+           scene_family_reason(run));
+    printf("  %-11s %s: %s\n", "program", run->renderer.is_special ? "special" : "general",
+           scene_program_reason(run));
+}
+
+// The parts that are needed, compiled though they are not, or left out.
+static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed,
+                        bool is_compiled)
+{
+    bool is_headed = false;
+    for (int i = 0; i < SCENE_PARTS; i++) {
+        if (parts[i].is_needed != is_needed || parts[i].is_compiled != is_compiled)
+            continue;
+        if (!is_headed)
+            printf("%s\n", heading);
+        is_headed = true;
+        printf("  %-11s %s\n", parts[i].name, parts[i].reason);
+    }
+}
+
+static void write_arrays(const Run *run)
+{
+    SceneArray arrays[SCENE_ARRAYS];
+    int missing = 0;
+    scene_arrays_list(&run->flat, arrays);
+    printf("uploaded, %zu bytes\n", flat_size(&run->flat));
+    for (int i = 0; i < SCENE_ARRAYS; i++)
+        if (arrays[i].bytes > 0)
+            printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
+    for (int i = 0; i < SCENE_ARRAYS; i++)
+        if (arrays[i].bytes == 0)
+            printf("%s %s", missing++ == 0 ? "not uploaded, since there are none\n " : "",
+                   arrays[i].name);
+    printf("%s", missing > 0 ? "\n" : "");
+}
+
+static void write_text(const Run *run)
+{
+    ScenePart parts[SCENE_PARTS];
+    scene_parts_list(run, parts);
+    write_kernels(run);
+    write_parts(parts, "compiled in", true, true);
+    write_parts(parts, "compiled in and idle, since the program is general", false, true);
+    write_parts(parts, "left out", false, false);
+    write_arrays(run);
+}
+
+static json_t *parts_json(const Run *run)
+{
+    ScenePart parts[SCENE_PARTS];
+    json_t *list = json_array();
+    scene_parts_list(run, parts);
+    for (int i = 0; i < SCENE_PARTS; i++)
+        json_array_append_new(list, json_pack("{s:s, s:b, s:b, s:s}", "name", parts[i].name,
+                                              "needed", parts[i].is_needed, "compiled",
+                                              parts[i].is_compiled, "reason", parts[i].reason));
+    return list;
+}
+
+static json_t *arrays_json(const Run *run)
+{
+    SceneArray arrays[SCENE_ARRAYS];
+    json_t *object = json_object();
+    scene_arrays_list(&run->flat, arrays);
+    for (int i = 0; i < SCENE_ARRAYS; i++)
+        json_object_set_new(object, arrays[i].name, json_integer((json_int_t)arrays[i].bytes));
+    return object;
+}
+
+static json_t *whole_json(const Run *run)
+{
+    const KernelChoice *choice = &run->starter.setup.source.choice;
+    return json_pack(
+        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
+        SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
+        "device", run->starter.device.name, "kernels", "family", kernel_family_name(choice->family),
+        "nodes", kernel_nodes_name(choice->nodes), "precision",
+        kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
+        "special", run->renderer.is_special, "reason", scene_program_reason(run), "parts",
+        parts_json(run), "uploaded_bytes", arrays_json(run));
+}
+
+ExitCode explain_scene(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const char *path = options->json_path != NULL ? options->json_path : "-";
+    run_begin(run);
+    if (!run_load_scene(run, error)) {
+        starter_decide(&run->starter, false);
+        return EXIT_SCENE;
+    }
+    if (!run_await_device(run, error))
+        return EXIT_DEVICE;
+    if (!run_build_scene(run, error))
+        return EXIT_SCENE;
+    if (!run_open_renderer(run, error))
+        return EXIT_DEVICE;
+    if (options->json)
+        return json_file_write(whole_json(run), path, error) ? EXIT_DONE : EXIT_OUTPUT;
+    write_text(run);
+    return EXIT_DONE;
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Words the traits of a scene (host/accel/traits.c) and what chose the kernels.
+#include "cli/scene_parts.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+__attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bool is_needed,
+                                                            const char *format, ...)
+{
+    ScenePart made = {.name = name, .is_needed = is_needed};
+    va_list values;
+    va_start(values, format);
+    vsnprintf(made.reason, sizeof made.reason, format, values);
+    va_end(values);
+    return made;
+}
+
+static ScenePart tree_part(const Run *run, bool is_needed)
+{
+    const uint32_t triangles = run->flat.triangle_count;
+    if (is_needed)
+        return part("tree", true, "%u nodes over the triangles", run->flat.node_count);
+    if (triangles == 0)
+        return part("tree", false, "there are no triangles to find");
+    if (!run->options->uses_bvh)
+        return part("tree", false, "--no-bvh: every triangle is tested");
+    return part("tree", false, "%u triangles are tested sooner than found", triangles);
+}
+
+void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
+{
+    const FlatScene *flat = &run->flat;
+    const SceneTraits needed = traits_of(flat, run->options->statistics);
+    const bool is_special = run->renderer.is_special;
+    parts[0] = needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
+                              : part("spheres", false, "there are none");
+    parts[1] = needed.triangles ? part("triangles", true, "%u of them", flat->triangle_count)
+                                : part("triangles", false, "there are none");
+    parts[2] = tree_part(run, needed.bvh);
+    parts[3] =
+        needed.shaded
+            ? part("lights", true, "%u of them on materials that they shade", flat->light_count)
+            : part("lights", false, "all materials in use are silhouettes: no shadow rays");
+    parts[4] = needed.mirrors
+                   ? part("mirrors", true, "a material in use reflects")
+                   : part("mirrors", false, "no material in use reflects: no ray is followed on");
+    parts[5] = needed.statistics ? part("statistics", true, "--stats counts rays and tests")
+                                 : part("statistics", false, "nobody asks to count: no --stats");
+    for (int i = 0; i < SCENE_PARTS; i++)
+        parts[i].is_compiled = parts[i].is_needed || !is_special;
+    parts[5].is_compiled = parts[5].is_needed;
+}
+
+void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS])
+{
+    const bool is_wide = flat->layout == NODES_WIDE;
+    const size_t node = is_wide ? sizeof *flat->wides : sizeof *flat->pairs;
+    const size_t triangles = is_wide ? flat->block_count * sizeof *flat->blocks
+                                     : flat->triangle_count * sizeof *flat->triangles;
+    const size_t looks = is_wide ? flat->triangle_count * sizeof *flat->looks : 0;
+    arrays[0] = (SceneArray){"lights", flat->light_count * sizeof *flat->lights};
+    arrays[1] = (SceneArray){"materials", flat->material_count * sizeof *flat->materials};
+    arrays[2] = (SceneArray){"spheres", flat->sphere_count * sizeof *flat->spheres};
+    arrays[3] = (SceneArray){"nodes", flat->node_count * node};
+    arrays[4] = (SceneArray){"triangles", triangles};
+    arrays[5] = (SceneArray){"looks", looks};
+    arrays[6] = (SceneArray){"normals", flat->normals_count * sizeof *flat->normals};
+}
+
+const char *scene_family_reason(const Run *run)
+{
+    const KernelWish *wish = &run->options->kernel;
+    if (wish->choice.precision == PRECISION_FP64)
+        return "--precision fp64 traces rays one by one";
+    if (wish->family_given)
+        return "--kernel asks for it";
+    if (wish->nodes_given && wish->choice.nodes == NODES_PAIR)
+        return "--nodes pair has no other";
+    if (run->starter.is_quick)
+        return "packets are not compiled and a picture of this size does not repay that";
+    return run->starter.device.is_cpu ? "it suits CPUs" : "it suits GPUs";
+}
+
+const char *scene_program_reason(const Run *run)
+{
+    const bool is_special = run->renderer.is_special;
+    if (run->options->specialization != SPECIALIZE_AUTO)
+        return is_special ? "--specialize always" : "--specialize never";
+    return is_special ? "it is compiled already, or saves more than compiling costs"
+                      : "a special one is not compiled, and would save less than compiling costs";
+}
