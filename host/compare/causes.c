@@ -14,8 +14,9 @@
 static const char *const names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
                                                "reflection", "coverage", "rounding"};
 static const char *const meanings[CAUSE_KINDS] = {
-    "another primitive is hit first", "other lights reach it", "the limit ends its reflections",
-    "its reflections differ",         "it has other samples",  "the same samples: rounding, if the scene is the same"};
+    "another primitive is hit first", "other lights reach it",
+    "the limit ends its reflections", "its reflections differ",
+    "it has other samples",           "the same samples: rounding, if the scene is the same"};
 
 const char *cause_name(CauseKind kind)
 {

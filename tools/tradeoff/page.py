@@ -24,7 +24,8 @@ th:first-child, td:first-child { text-align: left; } td:first-child { white-spac
 tr.beaten { color: #6b7280; } tr.front td:first-child { font-weight: 600; }
 .wide { overflow-x: auto; } .wide svg { max-width: 100%; height: auto; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; } figure { margin: 0; width: 17.5rem; }
-figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb; image-rendering: pixelated; display: block; margin-bottom: 0.3rem; }
+figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb;
+       image-rendering: pixelated; display: block; margin-bottom: 0.3rem; }
 figcaption, .note { font-size: 0.85rem; color: #4b5563; }
 """
 
@@ -83,7 +84,8 @@ def shown_rows(rows):
 
 
 def pictures(scene, folder):
-    parts = [f'<figure><img alt="the reference" src="{embed(png_of_pfm(folder / "reference.pfm"))}">'
+    reference = embed(png_of_pfm(folder / "reference.pfm"))
+    parts = [f'<figure><img alt="the reference" src="{reference}">'
              "<figcaption>the reference</figcaption></figure>"]
     for row in shown_rows(scene["rows"]):
         picture = embed(png_of_pfm(folder / row["picture"]))

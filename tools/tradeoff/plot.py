@@ -40,8 +40,9 @@ def name_rows(axes, rows):
     for place, row in enumerate(sorted(named, key=lambda row: row["milliseconds"])):
         above = place % 2 == 0  # by turns, as neighbors on the front are close
         axes.annotate(row["setting"].replace("max-level", "level"),
-                      (row["milliseconds"], 100 * row["rmse"]), xytext=(7, 5) if above else (-7, -5),
-                      ha="left" if above else "right", va="bottom" if above else "top",
+                      (row["milliseconds"], 100 * row["rmse"]),
+                      xytext=(7, 5) if above else (-7, -5), ha="left" if above else "right",
+                      va="bottom" if above else "top",
                       textcoords="offset points", fontsize=8)
 
 
