@@ -144,14 +144,22 @@ static bool cut_around(RefineTree *tree, uint32_t number, unsigned marks, Error 
     return true;
 }
 
+// Cuts the cells of a group that are marked; a group beside it may have cut them by now.
+static bool cut_inside(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
+{
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if ((marks >> cell & 1) && tree->groups.data[number].groups[cell] == 0 &&
+            !refine_tree_cut_cell(tree, number, cell, error))
+            return false;
+    return true;
+}
+
 static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
 {
     for (uint32_t number = marking->first; number < marking->end; number++) {
         const unsigned marks = marking->marks[number - marking->first];
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-            if ((marks >> cell & 1) && !refine_tree_cut_cell(tree, number, cell, error))
-                return false;
-        if (marks >> GROUP_CELLS != 0 && !cut_around(tree, number, marks, error))
+        if (!cut_inside(tree, number, marks, error) ||
+            (marks >> GROUP_CELLS != 0 && !cut_around(tree, number, marks, error)))
             return false;
     }
     return true;

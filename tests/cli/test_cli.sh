@@ -358,10 +358,10 @@ if [ "${FORMATS:-}" != "png, pfm" ]; then
   check "... fp64's too" pixels b.exr --precision fp64
   check "... with the precision" grep -aq "precision=fp64" b.exr
   exr() { "$here/read_exr.py" "$@" 2>>err; }
-  check "EXR takes channels" pixels c.exr --aa --aov depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests
+  check "EXR takes channels" pixels c.exr --aa --bvh sah --aov depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests
   check "... named by the field's conventions" exr c.exr "sorted(types) == sorted('R G B Z N.X N.Y N.Z P.X P.Y P.Z primitive material shadow bounces samples boxtests tritests'.split())"
   check "... of which names of things are integers" exr c.exr "{t for t in types if types[t] == 'uint'} == {'primitive', 'material'}"
-  check "... beside the same colors" pixels b.exr --aa
+  check "... beside the same colors" pixels b.exr --aa --bvh sah
   check "... bit for bit" python3 -c "import sys; sys.path.insert(0, '$here'); from read_exr import read_exr as r; a, b = r('b.exr')[1], r('c.exr')[1]; sys.exit(any(a[n] != b[n] for n in 'RGB'))"
   check "the background is infinitely far" exr c.exr "c['Z'][0] == inf and c['primitive'][0] == c['material'][0] == 2**32 - 1"
   check "... and zero else" exr c.exr "all(c[n][0] == 0 for n in 'N.X N.Y N.Z P.X P.Y P.Z shadow bounces'.split())"
