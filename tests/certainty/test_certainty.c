@@ -165,17 +165,17 @@ static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(voi
 
 static void certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic(void **state)
 {
-    InlineScenes inline_scenes;
+    InlineScenes scenes;
     Error error = {0};
     Sum sum = {0};
     (void)state;
-    require(inline_scenes_write(&inline_scenes, &error), &error);
+    require(inline_scenes_write(&scenes, &error), &error);
     for (int scene = 0; scene < INLINE_COUNT; scene++) {
         char path[INLINE_PATH_SIZE];
-        inline_scenes_path(&inline_scenes, (InlineScene)scene, path);
+        inline_scenes_path(&scenes, (InlineScene)scene, path);
         check_file(&sum, path, 0);
     }
-    inline_scenes_remove(&inline_scenes);
+    inline_scenes_remove(&scenes);
     judge(&sum);
 }
 

@@ -171,3 +171,22 @@ void inline_scenes_remove(InlineScenes *scenes)
     rmdir(scenes->folder);
     *scenes = (InlineScenes){0};
 }
+
+InlineScenes inline_scenes;
+
+int inline_scenes_set_up(void **state)
+{
+    Error error = {0};
+    (void)state;
+    if (inline_scenes_write(&inline_scenes, &error))
+        return 0;
+    fprintf(stderr, "%s\n", error.text);
+    return -1;
+}
+
+int inline_scenes_tear_down(void **state)
+{
+    (void)state;
+    inline_scenes_remove(&inline_scenes);
+    return 0;
+}

@@ -24,4 +24,9 @@ bool inline_scenes_write(InlineScenes *scenes, Error *error);
 // Removes what was written.
 void inline_scenes_remove(InlineScenes *scenes);
 
+// The same for a program of tests, around all of them.
+extern InlineScenes inline_scenes;
+int inline_scenes_set_up(void **state);
+int inline_scenes_tear_down(void **state);
+
 void inline_scenes_path(const InlineScenes *scenes, InlineScene scene, char path[INLINE_PATH_SIZE]);

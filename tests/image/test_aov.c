@@ -16,8 +16,6 @@
 // How many pixels of 10,000 may differ in a decision: rays along an edge fall on either side.
 #define LIMIT 2
 
-static InlineScenes inline_scenes;
-
 static AovSet set_of(const char *list)
 {
     AovSet set = 0;
@@ -313,23 +311,6 @@ static void a_name_that_is_no_channel_is_refused_with_the_nearest(void **state)
     assert_non_null(strstr(other.text, "--aov wants names among depth, normal, position"));
 }
 
-static int write_scenes(void **state)
-{
-    Error error = {0};
-    (void)state;
-    if (inline_scenes_write(&inline_scenes, &error))
-        return 0;
-    print_message("%s\n", error.text);
-    return -1;
-}
-
-static int remove_scenes(void **state)
-{
-    (void)state;
-    inline_scenes_remove(&inline_scenes);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,5 +324,5 @@ int main(void)
         cmocka_unit_test(the_picture_keeps_its_bits_with_channels),
         cmocka_unit_test(a_name_that_is_no_channel_is_refused_with_the_nearest),
     };
-    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

@@ -13,8 +13,6 @@
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
 
-static InlineScenes inline_scenes;
-
 static const KernelChoice choices[] = {
     {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
     {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
@@ -228,23 +226,6 @@ static void distances_are_off_by_less_than_is_told(void **state)
     check_bounds_of(path, &choices[0]);
 }
 
-static int write_scenes(void **state)
-{
-    Error error = {0};
-    (void)state;
-    if (inline_scenes_write(&inline_scenes, &error))
-        return 0;
-    print_message("%s\n", error.text);
-    return -1;
-}
-
-static int remove_scenes(void **state)
-{
-    (void)state;
-    inline_scenes_remove(&inline_scenes);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,5 +234,5 @@ int main(void)
         cmocka_unit_test(the_same_of_a_large_mesh),
         cmocka_unit_test(distances_are_off_by_less_than_is_told),
     };
-    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

@@ -21,8 +21,6 @@
 #define COURSE_MESH_STEP  4
 #define PROJECT_MESH_STEP 8
 
-static InlineScenes inline_scenes;
-
 static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, uint32_t step)
 {
     char name[64];
@@ -144,23 +142,6 @@ static void creases_under_distant_lights_are_drawn_as_the_oracle_does(void **sta
     check_inline(INLINE_DISTANT_LIGHTS);
 }
 
-static int write_scenes(void **state)
-{
-    Error error = {0};
-    (void)state;
-    if (inline_scenes_write(&inline_scenes, &error))
-        return 0;
-    print_message("%s\n", error.text);
-    return -1;
-}
-
-static int remove_scenes(void **state)
-{
-    (void)state;
-    inline_scenes_remove(&inline_scenes);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -173,5 +154,5 @@ int main(void)
         cmocka_unit_test(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does),
         cmocka_unit_test(creases_under_distant_lights_are_drawn_as_the_oracle_does),
     };
-    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

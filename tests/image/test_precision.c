@@ -19,8 +19,6 @@
 // The oracle takes minutes for all pixels of a mesh.
 #define MESH_STEP 8
 
-static InlineScenes inline_scenes;
-
 static void rendered(Framebuffer *picture, const char *path, uint32_t view, Precision precision)
 {
     Error error = {0};
@@ -216,23 +214,6 @@ static void fp32_differs_in_few_pixels_of_meshes(void **state)
     check_fp32("showcase", 100);
 }
 
-static int write_scenes(void **state)
-{
-    Error error = {0};
-    (void)state;
-    if (inline_scenes_write(&inline_scenes, &error))
-        return 0;
-    print_message("%s\n", error.text);
-    return -1;
-}
-
-static int remove_scenes(void **state)
-{
-    (void)state;
-    inline_scenes_remove(&inline_scenes);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -243,5 +224,5 @@ int main(void)
         cmocka_unit_test(fp32_differs_in_few_pixels),
         cmocka_unit_test(fp32_differs_in_few_pixels_of_meshes),
     };
-    return cmocka_run_group_tests(tests, write_scenes, remove_scenes);
+    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }
