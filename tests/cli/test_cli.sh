@@ -239,7 +239,8 @@ check "... as PFM" bash -c "head -c 2 out | grep -q PF"
 check "nothing unfinished is left beside pictures" test -z "$(find . -name '*.pfm.*')"
 
 # A picture of many seconds is stopped early: what is done is written.
-"$CLRT" "$scene" -s 4000x4000 --aa=12 -o stopped.pfm --stats=stopped.json 2>err &
+# Jobs in the background of a shell may have it ignored.
+env --default-signal=INT "$CLRT" "$scene" -s 4000x4000 --aa=12 -o stopped.pfm --stats=stopped.json 2>err &
 sleep 1.5
 kill -INT $!
 wait $!
