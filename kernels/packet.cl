@@ -218,7 +218,7 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
-    const SurfaceRay surface = {ray->surface, front, is_shadow};
+    const SurfaceRay surface = {ray->surface, front, is_shadow, blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)

@@ -122,7 +122,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW};
+    const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW, blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, front == surface.is_shadow))

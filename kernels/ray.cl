@@ -16,6 +16,12 @@ typedef struct {
     Truth active;  // lanes that have a ray
 } Ray;
 
+// What its surface point may be off, in units of rounding.
+static inline float blur_of(const Ray *ray)
+{
+    return ray->kind == RAY_CAMERA ? 0.0f : POINT_BLUR;
+}
+
 // index counts in the array of the primitive's kind (triangles: places of blocks where nodes are
 // wide); spheres have the ids below sphere_count.
 typedef struct {

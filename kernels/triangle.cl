@@ -145,21 +145,23 @@ typedef struct {
     Real3 point; // of the surface
     Truth front; // it comes from the triangle's front
     bool is_shadow;
+    float blur; // what the point may be off, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
 
 // Where such a ray stops on a triangle that t, within error, says it meets; INFINITY where it does
 // not.  The side that its surface point lies on decides, beyond doubt, or the neighbors of every
 // point would mirror and shadow it; t near the surface is mere rounding.  From its inner side,
 // which only two-sided triangles show, a convex neighbor lies on the right side as well, and the
-// depth has to be clear too.  A light that lies on a triangle as far as t can tell is not shadowed
-// by it.  In doubt are those that rounding alone keeps from stopping.
+// depth has to be clear too, but for the eye, which is on no surface.  A light that lies on a
+// triangle as far as t can tell is not shadowed by it.  In doubt are those that rounding alone
+// keeps from stopping.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Truth *in_doubt)
 {
     const Truth inner = ray->is_shadow ? ray->front : !ray->front;
     const Truth ahead = t > (ray->is_shadow ? error : -error);
-    const Truth clear = (ray->is_shadow ? 1.0f - t : t) > error;
-    const Real height = height_over(corners, ray->point, POINT_BLUR);
+    const Truth clear = (ray->is_shadow ? 1.0f - t : t) > (ray->blur > 0.0f ? error : -error);
+    const Real height = height_over(corners, ray->point, ray->blur);
     const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
     *in_doubt = ahead && !beyond && (inner ? height <= 0.0f : height == 0.0f);
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;

@@ -178,7 +178,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const WideSurfaceRay surface = {splat3(&ray->surface, lane), front, is_shadow};
+    const WideSurfaceRay surface = {splat3(&ray->surface, lane), front, is_shadow, blur_of(ray)};
     int8 in_doubt;
     const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
