@@ -155,7 +155,8 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
             break;
         const Surface surface = surface_at(scene, frame, &ray, &hit, met);
         const MaterialLanes material = fetch_material(scene, surface.material);
-        const Real3 shaded = shade(scene, frame, &surface, &material, met, &tally);
+        const Lighting dark = lighting_of(&surface, &material, met);
+        const Real3 shaded = shade(scene, frame, dark, &tally);
         const Truth ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
         note_surface(&level, scene, frame, &surface, &material, met);

@@ -92,14 +92,20 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
     lighting->specular = shines ? lighting->specular + shine : lighting->specular;
 }
 
-// The color of the surfaces where `met`; other lanes hold anything.
-static inline Real3 shade(const SceneView *scene, const FrameData *frame, const Surface *surface,
-                          const MaterialLanes *material, Truth met, Tally *tally)
+// Before any light has come to the surfaces where `met`.
+static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Truth met)
 {
+    const Truth wanted = met && material->shader != SHADER_SILHOUETTE;
+    return (Lighting){surface, material, wanted, 0.0f, 0.0f};
+}
+
+// The color of the surfaces that lighting_of was told of; other lanes hold anything.
+static inline Real3 shade(const SceneView *scene, const FrameData *frame, Lighting lighting,
+                          Tally *tally)
+{
+    const MaterialLanes *material = lighting.material;
     const Truth is_flat = material->shader == SHADER_SILHOUETTE;
-    const Truth wanted = met && !is_flat;
-    Lighting lighting = {surface, material, wanted, 0.0f, 0.0f};
-    if (!CLRT_SHADED || !any_lane(wanted))
+    if (!CLRT_SHADED || !any_lane(lighting.wanted))
         return material->diffuse;
     for (uint index = 0; index < frame->light_count; index++)
         receive_light(scene, frame, index, &lighting, tally);

@@ -54,7 +54,8 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
         const Surface surface = surface_at(scene, frame, &ray, &hit, met);
         const MaterialLanes material = fetch_material(scene, surface.material);
         sign_lanes(tally, met, surface_word(frame, &surface));
-        const Real3 shaded = shade(scene, frame, &surface, &material, met, tally);
+        const Lighting dark = lighting_of(&surface, &material, met);
+        const Real3 shaded = shade(scene, frame, dark, tally);
         Truth ends = met;
         if (CLRT_MIRRORS)
             ends = met && material.reflectivity == 0.0f;
