@@ -9,7 +9,7 @@ static inline Truth light_reaches(const SceneView *scene, const FrameData *frame
     const SeenLight light = see_light(scene, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
-    const Ray ray = ray_from_light(light.position, surface, light.faces);
+    const Ray ray = ray_to_light(scene, surface, &light);
     return light.faces && !is_blocked(scene, frame, &ray, &tally);
 }
 

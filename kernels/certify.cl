@@ -21,14 +21,14 @@ static inline void note_decision(Decisions *decisions, uint word)
 typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightSight;
 
 static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
-                                     const FatSurface *surface, const ThickRay *from_light)
+                                     const FatSurface *surface, const ThickRay *to_light)
 {
-    const Answer faces = surely_faces(surface, from_light);
-    if (faces == ANSWER_UNKNOWN || !is_usable(from_light))
-        return SIGHT_OPEN;
+    const Answer faces = surely_faces(surface, to_light);
     if (faces == ANSWER_NO)
         return SIGHT_BEHIND;
-    const Answer blocked = surely_blocked(scene, frame, from_light);
+    if (faces == ANSWER_UNKNOWN || !is_usable(to_light))
+        return SIGHT_OPEN;
+    const Answer blocked = surely_blocked(scene, frame, to_light);
     if (blocked == ANSWER_UNKNOWN)
         return SIGHT_OPEN;
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;

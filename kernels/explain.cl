@@ -96,14 +96,13 @@ static inline void note_light(const Notes *notes, const SceneView *scene, const 
     note_count(notes, LIGHT_BLOCKER, (Count)(NOTHING));
     if (!any_lane(light.faces))
         return;
-    const Ray ray = ray_from_light(light.position, lighting->surface, light.faces);
+    const Ray ray = ray_to_light(scene, lighting->surface, &light);
     const Hit blocker = blocking_hit(scene, frame, &ray, &tally);
-    const Truth is_sphere = blocker.id < frame->sphere_count;
     receive_light(scene, frame, index, &received, &tally);
     note_count(notes, LIGHT_STATE,
                blocker.id == NOTHING ? (Count)(LIGHT_SEEN) : (Count)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
-    note(notes, LIGHT_BLOCKER_T, is_sphere ? blocker.t : 1.0f - blocker.t);
+    note(notes, LIGHT_BLOCKER_T, blocker.t);
     note(notes, LIGHT_DIFFUSE, received.diffuse);
     note(notes, LIGHT_SPECULAR, received.specular);
 }

@@ -118,7 +118,7 @@ static inline void packet_gather(Packet *packet, const SceneView *scene, const R
 {
     const uint first = lowest_bit(bits);
     packet->active = lanes_of(bits);
-    packet->common_origin = ray->kind != RAY_REFLECTED;
+    packet->common_origin = ray->kind == RAY_CAMERA;
     packet->rays.scene = scene;
     packet->rays.ray = ray;
     const Real3 direction = filled(ray->direction, packet->active, first);
@@ -191,8 +191,7 @@ static NOT_INLINE Truth packet_stops(const Corners *corners, const Packet *packe
     const Ray *ray = packet->rays.ray;
     const Truth known = ray->own_index != NOTHING;
     const Corners own = fetch_corners(packet->rays.scene, known ? ray->own_index : (Count)(0));
-    const Real3 outward = ray->kind == RAY_SHADOW ? negative3(ray->direction) : ray->direction;
-    return known && meets_neighbor(&own, corners, outward, from_back);
+    return known && meets_neighbor(&own, corners, ray->direction, from_back);
 }
 
 // Where those rays stop on it; INFINITY where they do not, or not before `reach`.
@@ -201,24 +200,23 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
 {
     const Ray *ray = packet->rays.ray;
     const Shear *shear = &packet->rays.shear;
-    const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint id = at->block->id[at->place];
     const Truth front = edges_face(&test->edges, shear);
     Truth closed = test->inside && ray->own != (Count)(id & ~TRIANGLE_TWO_SIDED);
     if ((id & TRIANGLE_TWO_SIDED) == 0)
-        closed = closed && (is_shadow ? !front : front);
+        closed = closed && front;
     const Real t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const Real clear = closed && t > 0.0f ? t : INFINITY;
     Truth near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
         near = near && triangle_is_at_origin(t, shear);
-    else if (ray->kind == RAY_REFLECTED)
+    else
         near = near && (t > 0.0f || triangle_is_at_origin(t, shear));
     if (!any_lane(near))
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
-    const SurfaceRay surface = {ray->surface, front, is_shadow, blur_of(ray)};
+    const SurfaceRay surface = {ray->origin, front, length_of_ray(ray), blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
@@ -226,7 +224,7 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     in_doubt = in_doubt && near;
     if (!any_lane(in_doubt))
         return near ? distance : INFINITY;
-    const Truth stops = packet_stops(&corners, packet, is_shadow ? front : !front);
+    const Truth stops = packet_stops(&corners, packet, !front);
     return near ? (in_doubt && stops ? max(t, (Real)(0.0f)) : distance) : INFINITY;
 }
 

@@ -84,11 +84,10 @@ static inline Real3 corner_relative(global const float *corner, const Query *que
                     corner[query->axes.z] - query->origin.z);
 }
 
-// One-sided triangles stop what comes from the front.  A shadow ray is traced from the light, so
-// for it the front is where the shaded point lies.
-static inline bool triangle_is_open(global const TriangleData *triangle, const Ray *ray, bool front)
+// One-sided triangles stop what comes from the front.
+static inline bool triangle_is_open(global const TriangleData *triangle, bool front)
 {
-    return !(triangle->material & TRIANGLE_TWO_SIDED) && front == (ray->kind == RAY_SHADOW);
+    return !(triangle->material & TRIANGLE_TWO_SIDED) && !front;
 }
 
 // Whether the ray stops on a triangle that its line meets within rounding of its own.
@@ -97,10 +96,8 @@ static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
 {
     if (ray->own_index == NOTHING)
         return false;
-    const bool is_shadow = ray->kind == RAY_SHADOW;
     const Corners own = fetch_corners(scene, ray->own_index);
-    const Real3 outward = is_shadow ? negative3(ray->direction) : ray->direction;
-    return meets_neighbor(&own, corners, outward, from_back);
+    return meets_neighbor(&own, corners, ray->direction, from_back);
 }
 
 // The distance t at which the ray meets the triangle, INFINITY where it does not.
@@ -115,17 +112,17 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     if (!edges_contain(&edges))
         return INFINITY;
     const bool front = edges_face(&edges, &query->shear);
-    if (triangle_is_open(triangle, ray, front) || triangle->id == ray->own)
+    if (triangle_is_open(triangle, front) || triangle->id == ray->own)
         return INFINITY;
     const Real t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
     if (ray->kind == RAY_CAMERA && !triangle_is_at_origin(t, &query->shear))
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    const SurfaceRay surface = {ray->surface, front, ray->kind == RAY_SHADOW, blur_of(ray)};
+    const SurfaceRay surface = {ray->origin, front, length_of_ray(ray), blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
-    if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, front == surface.is_shadow))
+    if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, !front))
         return max(t, (Real)(0.0f));
     return distance;
 }

@@ -6,20 +6,24 @@
 
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
-// origin + t * direction.  A shadow ray runs from the light at t = 0 to the shaded point at t = 1.
+// origin + t * direction.  A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    Count own;       // id of the primitive it starts or ends on, which it cannot meet
+    Count own;       // id of the primitive it starts on, which it cannot meet
     Count own_index; // of that where it is a triangle, else NOTHING
     RayKind kind;
-    Real3 surface; // the point of that primitive
-    Truth active;  // lanes that have a ray
+    Truth active; // lanes that have a ray
 } Ray;
 
-// What its surface point may be off, in units of rounding.
+// What its origin may be off, in units of rounding.
 static inline float blur_of(const Ray *ray)
 {
     return ray->kind == RAY_CAMERA ? 0.0f : POINT_BLUR;
+}
+
+static inline float length_of_ray(const Ray *ray)
+{
+    return ray->kind == RAY_SHADOW ? 1.0f : INFINITY;
 }
 
 // index counts in the array of the primitive's kind (triangles: places of blocks where nodes are

@@ -17,8 +17,7 @@ static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
                                  first_real(origin.z, lanes));
     const Real3 first = real3_of(first_real(direction.x, lanes), first_real(direction.y, lanes),
                                  first_real(direction.z, lanes));
-    return (Ray){start, choose3(lanes, direction, first), NOTHING, NOTHING, RAY_CAMERA, start,
-                 lanes};
+    return (Ray){start, choose3(lanes, direction, first), NOTHING, NOTHING, RAY_CAMERA, lanes};
 }
 
 static inline void store_distances(global float *distances, Truth lanes, Real t)

@@ -8,14 +8,6 @@
 // Sums stay finite for lights of any intensity, so that 0 * sum is never a NaN.
 #define BRIGHTEST ((Real)(1e30f))
 
-static inline Ray ray_from_light(Real3 light, const Surface *surface, Truth active)
-{
-    return (Ray){light,       difference(surface->point, light),
-                 surface->id, surface->index,
-                 RAY_SHADOW,  surface->point,
-                 active};
-}
-
 // The highlight (n.h)^shininess.  Past integers the power is exp(shininess * log(n.h)) with n.h
 // taken from |n - h|, which keeps its distance from 1: at shininess 1e6 pow of the rounded dot
 // product is off by 0.14, this by 5e-5.
@@ -60,6 +52,20 @@ static inline SeenLight see_light(const SceneView *scene, uint index, const Surf
     return light;
 }
 
+// From the surface, which is known best there, so that light passes no edge of a closed shape
+// however far away it comes from.  From the light, as common origin of all rays, packets would be
+// 2 % faster in small scenes and slower in large ones.
+static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
+                               const SeenLight *light)
+{
+    const Heading heading = {light->position, true};
+    const Real sine = fabs(dot_product(surface->face, light->toward));
+    const Real3 point = point_left(scene, surface, &heading, sine, light->faces);
+    return (Ray){point,       difference(light->position, point),
+                 surface->id, surface->index,
+                 RAY_SHADOW,  light->faces};
+}
+
 // What is lit, in which lanes, and the light received so far.
 typedef struct {
     const Surface *surface;
@@ -78,7 +84,7 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
         return;
     if (CLRT_STATISTICS)
         tally->shadow_rays += lane_count(light.faces);
-    const Ray ray = ray_from_light(light.position, surface, light.faces);
+    const Ray ray = ray_to_light(scene, surface, &light);
     const Truth is_lit = light.faces && !is_blocked(scene, frame, &ray, tally);
     sign_lanes(tally, is_lit, (Count)(index));
     const Real diffuse = lighting->diffuse + light.intensity * light.cosine;

@@ -160,27 +160,16 @@ static inline Nearest surely_nearest(const SceneView *scene, const FrameData *fr
     return search.nearest;
 }
 
-// A shadow ray as spheres are met by it: from the surface to the light.
-static inline ThickRay turned_around(const ThickRay *ray)
-{
-    ThickRay turned = *ray;
-    turned.origin = ray->end.point;
-    turned.along = negative3(ray->along);
-    turned.around = radius_of(&ray->end);
-    return turned;
-}
-
 static inline Answer spheres_block(const SceneView *scene, const FrameData *frame,
                                    const ThickRay *ray)
 {
-    const ThickRay turned = turned_around(ray);
-    const Real margin = turned.around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
+    const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
     Answer blocked = ANSWER_NO;
     for (uint index = 0; index < frame->sphere_count; index++) {
         if (index == ray->own)
             continue;
         const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
-        const Chord chord = chord_of(&turned, &sphere);
+        const Chord chord = chord_of(ray, &sphere);
         blocked = max(blocked, sphere_blocks(&chord, ray->length - margin, ray->length + margin));
     }
     return blocked;

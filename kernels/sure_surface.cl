@@ -134,36 +134,54 @@ static inline FatSurface fat_surface(const SceneView *scene, const FrameData *fr
     return surface;
 }
 
+// Where a ray starts that leads in a direction, as far as `doubt` tells.  Its line may miss its own
+// triangle nearer to an edge than the point is off (11u an axis) and the corners are (14u of their
+// distance), both over the sine at which it leaves; farther than 64u over it the tracer does not
+// look.  Then the start may be 256u over that sine along the surface, on each axis.
+static inline FatPoint start_of(const FatSurface *surface, Real3 direction, Real doubt, Real u)
+{
+    FatPoint start = surface->end;
+    const Real sine = fabs(dot_product(direction, surface->face)) - doubt - surface->face_doubt;
+    const Real least = min((Real)(71.0f), 24.0f + 11.0f * surface->edge) * u * surface->edge;
+    if (!surface->is_sphere && !(surface->room * sine > least)) {
+        start.slide += sine > 0.0f ? 450.0f * u / sine : INFINITY;
+        start.lift += 4.0f * u;
+    }
+    return start;
+}
+
 static inline ThickRay thick_shadow_ray(const FatSurface *surface, Real3 light, Real u)
 {
-    const Real3 apart = difference(surface->end.point, light);
-    const Real length = length_of(apart);
-    const Real doubt = radius_of(&surface->end) + (u + 8.0f * OWN_ROUNDOFF) * length;
-    ThickRay ray = {.origin = light,
-                    .spread = spread_of(turn_of(doubt, length)),
+    const Real3 apart = difference(light, surface->end.point);
+    const Real length = length_of(apart), rounding = (u + 8.0f * OWN_ROUNDOFF) * length;
+    const Real turn = turn_of(radius_of(&surface->end) + rounding, length) + 8.0f * u;
+    const FatPoint start = start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF);
+    ThickRay ray = {.origin = start.point,
+                    .around = radius_of(&start),
+                    .spread = spread_of(turn_of(radius_of(&start) + rounding, length)),
                     .length = length,
                     .u = u,
                     .own = surface->id,
                     .kind = RAY_SHADOW,
-                    .end = surface->end};
+                    .start = start,
+                    .goal = {light, surface->face, 0.0f, 1.01f * rounding}};
     look_along(&ray, unit_vector(apart));
     return ray;
 }
 
-// Whether the shaded side is turned to the light at the ray's origin.
-static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_surface)
+// Whether the shaded side is turned to the light.
+static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
-    const Real cosine = -dot_product(surface->normal, to_surface->along);
+    const Real cosine = dot_product(surface->normal, to_light->along);
     const Real doubt =
-        surface->normal_doubt + to_surface->spread + 8.0f * (to_surface->u + OWN_ROUNDOFF);
+        surface->normal_doubt + to_light->spread + 8.0f * (to_light->u + OWN_ROUNDOFF);
     if (!(fabs(cosine) > doubt))
         return ANSWER_UNKNOWN;
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
 // Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near
-// it either is taken, with the difference in doubt.  A sphere's face is its normal.  Nearer to an
-// edge than 64u over the sine at which it leaves, a ray may start up to 26u beside its point.
+// it either is taken, with the difference in doubt.  A sphere's face is its normal.
 static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;
@@ -178,10 +196,7 @@ static inline ThickRay thick_reflected_ray(const FatSurface *surface, const Thic
     } else if (!surface->is_sphere && height <= height_doubt) {
         doubt += 4.0f * height_doubt + 12.0f * u;
     }
-    FatPoint start = surface->end;
-    const Real sine = fabs(dot_product(direction, surface->face)) - doubt - surface->face_doubt;
-    if (!surface->is_sphere && !(surface->room * sine > 71.0f * u * surface->edge))
-        start.lift += 26.0f * u;
+    const FatPoint start = start_of(surface, direction, doubt, u);
     ThickRay ray = {.origin = start.point,
                     .around = radius_of(&start),
                     .spread = spread_of(1.01f * doubt),
@@ -189,7 +204,7 @@ static inline ThickRay thick_reflected_ray(const FatSurface *surface, const Thic
                     .u = before->u,
                     .own = surface->id,
                     .kind = RAY_REFLECTED,
-                    .end = start};
+                    .start = start};
     look_along(&ray, unit_vector(direction));
     return ray;
 }

@@ -165,35 +165,30 @@ static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight
     candidate.met = is_clear ? ANSWER_YES : ANSWER_UNKNOWN;
     if (candidate.low > AT_EYE)
         return candidate;
-    const Candidate near = reflected_candidate(ray, sight, side_of(corners, &ray->end, ray->u));
+    const Candidate near = reflected_candidate(ray, sight, side_of(corners, &ray->start, ray->u));
     if (near.met == ANSWER_NO || (near.met == ANSWER_YES && candidate.low > 0.0f))
         return near;
     return candidate;
 }
 
-// The light lies at the ray's origin; the point at its end is on `side`.  What has both on one side
-// is not between them.
+// What has both ends of the ray on one side is not between them.
 static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight, int side,
                                          int light_side)
 {
-    Candidate candidate = depth_of(sight, ray->u);
-    const Real margin = margin_of(sight, ray->u);
-    const bool front = sight->edges.determinant > 0.0f;
+    Candidate candidate = reflected_candidate(ray, sight, side);
+    const Real doubt = margin_of(sight, ray->u) + radius_of(&ray->start) + radius_of(&ray->goal);
     const bool same = side != 0 && side == light_side;
-    if (candidate.high < 0.0f || (sight->faces && same))
+    if (candidate.low > ray->length + doubt || (sight->faces && same))
         return candidate_none();
-    const Real end = ray->length - radius_of(&ray->end) - 2.0f * ray->u * ray->length;
-    const bool between = side != 0 && side == -light_side && candidate.low > margin;
-    const bool clear = !front || candidate.high + margin < end;
-    candidate.met = sight->inside && between && clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    if (!(candidate.high + doubt < ray->length))
+        candidate.met = ANSWER_UNKNOWN;
     return candidate;
 }
 
 // As triangle_is_open, where the side that is seen is certain.
-static inline bool is_surely_open(const ThickRay *ray, const Sight *sight, bool two_sided)
+static inline bool is_surely_open(const Sight *sight, bool two_sided)
 {
-    const bool front = sight->edges.determinant > 0.0f;
-    return !two_sided && sight->faces && front == (ray->kind == RAY_SHADOW);
+    return !two_sided && sight->faces && !(sight->edges.determinant > 0.0f);
 }
 
 static inline Candidate triangle_candidate(const ThickRay *ray, global const TriangleData *triangle)
@@ -203,15 +198,14 @@ static inline Candidate triangle_candidate(const ThickRay *ray, global const Tri
         return candidate_none();
     const Sight sight = sight_of(ray, &corners);
     const bool two_sided = (triangle->material & TRIANGLE_TWO_SIDED) != 0;
-    if ((sight.clear && !sight.inside) || is_surely_open(ray, &sight, two_sided))
+    if ((sight.clear && !sight.inside) || is_surely_open(&sight, two_sided))
         return candidate_none();
     if (ray->kind == RAY_CAMERA)
         return camera_candidate(ray, &sight, &corners);
-    const int side = side_of(&corners, &ray->end, ray->u);
+    const int side = side_of(&corners, &ray->start, ray->u);
     if (ray->kind == RAY_REFLECTED)
         return reflected_candidate(ray, &sight, side);
-    const FatPoint light = {ray->origin, ray->along, 0.0f, 0.0f};
-    return shadow_candidate(ray, &sight, side, side_of(&corners, &light, 0.0f));
+    return shadow_candidate(ray, &sight, side, side_of(&corners, &ray->goal, 0.0f));
 }
 
 #endif

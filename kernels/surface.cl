@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A hit becomes a surface: the point and its normals.  Points are interpolated on the primitive
 // rather than stepped along the ray, so that their error does not grow with the distance traveled
-// (pbrt, section 6.8).  New rays start and end right there: which triangles they may stop on is
-// decided by the side the point lies on (triangle.cl), so no offset moves contacts and shadows.
-// Only a point that rounding put outside its own triangle is not where a reflected ray starts.
+// (pbrt, section 6.8).  New rays start right there: which triangles they may stop on is decided by
+// the side the point lies on (triangle.cl), so no offset moves contacts and shadows.  Only where
+// rounding put the point outside its own triangle, as the new ray sees it, is it moved.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
 #include "fetch.cl"
@@ -171,25 +171,36 @@ static inline Surface surface_at(const SceneView *scene, const FrameData *frame,
     return any_lane(on_triangle) ? choose_surface(on_sphere, &sphere, &triangle) : sphere;
 }
 
+// Where a ray leads that leaves a surface: in a direction, or to a place.
+typedef struct {
+    Real3 to;
+    bool is_place;
+} Heading;
+
+static inline Real3 direction_from(Real3 point, const Heading *heading)
+{
+    return heading->is_place ? difference(heading->to, point) : heading->to;
+}
+
 // Where a ray starts whose surface point rounding may have put outside its triangle: beyond the
-// neighbor that it should stop on.  As long as its line misses the triangle, the point goes back
-// inside and up from the surface, by 1 to 8 units of rounding.
+// neighbor that it should stop on.  As long as its line misses the triangle, the point goes toward
+// the middle of it, in its plane: the sharper the corner, the farther, up to 256 times what a unit
+// of rounding moves the line along the plane.
 static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surface,
-                                     Real3 direction, Truth near_edge)
+                                     const Heading *heading, Real sine, Truth near_edge)
 {
     const Corners corners = fetch_corners(scene, near_edge ? surface->index : (Count)(0));
     const Real third = RATIO(1.0f, 3.0f);
     const Real3 middle = weighted(real3_of(third, third, third), &corners);
     const Real3 inward = difference(middle, surface->point);
-    const Real size = max(largest_component(inward), (Real)(16.0f * UNIT_ROUNDOFF));
-    const Real3 shift = sum3(scaled3(1.0f / size, inward), surface->face);
+    const Real unit = UNIT_ROUNDOFF / (sine * largest_component(inward));
     Real3 point = surface->point;
     Truth outside = near_edge;
-    for (uint step = 1; step <= 8 && any_lane(outside); step *= 2) {
-        const View view = view_of(&corners, point, direction);
+    for (uint step = 1; step <= 256 && any_lane(outside); step *= 2) {
+        const View view = view_of(&corners, point, direction_from(point, heading));
         outside = outside && !edges_contain(&view.edges);
-        const Real3 moved = sum3(surface->point, scaled3(step * UNIT_ROUNDOFF, shift));
-        point = choose3(outside, moved, point);
+        const Real part = min(step * unit, (Real)(1.0f));
+        point = choose3(outside, sum3(surface->point, scaled3(part, inward)), point);
     }
     return point;
 }
@@ -197,15 +208,14 @@ static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surf
 // Where a ray that leaves the surface starts, so that its line passes through its own triangle.
 // Only near edges can rounding keep it from that: a point is off by some units of rounding of
 // coordinates up to 1, and a line that rises from the surface by a sine by as much over the sine.
-static inline Real3 point_left(const SceneView *scene, const Surface *surface, Real3 direction,
-                               Truth active)
+static inline Real3 point_left(const SceneView *scene, const Surface *surface,
+                               const Heading *heading, Real sine, Truth active)
 {
-    const Real sine = fabs(dot_product(surface->face, direction));
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
     const Truth near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
         return surface->point;
-    return point_inside(scene, surface, direction, near_edge);
+    return point_inside(scene, surface, heading, sine, near_edge);
 }
 
 // An interpolated normal can send the reflected ray into the surface it leaves; such a ray is
@@ -218,8 +228,10 @@ static inline Ray ray_reflected(const SceneView *scene, const Surface *surface, 
     const Real height = dot_product(direction, surface->face);
     const Real3 outward = difference(direction, scaled3(2.0f * height, surface->face));
     const Real3 turned = choose3(height < 0.0f, outward, direction);
-    const Real3 point = point_left(scene, surface, turned, active);
-    return (Ray){point, turned, surface->id, surface->index, RAY_REFLECTED, point, active};
+    const Heading heading = {turned, false};
+    const Real sine = fabs(dot_product(surface->face, turned));
+    const Real3 point = point_left(scene, surface, &heading, sine, active);
+    return (Ray){point, turned, surface->id, surface->index, RAY_REFLECTED, active};
 }
 
 #endif

@@ -30,8 +30,9 @@
 //     product of the largest edge components: 7u E + 3u |n|.  Unit vectors add 4u.
 //  6. An interpolated normal: 3u on each weight and 3u of the interpolation; what is common to all
 //     does not turn it; and what sliding changes the weights by.
-//  7. Directions to lights: u on the difference, 4u on the unit vector.  Reflection turns twice as
-//     far as the normal and as far as the ray, and rounds by 12u.
+//  7. Directions to lights: u on the difference, 4u on the unit vector; a shadow ray ends within u
+//     of its length from the light.  Reflection turns twice as far as the normal and as far as the
+//     ray, and rounds by 12u.
 //  8. Spheres: sure_sphere.cl.
 #ifndef CLRT_THICK_CL
 #define CLRT_THICK_CL
@@ -51,11 +52,12 @@ typedef struct {
     Real around;                    // every ray of the cone starts within this of the origin
     Real spread;                    // and leads away from `along` by at most this tangent
     Real tilt;                      // at least the sine between them and the longest axis
-    Real length;                    // of a shadow ray, which starts at the light; else INFINITY
+    Real length;                    // of a shadow ray, up to the light; else INFINITY
     Real u;                         // unit roundoff of the tracer in question
     Count own;                      // as a Ray's
     RayKind kind;
-    FatPoint end; // the surface that it leaves or, where it is a shadow ray, reaches
+    FatPoint start; // where it leaves a surface, or the eye
+    FatPoint goal;  // of a shadow ray: where it ends, at the light
 } ThickRay;
 
 static inline Real length_of(Real3 v)
@@ -97,7 +99,7 @@ static inline void look_along(ThickRay *ray, Real3 along)
 // The tracer searches no farther (traverse.cl), and a cone so wide would settle nothing.
 static inline bool is_usable(const ThickRay *ray)
 {
-    return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-10f;
+    return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
 }
 
 // A point in the ray's frame: across, across and along.
@@ -108,13 +110,22 @@ static inline Real3 seen_by(const ThickRay *ray, Real3 point)
                     dot_product(apart, ray->along));
 }
 
+// The cone's radius at a depth.  Shadow rays come together again at the light.
+static inline Real cone_at(const ThickRay *ray, Real z)
+{
+    const Real depth = fabs(z) + ray->around;
+    if (ray->kind != RAY_SHADOW)
+        return ray->around + ray->spread * depth;
+    return ray->around * (fabs(1.0f - z / ray->length) + 2.0f * ray->spread) +
+           radius_of(&ray->goal) * (depth / ray->length);
+}
+
 // How far the point may lie elsewhere, seen along any ray of the cone as the tracer rounds it.
 static inline Real blur_at(const ThickRay *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;
     const Real aside = fabs(seen.x) + fabs(seen.y) + ray->around + ray->spread * depth;
-    const Real cone = ray->around + ray->spread * depth;
-    return 1.0001f * cone + ray->u * (4.01f * ray->tilt * depth + 10.0f * aside) +
+    return 1.0001f * cone_at(ray, seen.z) + ray->u * (4.01f * ray->tilt * depth + 10.0f * aside) +
            16.0f * OWN_ROUNDOFF * (depth + aside);
 }
 
@@ -148,7 +159,7 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
         .u = u,
         .own = NOTHING,
         .kind = RAY_CAMERA,
-        .end = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
+        .start = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
     look_along(&thick, unit_vector(ray.direction));
     return thick;
 }

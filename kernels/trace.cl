@@ -22,7 +22,7 @@ static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sampl
     const Real3 direction = {fma(x, right.x, fma(y, down.x, forward.x)),
                              fma(x, right.y, fma(y, down.y, forward.y)),
                              fma(x, right.z, fma(y, down.z, forward.z))};
-    return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, eye, active};
+    return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, active};
 }
 
 static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)

@@ -15,19 +15,14 @@ static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Tru
     return sphere_chord(sphere, ray->origin, ray->direction);
 }
 
-// A shadow ray is followed from the surface here: two-float distances are exact enough to see what
-// touches the surface, from the light they are not.
 static inline void meet_spheres(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                 Hit *best, Tally *tally)
 {
-    const bool is_shadow = ray->kind == RAY_SHADOW;
-    const Real3 origin = is_shadow ? ray->surface : ray->origin;
-    const Real3 direction = is_shadow ? negative3(ray->direction) : ray->direction;
     for (uint index = 0; index < frame->sphere_count; index++) {
         const Sphere sphere = sphere_at(&scene->spheres[index]);
         const Truth is_own = ray->active && ray->own == index;
         const Truth is_other = ray->active && ray->own != index;
-        const Real other = sphere_distance(&sphere, origin, direction, is_other);
+        const Real other = sphere_distance(&sphere, ray->origin, ray->direction, is_other);
         const Real t = is_own ? own_sphere_distance(&sphere, ray, is_own) : other;
         const Truth precedes = hit_precedes(t, index, best);
         best->t = precedes ? t : best->t;
@@ -64,11 +59,9 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
     return best;
 }
 
-// What stands between the light and the shaded point of a shadow ray: anything that does, with no
-// id where nothing does; t then is the distance it was looked for within.  That of a sphere counts
-// from the point, that of a triangle from the light.  Triangles are looked for a little past the
-// point: which side of it they are on is decided exactly there.  What the light lies on, to within
-// the error of a distance, does not stand between.
+// What stands between the shaded point and the light of a shadow ray: anything that does, with no
+// id where nothing does; t then is the distance it was looked for within.  What the light lies on,
+// to within the error of a distance, does not stand between.
 static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {
@@ -79,7 +72,6 @@ static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, c
     rest.active = is_searchable(ray) && best.id == NOTHING;
     if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
         return best;
-    best.t = 1.0f + 0x1p-10f;
     meet_triangles(scene, frame, &rest, &best, tally);
     return best;
 }

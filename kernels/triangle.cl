@@ -140,12 +140,12 @@ static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *o
     return (neighbor.front || start.front) && !behind;
 }
 
-// What a ray that leaves or reaches a surface knows beside its direction.
+// What a ray that leaves a surface knows beside its direction.
 typedef struct {
-    Real3 point; // of the surface
-    Truth front; // it comes from the triangle's front
-    bool is_shadow;
-    float blur; // what the point may be off, as in height_over: 0 for the eye, which is stored
+    Real3 point;  // of the surface
+    Truth front;  // it comes from the triangle's front
+    float length; // as a distance t: 1 up to a light, else INFINITY
+    float blur;   // what the point may be off, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
 
 // Where such a ray stops on a triangle that t, within error, says it meets; INFINITY where it does
@@ -158,9 +158,9 @@ typedef struct {
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Truth *in_doubt)
 {
-    const Truth inner = ray->is_shadow ? ray->front : !ray->front;
-    const Truth ahead = t > (ray->is_shadow ? error : -error);
-    const Truth clear = (ray->is_shadow ? 1.0f - t : t) > (ray->blur > 0.0f ? error : -error);
+    const Truth inner = !ray->front;
+    const Truth ahead = t > -error && t < ray->length - error;
+    const Truth clear = t > (ray->blur > 0.0f ? error : -error);
     const Real height = height_over(corners, ray->point, ray->blur);
     const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
     *in_doubt = ahead && !beyond && (inner ? height <= 0.0f : height == 0.0f);

@@ -149,8 +149,7 @@ static NOT_INLINE int8 block_stops(const WideCorners *corners, const Search *sea
         return 0;
     const Corners owns = fetch_corners(search->scene, (Count)(count_of(&ray->own_index, lane)));
     const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
-    const Real3 outward = ray->kind == RAY_SHADOW ? negative3(ray->direction) : ray->direction;
-    return meets_neighbor(&own, corners, splat3(&outward, lane), from_back);
+    return meets_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
 
 // Where the lane's ray stops on those triangles; INFINITY where it does not, or not before `reach`.
@@ -159,11 +158,10 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
 {
     const Ray *ray = search->ray;
     const WideShear *shear = &test->shear;
-    const bool is_shadow = ray->kind == RAY_SHADOW;
     const uint8 id = vload8(0, block->id);
     const int8 front = edges_face(&test->edges, shear);
     const int8 one_sided = (id & TRIANGLE_TWO_SIDED) == 0;
-    const int8 open = one_sided && (is_shadow ? front : !front);
+    const int8 open = one_sided && !front;
     const int8 own = (id & ~TRIANGLE_TWO_SIDED) == count_of(&ray->own, lane);
     const int8 closed = test->inside && !open && !own;
     const float8 t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
@@ -171,14 +169,15 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     int8 near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
         near = near && triangle_is_at_origin(t, shear);
-    else if (ray->kind == RAY_REFLECTED)
+    else
         near = near && (t > 0.0f || triangle_is_at_origin(t, shear));
     if (lane_bits(near) == 0)
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const WideSurfaceRay surface = {splat3(&ray->surface, lane), front, is_shadow, blur_of(ray)};
+    const WideSurfaceRay surface = {splat3(&ray->origin, lane), front, length_of_ray(ray),
+                                    blur_of(ray)};
     int8 in_doubt;
     const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
@@ -186,7 +185,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     in_doubt = in_doubt && near;
     if (lane_bits(in_doubt) == 0)
         return near ? distance : INFINITY;
-    const int8 stops = block_stops(&corners, search, lane, is_shadow ? front : !front);
+    const int8 stops = block_stops(&corners, search, lane, !front);
     return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
 }
 

@@ -14,8 +14,8 @@
 
 typedef enum {
     SEGMENT_FREE,     // between any two points
-    SEGMENT_SURFACE,  // ends on a triangle, its own
-    SEGMENT_ON_LIGHT, // starts exactly on a face
+    SEGMENT_SURFACE,  // starts on a triangle, its own
+    SEGMENT_ON_LIGHT, // ends exactly on a face
     SEGMENT_KINDS
 } SegmentKind;
 
@@ -27,14 +27,14 @@ static float lattice_place(Random *random)
     return (float)random_below(random, 1025) * 0x1p-10f - 0.5f;
 }
 
-static TestRay segment_to_surface(const Stage *stage, Vec3 light, Random *random)
+static TestRay segment_from_surface(const Stage *stage, Vec3 light, Random *random)
 {
     const uint32_t number = random_below(random, (uint32_t)stage->triangles.count);
     const double u = random_between(random, 0, 1), v = random_between(random, 0, 1 - u);
     const Vec3 a = aim_corner(&stage->triangles, number, 0);
     const Vec3 ab = vec3_sub(aim_corner(&stage->triangles, number, 1), a);
     const Vec3 ac = vec3_sub(aim_corner(&stage->triangles, number, 2), a);
-    TestRay ray = aim_at(light, vec3_add(a, vec3_add(vec3_scale(ab, u), vec3_scale(ac, v))));
+    TestRay ray = aim_at(vec3_add(a, vec3_add(vec3_scale(ab, u), vec3_scale(ac, v))), light);
     ray.own = number;
     return ray;
 }
@@ -48,8 +48,8 @@ static void make_segments(TestRay *rays, size_t count, SegmentKind kind, const S
             light = random_in_cube(random, 2);
         if (aim_moves_origin(i, 64) && kind == SEGMENT_ON_LIGHT)
             light = vec3((double)lattice_place(random), (double)lattice_place(random), 0.5);
-        rays[i] = kind == SEGMENT_SURFACE ? segment_to_surface(stage, light, random)
-                                          : aim_at(light, random_in_cube(random, 2));
+        rays[i] = kind == SEGMENT_SURFACE ? segment_from_surface(stage, light, random)
+                                          : aim_at(random_in_cube(random, 2), light);
     }
 }
 

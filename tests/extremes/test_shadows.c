@@ -8,6 +8,7 @@
 #include "support/tier.h"
 #include "support/varied_scene.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,6 +131,70 @@ static void light_enters_a_room_through_its_door_alone_t39(void **state)
     assert_int_equal(lit, 0);
 }
 
+// A closed shape with sharp edges inward and outward, and lights all around it.
+static Scene lit_from_outside(Random *random, double distance)
+{
+    Scene scene = shape_scene(shape_bumpy(random, vec3(0, 0, 0)));
+    darken(&scene);
+    for (int i = 0; i < 32; i++)
+        add_light(&scene, vec3_scale(vec3_normalize(random_in_cube(random, 1)), distance), 1);
+    add_view(&scene, vec3(0, 0, 0), vec3(1, 0, 0), 40);
+    return scene;
+}
+
+// A point of an edge, or one of its ends.
+static Vec3 random_edge_point(const Mesh *mesh, Random *random, bool at_end)
+{
+    const uint32_t *corners = mesh->triangles[random_below(random, (uint32_t)mesh->triangle_count)];
+    const double *from = mesh->positions[corners[0]], *to = mesh->positions[corners[1]];
+    const Vec3 a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]};
+    const double along = at_end ? 0 : random_between(random, 0, 1);
+    return vec3_add(a, vec3_scale(vec3_sub(b, a), along));
+}
+
+static size_t count_dark(const Framebuffer *picture)
+{
+    size_t dark = 0;
+    for (size_t pixel = 0; pixel < (size_t)picture->width * picture->height; pixel++)
+        dark += !(picture->pixels[pixel][0] > 0);
+    return dark;
+}
+
+// Pictures from the middle around edges and vertices, from 40 degrees down to where neighboring
+// pixels see the same rounded point.
+static size_t light_that_enters(const Studio *studio, double distance, size_t *pixels)
+{
+    size_t lit = 0;
+    Random random = {3939};
+    PictureSettings settings = shadow_settings();
+    Scene scene = lit_from_outside(&random, distance);
+    for (size_t view = 0; view < tier_size(28, 280); view++) {
+        Framebuffer picture;
+        const Mesh *mesh = &scene.objects.data[0].mesh;
+        scene.viewpoints.data[0].look_at = random_edge_point(mesh, &random, view % 4 == 0);
+        scene.viewpoints.data[0].fov_degrees = 40 * pow(0.1, (double)(view % 7));
+        picture_draw(&picture, studio, &scene, &settings);
+        *pixels += (size_t)picture.width * picture.height;
+        lit += (size_t)picture.width * picture.height - count_dark(&picture);
+        framebuffer_free(&picture);
+    }
+    scene_free(&scene);
+    return lit;
+}
+
+static void no_light_passes_the_edges_of_a_closed_shape_t39(void **state)
+{
+    size_t wrong = 0;
+    for (double distance = 8; distance < 1e6; distance *= 32) {
+        char details[48];
+        size_t pixels = 0;
+        const size_t lit = light_that_enters(*state, distance, &pixels);
+        snprintf(details, sizeof details, "room=bumpy lights=%.0f", distance);
+        wrong += report_case("T-39", details, pixels, lit);
+    }
+    assert_int_equal(wrong, 0);
+}
+
 // A globe, as a sphere or a mesh, this far over a floor.
 static Scene contact(double gap, bool as_mesh)
 {
@@ -174,15 +239,7 @@ static Scene grazed_plane(double sine, bool tilted)
     return scene;
 }
 
-// All of it faces the light, and nothing stands between.
-static size_t count_dark(const Framebuffer *picture)
-{
-    size_t dark = 0;
-    for (size_t pixel = 0; pixel < (size_t)picture->width * picture->height; pixel++)
-        dark += !(picture->pixels[pixel][0] > 0);
-    return dark;
-}
-
+// All of the plane faces the light, and nothing stands between.
 static void grazing_light_leaves_no_speckles_t41(void **state)
 {
     size_t dark = 0;
@@ -280,6 +337,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_convex_shape_casts_no_shadow_on_itself_t39),
         cmocka_unit_test(light_enters_a_room_through_its_door_alone_t39),
+        cmocka_unit_test(no_light_passes_the_edges_of_a_closed_shape_t39),
         cmocka_unit_test(a_shadow_reaches_the_point_of_contact_t40),
         cmocka_unit_test(grazing_light_leaves_no_speckles_t41),
         cmocka_unit_test(lights_on_surfaces_and_in_the_eye_are_as_exact_as_others_t42),

@@ -68,11 +68,10 @@ static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
 }
 
 // Reflected rays from points of triangles at or near one of their edges, where their neighbors are
-// met at distances that rounding can make zero or less; or shadow rays to such points.
+// met at distances that rounding can make zero or less; or shadow rays from there.
 static void make_surface_rays(TestRay *rays, const Stage *stage, bool are_shadows, Random *random)
 {
     const size_t count = rays_a_case();
-    Vec3 light = {0};
     const Triangles *triangles = &stage->triangles;
     for (size_t i = 0; i < count; i++) {
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
@@ -82,12 +81,7 @@ static void make_surface_rays(TestRay *rays, const Stage *stage, bool are_shadow
         const double inward = scalbn(random_between(random, 0, 1), -(int)random_below(random, 30));
         const Vec3 edge = vec3_add(a, along);
         const Vec3 origin = vec3_add(edge, vec3_scale(vec3_sub(c, edge), inward));
-        if (aim_moves_origin(i, AIM_BUNDLE))
-            light = vec3_add(origin, random_in_cube(random, 1));
-        if (are_shadows)
-            rays[i] = aim_at(light, origin);
-        else
-            rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
+        rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
         rays[i].own = stage->flat.sphere_count + triangle;
         rays[i].kind = are_shadows ? RAY_SHADOW : RAY_REFLECTED;
     }

@@ -44,7 +44,7 @@ static inline Truth same_in_first(Count value, Truth among)
 }
 
 // Those lanes of `left` that may search with the first of them: their rays are of one kind and,
-// unless reflected, start at one point.
+// as the camera's do, start at one point.
 static inline Truth companions(const TestRays *rays, Truth left)
 {
     const Real3 o = rays->origin;
@@ -52,7 +52,7 @@ static inline Truth companions(const TestRays *rays, Truth left)
     const Truth same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
                               as_bits(o.y) == as_bits(first_real(o.y, left)) &&
                               as_bits(o.z) == as_bits(first_real(o.z, left));
-    return same_kind && (rays->kind == (uint)RAY_REFLECTED || same_origin);
+    return same_kind && (rays->kind != (uint)RAY_CAMERA || same_origin);
 }
 
 static inline Real filled_lane(Real value, Truth lanes)
@@ -71,9 +71,8 @@ static inline uint first_kind(const TestRays *rays, Truth lanes)
     return *(const uint *)&kind;
 }
 
-// Rays are made by the tracer's own functions, from surfaces that give such rays: a reflected ray
-// continues along a face it looks straight away from, and a shadow ray ends where t is 1.  The
-// other lanes copy the first.
+// Reflected rays are made by the tracer's own function, from a face they look straight away from;
+// a shadow ray ends where t is 1.  The other lanes copy the first.
 static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Truth lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
@@ -84,15 +83,13 @@ static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Truth lan
     surface.index = NOTHING;
     surface.room = 0.0f;
     surface.edge = 0.0f;
-    surface.point = kind == RAY_SHADOW ? sum3(origin, direction) : origin;
+    surface.point = origin;
     surface.normal = real3_of(0.0f, 0.0f, 0.0f);
     surface.face = direction;
     surface.toward_viewer = negative3(direction);
-    if (kind == RAY_SHADOW)
-        return ray_from_light(origin, &surface, lanes);
     if (kind == RAY_REFLECTED)
         return ray_reflected(scene, &surface, lanes);
-    return (Ray){origin, direction, rays->own, NOTHING, RAY_CAMERA, origin, lanes};
+    return (Ray){origin, direction, rays->own, NOTHING, (RayKind)kind, lanes};
 }
 
 static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth lanes, Real t,
@@ -174,10 +171,12 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
             const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
             const Truth inward = dot_product(chosen, surface.face) < 0.0f;
             const Real3 direction = choose3(inward, negative3(chosen), chosen);
-            const Ray next = {surface.point, direction,     surface.id, surface.index,
-                              RAY_REFLECTED, surface.point, met};
+            const Ray next = {surface.point, direction,     surface.id,
+                              surface.index, RAY_REFLECTED, met};
             second = nearest_hit(&scene, &frame, &next, &tally);
-            const Ray shadow = ray_from_light(sum3(surface.point, direction), &surface, met);
+            const SeenLight light = {
+                .position = sum3(surface.point, direction), .toward = direction, .faces = met};
+            const Ray shadow = ray_to_light(&scene, &surface, &light);
             const Truth dark = is_blocked(&scene, &frame, &shadow, &tally);
             second.id = second.id == NOTHING && dark ? (Count)(LEAVE_SHADOWED) : second.id;
         }
