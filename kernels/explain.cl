@@ -158,9 +158,7 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
         const Real3 shaded = shade(scene, frame, dark, &tally);
         const Truth ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
-        const Lighting unlit = {&surface, &material, met && material.shader != SHADER_SILHOUETTE,
-                                0.0f, 0.0f};
-        note_surface(&level, scene, frame, &unlit);
+        note_surface(&level, scene, frame, &dark);
         note3(&level, LEVEL_SHADED, shaded);
         note(&level, LEVEL_SHARE, share);
         color = sum3(color, scaled3(share, shaded));
