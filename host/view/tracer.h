@@ -30,7 +30,7 @@ typedef struct {
     Renderer counter; // the same with counters, opened when it is first wanted
 } Tracer;
 
-// Opens the device.  The options outlive the tracer.
+// Opens the device.  The options outlive the tracer, which is to be closed in either case.
 bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(Tracer *tracer);
 
