@@ -191,13 +191,18 @@ ExitCode picture_make(Run *run, Error *error)
         return EXIT_OUTPUT;
     image_prepare(run->options->format);
     run_begin(run);
-    if (!run_load_scene(run, error))
+    if (!run_load_scene(run, error)) {
+        starter_decide(&run->starter, false);
         return EXIT_SCENE;
+    }
     if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
-    const ExitCode prepared = run_prepare(run, error);
-    if (prepared != EXIT_DONE)
-        return prepared;
+    if (!run_await_device(run, error))
+        return EXIT_DEVICE;
+    if (!run_build_scene(run, error))
+        return EXIT_SCENE;
+    if (!run_open_renderer(run, error))
+        return EXIT_DEVICE;
     describe(run);
     if (!draw(run, error) || !certify(run, error) || !draw_layers(run, error) ||
         !measure_error(run, error))

@@ -127,7 +127,7 @@ bool run_build_scene(Run *run, Error *error)
     return ok;
 }
 
-static bool open_renderer(Run *run, Error *error)
+bool run_open_renderer(Run *run, Error *error)
 {
     Starter *starter = &run->starter;
     starter_wait_kernel(starter);
@@ -155,7 +155,7 @@ ExitCode run_prepare(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!run_build_scene(run, error))
         return EXIT_SCENE;
-    return open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
+    return run_open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
 }
 
 void run_free(Run *run)

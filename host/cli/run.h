@@ -45,7 +45,10 @@ bool run_await_device(Run *run, Error *error);
 // Scene to arrays.
 bool run_build_scene(Run *run, Error *error);
 
-// Both, and then arrays and kernels to the renderer; how it went.
+// Arrays and kernels to the renderer.
+bool run_open_renderer(Run *run, Error *error);
+
+// These three, one after the other; how it went.
 ExitCode run_prepare(Run *run, Error *error);
 
 // Frees what the stages made.

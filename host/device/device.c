@@ -195,14 +195,13 @@ bool device_open(Device *device, const char *spec, Error *error)
     describe(device);
     cl_int status;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &status);
-    bool ok = cl_succeeded(status, "create an OpenCL context", error);
-    if (ok) {
-        device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
-        ok = cl_succeeded(status, "create an OpenCL queue", error);
-    }
-    if (!ok)
-        device_close(device);
-    return ok;
+    if (!cl_succeeded(status, "create an OpenCL context", error))
+        return false;
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
+    if (cl_succeeded(status, "create an OpenCL queue", error))
+        return true;
+    device_close(device);
+    return false;
 }
 
 void device_close(Device *device)
