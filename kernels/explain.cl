@@ -121,17 +121,16 @@ static inline void note_hit(const Notes *notes, const SceneView *scene, const Fr
     note(notes, LEVEL_ERROR, hit_error(scene, frame, ray, &hits));
 }
 
+// The surface, and what each light does for it.
 static inline void note_surface(const Notes *notes, const SceneView *scene, const FrameData *frame,
-                                const Surface *surface, const MaterialLanes *material, Truth met)
+                                const Lighting *lighting)
 {
-    const Lighting lighting = {surface, material, met && material->shader != SHADER_SILHOUETTE,
-                               0.0f, 0.0f};
-    note3(notes, LEVEL_POINT, surface->point);
-    note3(notes, LEVEL_NORMAL, surface->normal);
-    note_count(notes, LEVEL_MATERIAL, surface->material);
-    for (uint index = 0; any_lane(lighting.wanted) && index < frame->light_count; index++) {
+    note3(notes, LEVEL_POINT, lighting->surface->point);
+    note3(notes, LEVEL_NORMAL, lighting->surface->normal);
+    note_count(notes, LEVEL_MATERIAL, lighting->surface->material);
+    for (uint index = 0; any_lane(lighting->wanted) && index < frame->light_count; index++) {
         const Notes light = light_notes(notes, index);
-        note_light(&light, scene, frame, index, &lighting);
+        note_light(&light, scene, frame, index, lighting);
     }
 }
 
@@ -158,7 +157,7 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
         const Real3 shaded = shade(scene, frame, dark, &tally);
         const Truth ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
-        note_surface(&level, scene, frame, &surface, &material, met);
+        note_surface(&level, scene, frame, &dark);
         note3(&level, LEVEL_SHADED, shaded);
         note(&level, LEVEL_SHARE, share);
         color = sum3(color, scaled3(share, shaded));

@@ -20,9 +20,7 @@ typedef struct {
 } Grid;
 
 typedef struct {
-    const Triangles *triangles;
-    const uint32_t *numbers;
-    uint32_t count;
+    CellSource source;
     Grid grid;
     Keyed *keyed[2];
     Bounds *centers;            // of each chunk
@@ -34,17 +32,17 @@ typedef struct {
 
 static Bounds bounds_of(const Sorting *sorting, uint32_t number)
 {
-    return bounds_of_triangle(sorting->triangles, number);
+    return bounds_of_triangle(sorting->source.triangles, number);
 }
 
 static void measure_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     Bounds centers = bounds_empty();
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
-        const Bounds box = bounds_of(sorting, sorting->numbers[i]);
+        const Bounds box = bounds_of(sorting, sorting->source.numbers[i]);
         const Bounds center = bounds_of_center(&box);
         bounds_unite(&centers, &center);
     }
@@ -72,10 +70,10 @@ static void key_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
     const Grid *grid = &sorting->grid;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
-        const uint32_t number = sorting->numbers[i];
+        const uint32_t number = sorting->source.numbers[i];
         const Bounds box = bounds_of(sorting, number);
         const Float4 place = (box.low - box.negated_high - grid->origin) * grid->scale;
         const uint32_t cell =
@@ -87,7 +85,7 @@ static void key_chunk(void *context, uint32_t chunk, uint32_t worker)
 static void count_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     uint32_t *counts = sorting->places[chunk];
     (void)worker;
     for (uint32_t digit = 0; digit < DIGITS; digit++)
@@ -99,7 +97,7 @@ static void count_chunk(void *context, uint32_t chunk, uint32_t worker)
 static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     uint32_t *places = sorting->places[chunk];
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
@@ -111,7 +109,7 @@ static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
 // Turns the chunks' counts into places: digit after digit, and chunk after chunk within each.
 static void place_digits(Sorting *sorting)
 {
-    const uint32_t chunks = chunk_count(sorting->count);
+    const uint32_t chunks = chunk_count(sorting->source.count);
     uint32_t place = 0;
     for (uint32_t digit = 0; digit < DIGITS; digit++)
         for (uint32_t chunk = 0; chunk < chunks; chunk++) {
@@ -123,7 +121,7 @@ static void place_digits(Sorting *sorting)
 
 static void sort(Sorting *sorting, Crew *crew)
 {
-    const uint32_t chunks = chunk_count(sorting->count);
+    const uint32_t chunks = chunk_count(sorting->source.count);
     for (sorting->shift = 0; sorting->shift < 2 * DIGIT_BITS; sorting->shift += DIGIT_BITS) {
         crew_run(crew, chunks, count_chunk, sorting);
         place_digits(sorting);
@@ -142,7 +140,7 @@ static bool begins_cell(const Keyed *keyed, uint32_t place)
 static void count_cells(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     uint32_t count = 0;
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
@@ -162,7 +160,7 @@ static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t firs
         bounds_unite(&bounds, &triangle);
         sorting->cells->numbers[place] = keyed[place].number;
         place++;
-    } while (place < sorting->count && keyed[place].cell == keyed[first].cell);
+    } while (place < sorting->source.count && keyed[place].cell == keyed[first].cell);
     item->bounds = bounds;
     item->number = number;
     item->weight = place - first;
@@ -173,7 +171,7 @@ static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t firs
 static void make_cells(void *context, uint32_t chunk, uint32_t worker)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->count);
+    const uint32_t end = chunk_end(chunk, sorting->source.count);
     uint32_t number = sorting->cell_counts[chunk];
     uint32_t place = chunk * CHUNK_ELEMENTS;
     (void)worker;
@@ -186,7 +184,7 @@ static void make_cells(void *context, uint32_t chunk, uint32_t worker)
 static bool gather_cells(Sorting *sorting, Crew *crew, Error *error)
 {
     Cells *cells = sorting->cells;
-    const uint32_t chunks = chunk_count(sorting->count);
+    const uint32_t chunks = chunk_count(sorting->source.count);
     crew_run(crew, chunks, count_cells, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++) {
         const uint32_t count = sorting->cell_counts[chunk];
@@ -195,19 +193,19 @@ static bool gather_cells(Sorting *sorting, Crew *crew, Error *error)
     }
     cells->items = memory_raw(cells->count, sizeof *cells->items, error);
     cells->starts = memory_raw(cells->count + 1, sizeof *cells->starts, error);
-    cells->numbers = memory_raw(sorting->count, sizeof *cells->numbers, error);
+    cells->numbers = memory_raw(sorting->source.count, sizeof *cells->numbers, error);
     if (cells->items == NULL || cells->starts == NULL || cells->numbers == NULL)
         return false;
     crew_run(crew, chunks, make_cells, sorting);
-    cells->starts[cells->count] = sorting->count;
+    cells->starts[cells->count] = sorting->source.count;
     return true;
 }
 
 static bool allocate(Sorting *sorting, Error *error)
 {
-    const uint32_t chunks = chunk_count(sorting->count);
-    sorting->keyed[0] = memory_raw(sorting->count, sizeof(Keyed), error);
-    sorting->keyed[1] = memory_raw(sorting->count, sizeof(Keyed), error);
+    const uint32_t chunks = chunk_count(sorting->source.count);
+    sorting->keyed[0] = memory_raw(sorting->source.count, sizeof(Keyed), error);
+    sorting->keyed[1] = memory_raw(sorting->source.count, sizeof(Keyed), error);
     sorting->centers = memory_raw(chunks, sizeof *sorting->centers, error);
     sorting->places = memory_raw(chunks, sizeof *sorting->places, error);
     sorting->cell_counts = memory_raw(chunks, sizeof *sorting->cell_counts, error);
@@ -217,7 +215,7 @@ static bool allocate(Sorting *sorting, Error *error)
 
 static bool sort_and_gather(Sorting *sorting, Crew *crew, Error *error)
 {
-    const uint32_t chunks = chunk_count(sorting->count);
+    const uint32_t chunks = chunk_count(sorting->source.count);
     Bounds centers = bounds_empty();
     crew_run(crew, chunks, measure_chunk, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++)
@@ -228,10 +226,9 @@ static bool sort_and_gather(Sorting *sorting, Crew *crew, Error *error)
     return gather_cells(sorting, crew, error);
 }
 
-bool cells_make(Cells *cells, const Triangles *triangles, const uint32_t *numbers, uint32_t count,
-                Crew *crew, Error *error)
+bool cells_make(Cells *cells, const CellSource *source, Crew *crew, Error *error)
 {
-    Sorting sorting = {.triangles = triangles, .numbers = numbers, .count = count, .cells = cells};
+    Sorting sorting = {.source = *source, .cells = cells};
     *cells = (Cells){0};
     const bool ok = allocate(&sorting, error) && sort_and_gather(&sorting, crew, error);
     free(sorting.keyed[0]);

@@ -13,7 +13,13 @@ typedef struct {
     uint32_t count;
 } Cells;
 
+// Those of the triangles that are shared out.
+typedef struct {
+    const Triangles *triangles;
+    const uint32_t *numbers;
+    uint32_t count;
+} CellSource;
+
 // Triangles keep their order within a cell.  One cell holds all where the centers are the same.
-bool cells_make(Cells *cells, const Triangles *triangles, const uint32_t *numbers, uint32_t count,
-                Crew *crew, Error *error);
+bool cells_make(Cells *cells, const CellSource *source, Crew *crew, Error *error);
 void cells_free(Cells *cells);

@@ -64,6 +64,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
                     Crew *crew, Error *error)
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
+    *triangles = (Triangles){0};
     // Ids share 32 bits with the spheres', and children on the traversal stack take one of them.
     if (count + scene->spheres.count >= 0x7fffffff)
         return error_set(error, "the scene has %zu triangles, more than 2^31 primitives", count);

@@ -104,8 +104,8 @@ static bool divide_node(Upper *upper, const Build *build, const BuildTask *task,
                         Error *error)
 {
     Division division = {.build = build, .upper = upper};
-    if (!cells_make(&division.cells, build->triangles, build->bvh->order + task->first, task->count,
-                    crew, error))
+    const CellSource source = {build->triangles, build->bvh->order + task->first, task->count};
+    if (!cells_make(&division.cells, &source, crew, error))
         return false;
     const uint32_t count = division.cells.count;
     const CellTask node = {*task, 0, count, 0};

@@ -15,6 +15,7 @@ typedef struct {
     ARRAY(BuildTask) tasks;    // nodes that are still to be divided
 } Upper;
 
-// Sorts the numbers in the tree's order so that each subtree's are together.
+// Sorts the numbers in the tree's order so that each subtree's are together.  Upper is empty before
+// and to be freed in either case.
 bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error);
 void upper_free(Upper *upper);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The first cause of a failure, as one sentence for the user.  World faults travel as a
 // false return beside a filled Error; faults of our own are asserted instead.
+// What makes, opens or reads a value and fails leaves nothing in it to be freed, though freeing it
+// does no harm; where it must be freed all the same, the header says so.
 #pragma once
 
 #include <stdbool.h>

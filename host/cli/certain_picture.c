@@ -34,8 +34,8 @@ static bool certify(Run *run, const CameraData *camera, const FlatScene *flat, E
         return false;
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok =
-        certifier_certify(&certifier, camera, &observer, &run->certainty, &run->framebuffer, error);
+    const CertifiedPicture picture = {&run->framebuffer, &run->certainty};
+    const bool ok = certifier_certify(&certifier, camera, &observer, &picture, error);
     run->stopped_by = progress_end(&progress);
     certifier_close(&certifier);
     return ok;

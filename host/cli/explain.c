@@ -74,21 +74,16 @@ static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *err
 ExitCode explain_pixel(Run *run, Error *error)
 {
     run_begin(run);
-    if (!run_load_scene(run, error)) {
-        starter_decide(&run->starter, false);
+    if (!run_load_scene(run, error))
         return EXIT_SCENE;
-    }
     if (!has_pixel(run, error)) {
         starter_decide(&run->starter, false);
         return EXIT_USAGE;
     }
     run->settings.specialization = SPECIALIZE_NEVER; // for one pixel
-    if (!run_await_device(run, error))
-        return EXIT_DEVICE;
-    if (!run_build_scene(run, error))
-        return EXIT_SCENE;
-    if (!run_open_renderer(run, error))
-        return EXIT_DEVICE;
+    const ExitCode prepared = run_prepare(run, error);
+    if (prepared != EXIT_DONE)
+        return prepared;
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
     const ExplainerSource source = {.setup = &run->starter.setup,
                                     .renderer = &run->renderer,

@@ -102,16 +102,11 @@ ExitCode explain_scene(Run *run, Error *error)
     const Options *options = run->options;
     const char *path = options->json_path != NULL ? options->json_path : "-";
     run_begin(run);
-    if (!run_load_scene(run, error)) {
-        starter_decide(&run->starter, false);
+    if (!run_load_scene(run, error))
         return EXIT_SCENE;
-    }
-    if (!run_await_device(run, error))
-        return EXIT_DEVICE;
-    if (!run_build_scene(run, error))
-        return EXIT_SCENE;
-    if (!run_open_renderer(run, error))
-        return EXIT_DEVICE;
+    const ExitCode prepared = run_prepare(run, error);
+    if (prepared != EXIT_DONE)
+        return prepared;
     if (options->json)
         return json_file_write(whole_json(run), path, error) ? EXIT_DONE : EXIT_OUTPUT;
     write_text(run);

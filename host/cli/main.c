@@ -75,8 +75,10 @@ static ExitCode perform(int count, char **words, Error *error)
 int main(int count, char **words)
 {
     Error error = {0};
-    // A reader that leaves early is a failed write, to be told and cleaned up after.
+    // A reader that leaves early, or a file past the limit of its size, is a failed write, to be
+    // told and cleaned up after.
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     ExitCode code = perform(count, words, &error);
     if (code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
         error_set(&error, "standard output cannot be written");

@@ -57,14 +57,11 @@ static bool open_run(Reference *reference, const Run *picture, Error *error)
     run->options = &reference->options;
     run->cache = picture->cache;
     run_begin(run);
-    if (!run_load_scene(run, error)) {
-        starter_decide(&run->starter, false);
+    if (!run_load_scene(run, error))
         return false;
-    }
     if (run->settings.max_level < run->scene.max_level)
         run->settings.max_level = run->scene.max_level;
-    return run_await_device(run, error) && run_build_scene(run, error) &&
-           run_open_renderer(run, error) &&
+    return run_prepare(run, error) == EXIT_DONE &&
            framebuffer_make(&run->framebuffer, run->settings.width, run->settings.height, error);
 }
 

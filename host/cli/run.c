@@ -74,6 +74,8 @@ bool run_load_scene(Run *run, Error *error)
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
+    if (!ok)
+        starter_decide(&run->starter, false);
     return ok;
 }
 
@@ -145,6 +147,15 @@ void run_begin(Run *run)
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
     starter_begin(&run->starter, run->options, setup);
+}
+
+ExitCode run_prepare(Run *run, Error *error)
+{
+    if (!run_await_device(run, error))
+        return EXIT_DEVICE;
+    if (!run_build_scene(run, error))
+        return EXIT_SCENE;
+    return run_open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
 }
 
 void run_free(Run *run)

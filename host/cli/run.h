@@ -5,6 +5,7 @@
 #pragma once
 
 #include "accel/flat.h"
+#include "cli/exit_code.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/starter.h"
@@ -34,7 +35,8 @@ double run_lap(double *moment);
 // Begins to open the device and to make the kernels, beside what follows.
 void run_begin(Run *run);
 
-// File to scene, with the frame it is traced in and the settings of its picture.
+// File to scene, with the frame it is traced in and the settings of its picture.  Where that fails,
+// no kernels are made.
 bool run_load_scene(Run *run, Error *error);
 
 // Waits for the device; it and the scene decide about the kernels, and they about the layout.
@@ -45,6 +47,9 @@ bool run_build_scene(Run *run, Error *error);
 
 // Arrays and kernels to the renderer.
 bool run_open_renderer(Run *run, Error *error);
+
+// These three, one after the other; how it went.
+ExitCode run_prepare(Run *run, Error *error);
 
 // Frees what the stages made.
 void run_free(Run *run);

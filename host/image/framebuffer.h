@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture as it is traced: linear floats, filled tile by tile.
+// The picture as it is traced: the shaders' values as floats, filled tile by tile.
 #pragma once
 
 #include "base/array.h"

@@ -6,5 +6,6 @@
 
 #include "image/stored_image.h"
 
-// Reads the file, which is of OpenImageIO's format; false with the reason alone.
+// Reads the file, which is of OpenImageIO's format; false with the reason alone.  The image is to
+// be freed in either case.
 bool image_reader_run(StoredImage *image, const char *path, const char *format, Error *cause);

@@ -12,5 +12,5 @@
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 
 // Reads one of three channels or of one, in either order of bytes; false with the reason alone.
-// The scale is not applied.
+// The scale is not applied.  The image is to be freed in either case.
 bool pfm_read(StoredImage *image, FILE *stream, Error *cause);

@@ -4,9 +4,9 @@
 #include "image/png_file.h"
 
 #include "image/encode.h"
+#include "image/png_faults.h"
 
 #include <errno.h>
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -24,19 +24,6 @@ typedef struct {
     const ImageSettings *settings;
     unsigned char *row; // the one being written, 8 bits a channel
 } Picture;
-
-static void take_fault(png_structp png, png_const_charp reason)
-{
-    error_set(png_get_error_ptr(png), "%s", reason);
-    png_longjmp(png, 1);
-}
-
-// libpng would print them.
-static void ignore_warning(png_structp png, png_const_charp warning)
-{
-    (void)png;
-    (void)warning;
-}
 
 // libpng's own writer does not say why it failed.
 static void write_bytes(png_structp png, png_bytep bytes, size_t count)
@@ -87,8 +74,8 @@ static bool write_picture(png_structp png, png_infop info, const Picture *pictur
 
 static bool write_stream(FILE *stream, const Picture *picture, Error *error)
 {
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, error, take_fault, ignore_warning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_faults_take,
+                                              png_faults_ignore_warning);
     png_infop info = png == NULL ? NULL : png_create_info_struct(png);
     bool ok = info != NULL || error_set(error, "libpng does not start");
     if (ok) {

@@ -3,7 +3,8 @@
 // in read_picture: what is to be freed hangs from Loading, made above that function.
 #include "image/png_load.h"
 
-#include <png.h>
+#include "image/png_faults.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,19 +17,6 @@ typedef struct {
     int passes;
     Error *cause;
 } Loading;
-
-static void take_fault(png_structp png, png_const_charp reason)
-{
-    error_set(png_get_error_ptr(png), "%s", reason);
-    png_longjmp(png, 1);
-}
-
-// libpng would print them.
-static void ignore_warning(png_structp png, png_const_charp warning)
-{
-    (void)png;
-    (void)warning;
-}
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t count)
 {
@@ -104,8 +92,8 @@ static bool read_picture(png_structp png, png_infop info, Loading *loading)
 bool png_load(StoredImage *image, FILE *stream, Error *cause)
 {
     Loading loading = {.image = image, .cause = cause};
-    png_structp png =
-        png_create_read_struct(PNG_LIBPNG_VER_STRING, cause, take_fault, ignore_warning);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, cause, png_faults_take,
+                                             png_faults_ignore_warning);
     png_infop info = png == NULL ? NULL : png_create_info_struct(png);
     bool ok = info != NULL || error_set(cause, "libpng does not start");
     if (ok) {

@@ -6,5 +6,6 @@
 
 #include <stdio.h>
 
-// Reads the colors of any PNG, without its transparency; false with the reason alone.
+// Reads the colors of any PNG, without its transparency; false with the reason alone.  The image is
+// to be freed in either case.
 bool png_load(StoredImage *image, FILE *stream, Error *cause);

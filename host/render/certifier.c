@@ -145,9 +145,10 @@ static bool certify_tile(const Certifier *certifier, const FrameData *frame, Err
     return cl_succeeded(status, "read a tile's marks", error);
 }
 
-static void take_tile(const Certifier *certifier, const Tile *tile, CertaintyMap *map,
-                      Framebuffer *framebuffer)
+static void take_tile(const Certifier *certifier, const Tile *tile, const CertifiedPicture *picture)
 {
+    CertaintyMap *map = picture->map;
+    float(*pixels)[3] = picture->framebuffer->pixels;
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
@@ -156,13 +157,12 @@ static void take_tile(const Certifier *certifier, const Tile *tile, CertaintyMap
             map->marks[pixel] = *mark;
             map->counts[mark->certainty]++;
             if (mark->certainty == CERTAINTY_REPAIRED)
-                memcpy(framebuffer->pixels[pixel], certifier->host_colors[place],
-                       sizeof framebuffer->pixels[pixel]);
+                memcpy(pixels[pixel], certifier->host_colors[place], sizeof *pixels);
         }
 }
 
 bool certifier_certify(const Certifier *certifier, const CameraData *camera,
-                       const RenderObserver *observer, CertaintyMap *map, Framebuffer *framebuffer,
+                       const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error)
 {
     const RenderSettings *settings = &certifier->reference.settings;
@@ -178,7 +178,7 @@ bool certifier_certify(const Certifier *certifier, const CameraData *camera,
         frame.tile_height = tile.height;
         if (!certify_tile(certifier, &frame, error))
             return false;
-        take_tile(certifier, &tile, map, framebuffer);
+        take_tile(certifier, &tile, picture);
         progress.tiles_done++;
         wanted = observer == NULL || observer->tile_done(observer->context, &progress);
     }

@@ -32,8 +32,14 @@ typedef struct {
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error);
 void certainty_map_free(CertaintyMap *map);
 
-// Fills map, which has the settings' size, and gives the repaired pixels of framebuffer their
-// colors, tile by tile, as far as the observer lets it.
+// A picture and its marks, both of the settings' size.
+typedef struct {
+    Framebuffer *framebuffer;
+    CertaintyMap *map;
+} CertifiedPicture;
+
+// Fills the map and gives the repaired pixels their colors, tile by tile, as far as the observer
+// lets it.
 bool certifier_certify(const Certifier *certifier, const CameraData *camera,
-                       const RenderObserver *observer, CertaintyMap *map, Framebuffer *framebuffer,
+                       const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error);

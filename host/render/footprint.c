@@ -78,8 +78,10 @@ bool footprints_make(Footprints *footprints, const FrameData *frame, const Spher
 {
     *footprints = (Footprints){0};
     for (uint32_t i = 0; i < frame->sphere_count; i++)
-        if (!add_sphere(footprints, frame, &spheres[i], error))
+        if (!add_sphere(footprints, frame, &spheres[i], error)) {
+            footprints_free(footprints);
             return false;
+        }
     if (footprints->list.count > 0)
         qsort(footprints->list.data, footprints->list.count, sizeof *footprints->list.data,
               compare);

@@ -20,7 +20,7 @@ bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error
 void ray_caster_close(RayCaster *caster);
 
 // Takes another scene, laid out for the nodes of the choice, in place of the one before.  It is
-// unloaded before it is freed.
+// unloaded before it is freed, and in either case.
 bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error);
 void ray_caster_unload(RayCaster *caster);
 

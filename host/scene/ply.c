@@ -162,11 +162,11 @@ static bool allocate_vertices(Loader *loader)
 }
 
 // The fewest bytes one element takes: lists may be empty.
-static size_t smallest_size(const PlyReader *reader, const PlyProperty *properties, size_t count)
+static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;
-    for (size_t index = 0; index < count; index++) {
-        const PlyProperty *property = &properties[index];
+    for (size_t index = 0; index < properties.count; index++) {
+        const PlyProperty *property = &properties.data[index];
         size += ply_reader_value_size(reader,
                                       property->is_list ? property->length_type : property->type);
     }
@@ -176,8 +176,8 @@ static size_t smallest_size(const PlyReader *reader, const PlyProperty *properti
 static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
 {
     PlyReader *reader = &loader->reader;
-    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
-    const size_t size = ply_bulk_triangle_size(reader, properties, element->property_count);
+    const PlyProperties properties = ply_header_properties(&loader->header, element);
+    const size_t size = ply_bulk_triangle_size(reader, properties);
     const size_t held = loader->triangles.count;
     const size_t fitting = size == 0 ? 0 : (size_t)(reader->end - reader->next) / size;
     const size_t room = smaller(smaller(fitting, (size_t)(element->count - reader->index)),
@@ -187,21 +187,19 @@ static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
     if (!array_reserve(&loader->triangles.memory, &loader->triangles.capacity, held + room,
                        sizeof(Triangle), reader->error))
         return false;
-    loader->triangles.count +=
-        ply_bulk_triangles(reader, properties, element->property_count, loader->header.vertex_count,
-                           room, &loader->triangles.data[held]);
+    loader->triangles.count += ply_bulk_triangles(reader, properties, loader->header.vertex_count,
+                                                  room, &loader->triangles.data[held]);
     return true;
 }
 
 // Reads what can be read without a look at every value; that may be nothing.
 static bool read_in_bulk(Loader *loader, const PlyElement *element)
 {
-    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
     if (element->kind == PLY_FACE)
         return read_triangles_in_bulk(loader, element);
     if (element->kind == PLY_VERTEX)
-        ply_bulk_vertices(&loader->reader, properties, element->property_count, element->count,
-                          loader->mesh);
+        ply_bulk_vertices(&loader->reader, ply_header_properties(&loader->header, element),
+                          element->count, loader->mesh);
     return true;
 }
 
@@ -210,10 +208,10 @@ static bool read_element(Loader *loader, const PlyElement *element)
     PlyReader *reader = &loader->reader;
     if (element->property_count == 0) // then the file may claim any number of them
         return true;
-    const PlyProperty *properties = &loader->header.properties.data[element->first_property];
+    const PlyProperties properties = ply_header_properties(&loader->header, element);
     reader->element = element->name;
     reader->index = -1;
-    const size_t size = smallest_size(reader, properties, element->property_count);
+    const size_t size = smallest_size(reader, properties);
     if (!ply_reader_check_room(reader, element->count, size))
         return false;
     if (element->kind == PLY_VERTEX && element->count > 0 && !allocate_vertices(loader))
@@ -223,8 +221,8 @@ static bool read_element(Loader *loader, const PlyElement *element)
             return false;
         if (reader->index == element->count)
             break;
-        for (size_t index = 0; index < element->property_count; index++) {
-            if (!read_property(loader, &properties[index]))
+        for (size_t index = 0; index < properties.count; index++) {
+            if (!read_property(loader, &properties.data[index]))
                 return false;
         }
     }

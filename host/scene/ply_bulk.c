@@ -49,11 +49,11 @@ static inline double load_float(const char *bytes, PlyType type, bool swapped)
 }
 
 static bool find_vertex_layout(VertexLayout *layout, const PlyReader *reader,
-                               const PlyProperty *properties, size_t property_count)
+                               PlyProperties properties)
 {
     *layout = (VertexLayout){.swapped = is_swapped(reader)};
-    for (size_t index = 0; index < property_count; index++) {
-        const PlyProperty *property = &properties[index];
+    for (size_t index = 0; index < properties.count; index++) {
+        const PlyProperty *property = &properties.data[index];
         if (property->is_list || (property->role < COMPONENTS && property->type < PLY_FLOAT32))
             return false;
         if (property->role < COMPONENTS) {
@@ -89,11 +89,10 @@ static inline bool load_normal(const VertexLayout *layout, const char *bytes, fl
     return valid;
 }
 
-void ply_bulk_vertices(PlyReader *reader, const PlyProperty *properties, size_t property_count,
-                       int64_t count, Mesh *mesh)
+void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh)
 {
     VertexLayout layout;
-    if (!find_vertex_layout(&layout, reader, properties, property_count))
+    if (!find_vertex_layout(&layout, reader, properties))
         return;
     const char *bytes = reader->next;
     int64_t index = reader->index;
@@ -109,13 +108,12 @@ void ply_bulk_vertices(PlyReader *reader, const PlyProperty *properties, size_t 
 }
 
 // The layout of a face with three corners.
-static bool find_face_layout(FaceLayout *layout, const PlyReader *reader,
-                             const PlyProperty *properties, size_t property_count)
+static bool find_face_layout(FaceLayout *layout, const PlyReader *reader, PlyProperties properties)
 {
     *layout = (FaceLayout){0};
     bool has_corners = false;
-    for (size_t index = 0; index < property_count; index++) {
-        const PlyProperty *property = &properties[index];
+    for (size_t index = 0; index < properties.count; index++) {
+        const PlyProperty *property = &properties.data[index];
         const size_t size = ply_reader_value_size(reader, property->type);
         if (property->role != PLY_CORNERS && property->is_list)
             return false;
@@ -132,18 +130,17 @@ static bool find_face_layout(FaceLayout *layout, const PlyReader *reader,
     return has_corners && reader->format != PLY_ASCII;
 }
 
-size_t ply_bulk_triangle_size(const PlyReader *reader, const PlyProperty *properties,
-                              size_t property_count)
+size_t ply_bulk_triangle_size(const PlyReader *reader, PlyProperties properties)
 {
     FaceLayout layout;
-    return find_face_layout(&layout, reader, properties, property_count) ? layout.stride : 0;
+    return find_face_layout(&layout, reader, properties) ? layout.stride : 0;
 }
 
-size_t ply_bulk_triangles(PlyReader *reader, const PlyProperty *properties, size_t property_count,
-                          int64_t vertex_count, size_t room, uint32_t (*triangles)[3])
+size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t vertex_count,
+                          size_t room, uint32_t (*triangles)[3])
 {
     FaceLayout layout;
-    if (!find_face_layout(&layout, reader, properties, property_count))
+    if (!find_face_layout(&layout, reader, properties))
         return 0;
     const bool swapped = is_swapped(reader);
     // A negative index is one past every count when it is read as unsigned.

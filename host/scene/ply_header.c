@@ -307,6 +307,12 @@ bool ply_header_parse(PlyHeader *header, PlyReader *reader)
     return true;
 }
 
+PlyProperties ply_header_properties(const PlyHeader *header, const PlyElement *element)
+{
+    return (PlyProperties){&header->properties.data[element->first_property],
+                           element->property_count};
+}
+
 void ply_header_free(PlyHeader *header)
 {
     free(header->elements.memory);

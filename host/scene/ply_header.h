@@ -44,7 +44,15 @@ typedef struct {
     bool has_normals;
 } PlyHeader;
 
+// Those of one element, in the file's order; borrowed from the header.
+typedef struct {
+    const PlyProperty *data;
+    size_t count;
+} PlyProperties;
+
 // Parses the header at the reader's start; then the reader stands before the body and knows its
 // format.  The header is to be freed in either case.
 bool ply_header_parse(PlyHeader *header, PlyReader *reader);
 void ply_header_free(PlyHeader *header);
+
+PlyProperties ply_header_properties(const PlyHeader *header, const PlyElement *element);

@@ -130,9 +130,10 @@ void jobs_trace(Worker *worker, const Job *job)
     Layer *layer = canvas_begin(worker->setup.canvas, &settings, hidden, &error);
     Tracing tracing = {worker, job, layer};
     const RenderObserver observer = {tile_done, &tracing};
+    const Shot shot = {&job->wish.camera, &job->pass};
     const double start = clock_seconds();
-    if (layer != NULL && tracer_draw(&worker->tracer, &job->wish.camera, &job->pass, &observer,
-                                     &layer->framebuffer, &error)) {
+    if (layer != NULL &&
+        tracer_draw(&worker->tracer, &shot, &observer, &layer->framebuffer, &error)) {
         finish_pass(worker, job, layer, clock_seconds() - start);
         return;
     }

@@ -6,5 +6,6 @@
 #include "view/boxes.h"
 #include "view/model.h"
 
-// Fills an empty array with lines from low to high, in the normalized frame.
+// Fills an empty array, which is to be freed in either case, with lines from low to high, in the
+// normalized frame.
 bool normals_make(Boxes *lines, const Model *model, Error *error);

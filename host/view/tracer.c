@@ -68,29 +68,28 @@ static uint32_t max_level(const Tracer *tracer, const Model *model)
     return wanted >= 0 ? (uint32_t)wanted : model->scene.max_level;
 }
 
-static bool open_renderer(Renderer *renderer, const Tracer *tracer, const FlatScene *flat,
-                          uint32_t levels, bool counts, Error *error)
+// Passes have sizes and samples of their own.
+static RenderSettings first_settings(const Tracer *tracer, const Model *model)
 {
-    const RenderSettings settings = {.width = 1,
-                                     .height = 1,
-                                     .samples = 1,
-                                     .max_level = levels,
-                                     .tile_width = 1,
-                                     .tile_height = 1,
-                                     .group_width = tracer->group[0],
-                                     .group_height = tracer->group[1],
-                                     .statistics = counts,
-                                     .specialization = tracer->options->specialization};
-    return renderer_open(renderer, &tracer->setup, flat, &settings, error);
+    return (RenderSettings){.width = 1,
+                            .height = 1,
+                            .samples = 1,
+                            .max_level = max_level(tracer, model),
+                            .tile_width = 1,
+                            .tile_height = 1,
+                            .group_width = tracer->group[0],
+                            .group_height = tracer->group[1],
+                            .specialization = tracer->options->specialization};
 }
 
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
 {
     FlatScene flat = {0};
     Renderer renderer = {0};
+    const RenderSettings settings = first_settings(tracer, model);
     if (!flatten(&flat, tracer, model, uses_bvh, error))
         return false;
-    if (!open_renderer(&renderer, tracer, &flat, max_level(tracer, model), false, error)) {
+    if (!renderer_open(&renderer, &tracer->setup, &flat, &settings, error)) {
         flat_free(&flat);
         return false;
     }
@@ -115,21 +114,23 @@ RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
 
 static bool prepare_counter(Tracer *tracer, Error *error)
 {
+    RenderSettings settings = first_settings(tracer, tracer->model);
+    settings.statistics = true;
     return tracer->counter.kernel != NULL ||
-           open_renderer(&tracer->counter, tracer, &tracer->flat,
-                         tracer->renderer.settings.max_level, true, error);
+           renderer_open(&tracer->counter, &tracer->setup, &tracer->flat, &settings, error);
 }
 
-bool tracer_draw(Tracer *tracer, const Viewpoint *camera, const Pass *pass,
-                 const RenderObserver *observer, Framebuffer *framebuffer, Error *error)
+bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
+                 Framebuffer *framebuffer, Error *error)
 {
+    const Pass *pass = shot->pass;
     const bool counts = pass->kind == PASS_COUNT;
     if (counts && !prepare_counter(tracer, error))
         return false;
     Renderer *renderer = counts ? &tracer->counter : &tracer->renderer;
     const RenderSettings settings = tracer_settings(tracer, pass);
     const CameraData data =
-        camera_make(camera, &tracer->model->normalization, pass->height, pass->samples);
+        camera_make(shot->camera, &tracer->model->normalization, pass->height, pass->samples);
     renderer_resize(renderer, &settings);
     return renderer_draw(renderer, &data, observer, framebuffer, error);
 }

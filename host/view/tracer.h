@@ -30,7 +30,7 @@ typedef struct {
     Renderer counter; // the same with counters, opened when it is first wanted
 } Tracer;
 
-// Opens the device.  The options outlive the tracer.
+// Opens the device.  The options outlive the tracer, which is to be closed in either case.
 bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(Tracer *tracer);
 
@@ -41,12 +41,18 @@ BvhSettings tracer_tree(const Tracer *tracer);
 // what it had.
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
 
+// What is drawn: a pass of the picture that a viewpoint has.
+typedef struct {
+    const Viewpoint *camera;
+    const Pass *pass;
+} Shot;
+
 // The settings of a pass's picture.
 RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
 
-// Draws a pass's picture, which stands in the renderer's progress afterwards.
-bool tracer_draw(Tracer *tracer, const Viewpoint *camera, const Pass *pass,
-                 const RenderObserver *observer, Framebuffer *framebuffer, Error *error);
+// Draws into framebuffer, which has the settings' size, as far as the observer lets it.
+bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
+                 Framebuffer *framebuffer, Error *error);
 
 // How far the latest pass came, and what it cost.
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

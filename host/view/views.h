@@ -34,7 +34,8 @@ typedef struct {
     Encoding encoding;
 } Frame;
 
-// Makes everything that needs no model, in the context that is current.
+// Makes everything that needs no model, in the context that is current.  To be closed in either
+// case.
 bool views_open(Views *views, Error *error);
 void views_close(Views *views);
 

@@ -96,10 +96,10 @@ static bool certify(Certified *certified, const Office *office, Error *error)
         .device = &office->device,
         .cache = &office->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = certifier_choice()}};
+    const CertifiedPicture picture = {&certified->picture, &certified->map};
     const bool ok = certifier_open(&certifier, &setup, &certified->flat, settings, error) &&
                     certainty_map_make(&certified->map, settings->width, settings->height, error) &&
-                    certifier_certify(&certifier, &certified->camera, NULL, &certified->map,
-                                      &certified->picture, error);
+                    certifier_certify(&certifier, &certified->camera, NULL, &picture, error);
     certifier_close(&certifier);
     return ok;
 }

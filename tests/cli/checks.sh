@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash
 # What the command line's tests share: counted checks, and runs of clrt with an expected exit code.
 # Sourced in the folder that the streams of each run go to.
 failures=0

@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: MIT
 # --aov certainty as its user meets it: the channel, the counts, and what it does to the picture.
 # Usage: CLRT=path/to/clrt NO_FP64=path/to/no_fp64.so test_certainty.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 scene=$source/scenes/reflections.scn
 
 says() { grep -q -- "$1" err; }

@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: MIT
 # clrt check and --bad-geometry as their user meets them: text, JSON, exit codes and sentences.
 # Usage: CLRT=path/to/clrt test_check.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 
 tells() { grep -qF -- "$1" out; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); m=d['meshes'][0]; sys.exit(not ($2))"; }

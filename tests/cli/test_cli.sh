@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: MIT
 # The program as its user meets it: exit codes, sentences, and an effect of every option.
 # Usage: CLRT=path/to/clrt test_cli.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 scene=$source/scenes/reflections.scn
 
 says() { grep -q -- "$1" err; }

@@ -3,15 +3,8 @@
 # clrt compare as its user meets it: every format, text, JSON, the map, limits, exit codes, and
 # files made to harm.
 # Usage: CLRT=path/to/clrt FORMATS="png, pfm" test_compare.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 
 tells() { grep -qF -- "$1" out; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }

@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: MIT
 # clrt --explain-pixel as its user meets it: text, JSON, the picture's color and sentences.
 # Usage: CLRT=path/to/clrt test_explain.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 scene=$source/tests/image/every_feature.scn
 
 # Worked out by hand in tests/image/test_explain_by_hand.c.

@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: MIT
 # --reference: what it says of pictures whose error is known to fall, and of itself.
 # Usage: CLRT=path/to/clrt FORMATS="png, pfm" test_reference.sh SOURCE_FOLDER WORK_FOLDER
-set -u
-here=$(cd "$(dirname "$0")" && pwd)
-source=$1
-work=$2
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 1
-# shellcheck source=tests/cli/checks.sh
-. "$here/checks.sh"
+# shellcheck source=tests/cli/workplace.sh
+. "$(dirname "$0")/workplace.sh"
 
 # An expression over the reports that follow it: r, s, t.
 holds() {

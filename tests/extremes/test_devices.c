@@ -9,9 +9,9 @@
 #include "support/varied_scene.h"
 
 #include "device/program.h"
+#include "kernel/doubles.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static size_t misses_at(RayBatch *batch, const char *device, int exponent)
 {
@@ -47,35 +47,6 @@ static size_t misses_on(const char *device, const char *kernels, const char *opt
         misses += misses_at(&batch, device, exponent);
     ray_batch_close(&batch);
     return misses;
-}
-
-static bool line_begins(const char *line, const char *word)
-{
-    return strncmp(line, word, strlen(word)) == 0;
-}
-
-static bool line_has_double(const char *line)
-{
-    const char *found = strstr(line, "double"), *comment = strstr(line, "//");
-    return found != NULL && found < line + strcspn(line, "\n") &&
-           (comment == NULL || found < comment);
-}
-
-// Lines that name a double although CLRT_FP64 is 0.  Its halves hold no other conditions.
-static size_t doubles_without_fp64(const char *source)
-{
-    size_t count = 0;
-    bool is_fp64 = false;
-    for (const char *line = source; line != NULL && *line != '\0';) {
-        if (line_begins(line, "#if CLRT_FP64"))
-            is_fp64 = true;
-        else if (line_begins(line, "#else") || line_begins(line, "#endif"))
-            is_fp64 = false;
-        count += !is_fp64 && line_has_double(line);
-        const char *end = strchr(line, '\n');
-        line = end == NULL ? NULL : end + 1;
-    }
-    return count;
 }
 
 static void devices_that_can_do_less_leak_as_little_t65(void **state)

@@ -14,21 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A mesh of count triangles on corners of their own; the caller fills both arrays.
-static Mesh empty_mesh(size_t vertices, size_t triangles)
-{
-    Error error = {0};
-    Mesh mesh = {.vertex_count = vertices, .triangle_count = triangles};
-    mesh.positions = memory_raw(vertices, sizeof *mesh.positions, &error);
-    mesh.triangles = memory_raw(triangles, sizeof *mesh.triangles, &error);
-    require(mesh.positions != NULL && mesh.triangles != NULL, &error);
-    return mesh;
-}
-
 static Mesh copies_of_a_triangle(size_t count)
 {
     static const double corners[3][3] = {{-1, -1, 0}, {1, -0.5, 0.25}, {0, 1, 0.5}};
-    Mesh mesh = empty_mesh(3, count);
+    Mesh mesh = shape_unfilled(3, count);
     memcpy(mesh.positions, corners, sizeof corners);
     for (size_t i = 0; i < count; i++)
         for (uint32_t corner = 0; corner < 3; corner++)
@@ -68,7 +57,7 @@ static void of_a_million_copies_of_a_triangle_the_first_is_hit_t12(void **state)
 static Mesh concentric_triangles(size_t count, Random *random)
 {
     static const Vec3 corners[3] = {{1, 0, 0}, {-0.5, 0.75, 0}, {-0.5, -0.75, 0}};
-    Mesh mesh = empty_mesh(3 * count, count);
+    Mesh mesh = shape_unfilled(3 * count, count);
     for (uint32_t i = 0; i < count; i++) {
         Vec3 axes[3];
         const double size = (i + 1) / (double)count;
@@ -94,7 +83,7 @@ typedef struct {
 static void witnesses_make(Witnesses *witnesses, const Triangles *triangles)
 {
     Error error = {0};
-    Mesh mesh = empty_mesh(triangles->point_count, triangles->count);
+    Mesh mesh = shape_unfilled(triangles->point_count, triangles->count);
     for (size_t i = 0; i < triangles->point_count; i++)
         for (int axis = 0; axis < 3; axis++)
             mesh.positions[i][axis] = (double)triangles->points[i][axis];

@@ -43,39 +43,38 @@ static size_t differences_with(const Studio *studio, const PictureSettings *sett
     return differences;
 }
 
+static void expect_no_difference(const Studio *studio, const char *test, const char *details,
+                                 const PictureSettings *settings)
+{
+    assert_int_equal(report_case(test, details, SIZE * SIZE, differences_with(studio, settings)),
+                     0);
+}
+
 static void flushing_denormals_to_zero_changes_no_picture_t47(void **state)
 {
     PictureSettings settings = usual_settings();
     settings.extra_options = "-cl-denorms-are-zero";
-    const size_t differences = differences_with(*state, &settings);
-    report_case("T-47", "option=-cl-denorms-are-zero", SIZE * SIZE, differences);
-    assert_int_equal(differences, 0);
+    expect_no_difference(*state, "T-47", "option=-cl-denorms-are-zero", &settings);
 }
 
 static void unoptimized_kernels_draw_the_same_picture_t48(void **state)
 {
     PictureSettings settings = usual_settings();
     settings.extra_options = "-cl-opt-disable";
-    const size_t differences = differences_with(*state, &settings);
-    report_case("T-48", "option=-cl-opt-disable", SIZE * SIZE, differences);
-    assert_int_equal(differences, 0);
+    expect_no_difference(*state, "T-48", "option=-cl-opt-disable", &settings);
 }
 
 static void specialized_kernels_draw_the_same_picture_t48(void **state)
 {
     PictureSettings settings = usual_settings();
     settings.render.specialization = SPECIALIZE_ALWAYS;
-    const size_t differences = differences_with(*state, &settings);
-    report_case("T-48", "program=specialized", SIZE * SIZE, differences);
-    assert_int_equal(differences, 0);
+    expect_no_difference(*state, "T-48", "program=specialized", &settings);
 }
 
 static void the_same_picture_is_drawn_twice_t48(void **state)
 {
     const PictureSettings settings = usual_settings();
-    const size_t differences = differences_with(*state, &settings);
-    report_case("T-48", "run=second", SIZE * SIZE, differences);
-    assert_int_equal(differences, 0);
+    expect_no_difference(*state, "T-48", "run=second", &settings);
 }
 
 // The varied picture's hash, on whatever device and target draws it: CMakeLists.txt chooses these.

@@ -290,7 +290,8 @@ static void lights_on_surfaces_and_in_the_eye_are_as_exact_as_others_t42(void **
         Scene scene = stand(lights[i].place);
         Scene exact = stand(vec3_add(lights[i].place, vec3_scale(lights[i].normal, 1e-7)));
         snprintf(details, sizeof details, "light=%s", lights[i].name);
-        wrong += picture_report_beside("T-42", details, *state, &scene, &exact, &settings);
+        const PictureJudgment judgment = picture_judge(*state, &scene, &exact, &settings);
+        wrong += picture_report_judgment("T-42", details, &judgment);
         scene_free(&scene);
         scene_free(&exact);
     }

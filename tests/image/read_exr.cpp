@@ -11,8 +11,7 @@
 namespace
 {
 
-bool read_picture(const char *path, const OIIO::ImageSpec &wanted, float *pixels,
-                  std::string &message)
+bool read_picture(const char *path, const ExrPicture &picture, std::string &message)
 {
     auto input = OIIO::ImageInput::open(path);
     if (!input) {
@@ -20,11 +19,11 @@ bool read_picture(const char *path, const OIIO::ImageSpec &wanted, float *pixels
         return false;
     }
     const OIIO::ImageSpec &spec = input->spec();
-    if (spec.width != wanted.width || spec.height != wanted.height || spec.nchannels < 3) {
+    if (spec.width != picture.width || spec.height != picture.height || spec.nchannels < 3) {
         message = "the picture has another size";
         return false;
     }
-    const bool ok = input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels);
+    const bool ok = input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.pixels);
     if (!ok)
         message = input->geterror();
     return ok;
@@ -32,14 +31,12 @@ bool read_picture(const char *path, const OIIO::ImageSpec &wanted, float *pixels
 
 } // namespace
 
-int read_exr(const char *path, int width, int height, float *pixels, char *message,
-             size_t message_size)
+int read_exr(const char *path, const ExrPicture *picture, char *message, size_t message_size)
 {
     std::string text;
     bool ok = false;
     try {
-        ok = read_picture(path, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT), pixels,
-                          text);
+        ok = read_picture(path, *picture, text);
     } catch (const std::exception &failure) {
         text = failure.what();
     } catch (...) {

@@ -8,10 +8,14 @@
 extern "C" {
 #endif
 
-// Fills pixels with the width * height * 3 floats of the picture at path, the top row first.
-// 0, and a message of at most message_size bytes, where it cannot or the size is another.
-int read_exr(const char *path, int width, int height, float *pixels, char *message,
-             size_t message_size);
+typedef struct {
+    int width, height;
+    float *pixels; // room for width * height * 3, the top row first
+} ExrPicture;
+
+// Fills the pixels from the file at path.  0, and a message of at most message_size bytes, where it
+// cannot or the file's size is another.
+int read_exr(const char *path, const ExrPicture *picture, char *message, size_t message_size);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Adaptive anti-aliasing: what it reaches, what it costs, and that it is one picture.
 #include "image/form.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
@@ -9,15 +9,6 @@
 #include <stdlib.h>
 
 #define SCENES CLRT_SOURCE_FOLDER "/scenes/"
-
-static Framebuffer rendered(const PictureRequest *request)
-{
-    Framebuffer picture;
-    Error error = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
-    return picture;
-}
 
 static PictureRequest square(const char *scene, uint32_t side)
 {
@@ -30,25 +21,6 @@ static PictureRequest adaptive(PictureRequest request, float contrast)
 {
     request.contrasts[0] = contrast;
     return request;
-}
-
-static double error_between(const Framebuffer *one, const Framebuffer *other)
-{
-    const size_t values = (size_t)one->width * one->height * 3;
-    const float *first = &one->pixels[0][0], *second = &other->pixels[0][0];
-    double sum = 0;
-    for (size_t i = 0; i < values; i++)
-        sum += pow((double)first[i] - (double)second[i], 2);
-    return sqrt(sum / (double)values);
-}
-
-static void expect_same(const PictureRequest *one, const PictureRequest *other)
-{
-    Framebuffer first = rendered(one), second = rendered(other);
-    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
-    assert_memory_equal(first.pixels, second.pixels, size);
-    framebuffer_free(&first);
-    framebuffer_free(&second);
 }
 
 static const char *const scenes[] = {SCENES "simple.scn", SCENES "reflections.scn",
@@ -74,7 +46,7 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
             other.threads = (uint32_t)i;
             other.builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
             other.specialization = i == 4 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
-            expect_same(&usual, &other);
+            rendered_expect_same(&usual, &other);
         }
     }
 }
@@ -95,7 +67,7 @@ static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
         if (100 * samples[1] > 103 * samples[0] || 103 * samples[1] < 100 * samples[0])
             fail_msg("%llu samples instead of %llu", (unsigned long long)samples[1],
                      (unsigned long long)samples[0]);
-        assert_true(error_between(&first, &second) < 0.0005);
+        assert_true(rendered_error(&first, &second) < 0.0005);
         framebuffer_free(&first);
         framebuffer_free(&second);
     }
@@ -113,8 +85,8 @@ static void expect_error_of_uniform(const char *scene, float contrast, uint32_t 
     many.samples = 32;
     uniform.samples = side;
     Framebuffer reference = rendered(&many), plain = rendered(&uniform), refined = rendered(&few);
-    const double allowed = error_between(&plain, &reference);
-    const double reached = error_between(&refined, &reference);
+    const double allowed = rendered_error(&plain, &reference);
+    const double reached = rendered_error(&refined, &reference);
     if (reached > 1.1 * allowed)
         fail_msg("%s: error %g, of %ux%u samples %g", scene, reached, side, side, allowed);
     if (5 * samples > (uint64_t)SIDE * SIDE * side * side)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Errors that were asked for are held, at a fraction of what samples everywhere would cost.
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #define SCENES CLRT_SOURCE_FOLDER "/scenes/"
@@ -23,25 +22,6 @@ static const struct {
 static const double goals[] = {0.02, 0.01, 0.005, 0.002};
 #define GOAL_COUNT (sizeof goals / sizeof goals[0])
 
-static Framebuffer rendered(const PictureRequest *request)
-{
-    Framebuffer picture;
-    Error error = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
-    return picture;
-}
-
-static double error_between(const Framebuffer *one, const Framebuffer *other)
-{
-    const size_t values = (size_t)one->width * one->height * 3;
-    const float *first = &one->pixels[0][0], *second = &other->pixels[0][0];
-    double sum = 0;
-    for (size_t i = 0; i < values; i++)
-        sum += pow((double)first[i] - (double)second[i], 2);
-    return sqrt(sum / (double)values);
-}
-
 // Returns whether the error is within a tenth of the goal, and adds the samples that it took.
 static bool holds(const PictureRequest *request, double goal, const Framebuffer *reference,
                   uint64_t *samples)
@@ -51,7 +31,7 @@ static bool holds(const PictureRequest *request, double goal, const Framebuffer 
     wanted.error_goal = goal;
     wanted.sample_count = &count;
     Framebuffer picture = rendered(&wanted);
-    const double reached = error_between(&picture, reference);
+    const double reached = rendered_error(&picture, reference);
     framebuffer_free(&picture);
     *samples += count;
     if (reached > 1.1 * goal)
@@ -68,7 +48,7 @@ static uint32_t side_that_holds(const PictureRequest *request, double goal,
         PictureRequest uniform = *request;
         uniform.samples = side;
         Framebuffer picture = rendered(&uniform);
-        const double reached = error_between(&picture, reference);
+        const double reached = rendered_error(&picture, reference);
         framebuffer_free(&picture);
         if (reached <= goal)
             return side;

@@ -2,12 +2,11 @@
 // One picture: whatever the form of the kernels, the tree, the tiles, the work-groups and the
 // program, the same bits.
 #include "image/form.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/scenes/reflections.scn",
@@ -44,24 +43,6 @@ static PictureRequest small_request(size_t scene)
     return request;
 }
 
-static Framebuffer rendered(const PictureRequest *request)
-{
-    Framebuffer picture;
-    Error error = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
-    return picture;
-}
-
-static void expect_same(const PictureRequest *one, const PictureRequest *other)
-{
-    Framebuffer first = rendered(one), second = rendered(other);
-    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
-    assert_memory_equal(first.pixels, second.pixels, size);
-    framebuffer_free(&first);
-    framebuffer_free(&second);
-}
-
 static void every_way_to_find_triangles_draws_the_same(void **state)
 {
     (void)state;
@@ -70,8 +51,8 @@ static void every_way_to_find_triangles_draws_the_same(void **state)
         PictureRequest midpoint = sah, list = sah;
         midpoint.builder = BVH_MIDPOINT;
         list.uses_bvh = false;
-        expect_same(&sah, &midpoint);
-        expect_same(&sah, &list);
+        rendered_expect_same(&sah, &midpoint);
+        rendered_expect_same(&sah, &list);
     }
 }
 
@@ -88,10 +69,10 @@ static void every_form_of_the_kernels_draws_the_same(void **state)
             list.uses_bvh = false;
             tiled.tile_width = 13;
             tiled.tile_height = 7;
-            expect_same(&usual, &sah);
-            expect_same(&sah, &midpoint);
-            expect_same(&list, &tiled);
-            expect_same(&usual, &tiled);
+            rendered_expect_same(&usual, &sah);
+            rendered_expect_same(&sah, &midpoint);
+            rendered_expect_same(&list, &tiled);
+            rendered_expect_same(&usual, &tiled);
         }
 }
 
@@ -106,7 +87,7 @@ static void every_form_draws_pictures_of_a_few_pixels(void **state)
             usual.height = sizes[size][1];
             usual = in_form(usual, &choices[0]);
             const PictureRequest other = in_form(usual, &choices[i]);
-            expect_same(&usual, &other);
+            rendered_expect_same(&usual, &other);
         }
 }
 
@@ -120,7 +101,7 @@ static void every_tile_size_draws_the_same(void **state)
             PictureRequest tiled = usual;
             tiled.tile_width = tiles[i][0];
             tiled.tile_height = tiles[i][1];
-            expect_same(&usual, &tiled);
+            rendered_expect_same(&usual, &tiled);
         }
 }
 
@@ -134,7 +115,7 @@ static void every_work_group_size_draws_the_same(void **state)
             PictureRequest grouped = usual;
             grouped.group_width = groups[i][0];
             grouped.group_height = groups[i][1];
-            expect_same(&usual, &grouped);
+            rendered_expect_same(&usual, &grouped);
         }
 }
 
@@ -146,7 +127,7 @@ static void counting_changes_no_pixel(void **state)
         const PictureRequest usual = small_request(scene);
         PictureRequest counted = usual;
         counted.tallies = tallies;
-        expect_same(&usual, &counted);
+        rendered_expect_same(&usual, &counted);
         assert_int_equal(tallies[TALLY_CAMERA_RAYS], 131 * 97 * 4);
     }
 }
@@ -182,7 +163,7 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     special.specialization = SPECIALIZE_ALWAYS;
     special.extra_options = "-Werror";
     special.tallies = mask & 32 ? tallies : NULL;
-    expect_same(&general, &special);
+    rendered_expect_same(&general, &special);
     remove(general.scene_path);
 }
 
@@ -223,9 +204,9 @@ static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(
         list.group_width = list.group_height = 1;
         grouped.group_width = 3;
         grouped.group_height = 5;
-        expect_same(&sah, &midpoint);
-        expect_same(&sah, &list);
-        expect_same(&sah, &grouped);
+        rendered_expect_same(&sah, &midpoint);
+        rendered_expect_same(&sah, &list);
+        rendered_expect_same(&sah, &grouped);
     }
 }
 

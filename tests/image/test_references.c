@@ -47,8 +47,9 @@ static void check(const char *scene_name, const char *reference_name, uint32_t s
     if (!trial_make(&trial, scene_name, samples, &error))
         fail_msg("%s", error.text);
     const Framebuffer *picture = &trial.picture;
-    if (!read_exr(path, (int)picture->width, (int)picture->height, trial.reference.pixels[0],
-                  error.text, sizeof error.text))
+    const ExrPicture reference = {(int)picture->width, (int)picture->height,
+                                  trial.reference.pixels[0]};
+    if (!read_exr(path, &reference, error.text, sizeof error.text))
         fail_msg("%s", error.text);
     const OracleView view = oracle_view(&trial.oracle, &trial.scene.viewpoints.data[0],
                                         picture->width, picture->height, trial.scene.max_level);

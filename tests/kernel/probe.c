@@ -4,6 +4,8 @@
 
 #include "base/file.h"
 
+#include <stdio.h>
+
 bool probe_open(Probe *probe, const KernelChoice *choice, Error *error)
 {
     File file = {0};
@@ -15,6 +17,16 @@ bool probe_open(Probe *probe, const KernelChoice *choice, Error *error)
     ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
     file_free(&file);
     return ok;
+}
+
+int probe_begin(Probe *probe, Precision precision)
+{
+    Error error = {0};
+    const KernelChoice choice = {FAMILY_RAY, NODES_PAIR, 0, precision};
+    if (probe_open(probe, &choice, &error))
+        return 0;
+    fprintf(stderr, "%s\n", error.text);
+    return 1;
 }
 
 void probe_close(Probe *probe)

@@ -239,12 +239,7 @@ static void every_lane_gathers_its_own_word(void **state)
 static int open_probe(void **state)
 {
     (void)state;
-    Error error = {0};
-    const KernelChoice choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
-    if (probe_open(&probe, &choice, &error))
-        return 0;
-    print_error("%s\n", error.text);
-    return 1;
+    return probe_begin(&probe, PRECISION_FP32);
 }
 
 static int close_probe(void **state)

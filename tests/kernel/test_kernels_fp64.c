@@ -113,12 +113,7 @@ static void highlights_of_any_shininess_are_right(void **state)
 static int open_probe(void **state)
 {
     (void)state;
-    Error error = {0};
-    const KernelChoice choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
-    if (probe_open(&probe, &choice, &error))
-        return 0;
-    print_error("%s\n", error.text);
-    return 1;
+    return probe_begin(&probe, PRECISION_FP64);
 }
 
 static int close_probe(void **state)

@@ -56,3 +56,20 @@ static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *erro
         fail_msg("unexpected: %s", error->text);
     return ok;
 }
+
+static inline Mesh parse_good(const Builder *builder)
+{
+    Mesh mesh;
+    Error error;
+    if (!parse(&mesh, builder->bytes, builder->size, &error))
+        fail_msg("%s", error.text);
+    return mesh;
+}
+
+static inline void assert_triangle(const Mesh *mesh, size_t triangle, uint32_t a, uint32_t b,
+                                   uint32_t c)
+{
+    assert_int_equal(mesh->triangles[triangle][0], a);
+    assert_int_equal(mesh->triangles[triangle][1], b);
+    assert_int_equal(mesh->triangles[triangle][2], c);
+}

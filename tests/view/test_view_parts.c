@@ -174,71 +174,80 @@ static void set_time(const char *path, long nanoseconds)
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
+// A folder, the path of a file in it, and a watch that looks at neither yet.
+typedef struct {
+    char folder[32], path[64];
+    Watch watch;
+} WatchedFolder;
+
+static WatchedFolder watched_make(void)
+{
+    WatchedFolder watched = {.folder = "/tmp/clrt-watch-XXXXXX"};
+    assert_non_null(mkdtemp(watched.folder));
+    snprintf(watched.path, sizeof watched.path, "%s/file", watched.folder);
+    return watched;
+}
+
+static void watched_free(WatchedFolder *watched)
+{
+    watch_free(&watched->watch);
+    unlink(watched->path);
+    rmdir(watched->folder);
+}
+
 static void changed_files_are_told_once_and_when_they_stand_still(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
-    Watch watch = {0};
     Error error = {0};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/file", folder);
-    write_text(path, "one");
-    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, folder, &error));
+    WatchedFolder watched = watched_make();
+    write_text(watched.path, "one");
+    assert_true(watch_add(&watched.watch, watched.path, &error) &&
+                watch_add(&watched.watch, watched.folder, &error));
     for (int look = 0; look < 3; look++)
-        assert_false(watch_look(&watch));
-    set_time(path, 1);
-    assert_false(watch_look(&watch)); // perhaps it is still being written
-    assert_true(watch_look(&watch));
-    assert_false(watch_look(&watch));
-    unlink(path);
-    assert_false(watch_look(&watch));
-    assert_true(watch_look(&watch));
-    write_text(path, "two");
-    assert_false(watch_look(&watch));
-    assert_true(watch_look(&watch));
-    watch_free(&watch);
-    unlink(path);
-    rmdir(folder);
+        assert_false(watch_look(&watched.watch));
+    set_time(watched.path, 1);
+    assert_false(watch_look(&watched.watch)); // perhaps it is still being written
+    assert_true(watch_look(&watched.watch));
+    assert_false(watch_look(&watched.watch));
+    unlink(watched.path);
+    assert_false(watch_look(&watched.watch));
+    assert_true(watch_look(&watched.watch));
+    write_text(watched.path, "two");
+    assert_false(watch_look(&watched.watch));
+    assert_true(watch_look(&watched.watch));
+    watched_free(&watched);
 }
 
 static void watching_other_files_too_loses_no_change(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
-    Watch watch = {0};
     Error error = {0};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/file", folder);
-    write_text(path, "one");
-    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, "gone", &error));
-    set_time(path, 1);
-    watch_begin(&watch);
-    assert_true(watch_add(&watch, path, &error) && watch_add(&watch, "other", &error));
-    watch_end(&watch);
-    assert_int_equal(watch.files.count, 2);
-    assert_false(watch_look(&watch));
-    assert_true(watch_look(&watch));
-    watch_free(&watch);
-    unlink(path);
-    rmdir(folder);
+    WatchedFolder watched = watched_make();
+    write_text(watched.path, "one");
+    assert_true(watch_add(&watched.watch, watched.path, &error) &&
+                watch_add(&watched.watch, "gone", &error));
+    set_time(watched.path, 1);
+    watch_begin(&watched.watch);
+    assert_true(watch_add(&watched.watch, watched.path, &error) &&
+                watch_add(&watched.watch, "other", &error));
+    watch_end(&watched.watch);
+    assert_int_equal(watched.watch.files.count, 2);
+    assert_false(watch_look(&watched.watch));
+    assert_true(watch_look(&watched.watch));
+    watched_free(&watched);
 }
 
 static void a_folder_is_watched_for_what_is_in_it(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/clrt-watch-XXXXXX", path[64];
-    Watch watch = {0};
     Error error = {0};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/file", folder);
-    assert_true(watch_add(&watch, folder, &error));
-    assert_false(watch_look(&watch));
-    write_text(path, "new");
-    assert_false(watch_look(&watch));
-    assert_true(watch_look(&watch));
-    watch_free(&watch);
-    unlink(path);
-    rmdir(folder);
+    WatchedFolder watched = watched_make();
+    assert_true(watch_add(&watched.watch, watched.folder, &error));
+    assert_false(watch_look(&watched.watch));
+    write_text(watched.path, "new");
+    assert_false(watch_look(&watched.watch));
+    assert_true(watch_look(&watched.watch));
+    watched_free(&watched);
 }
 
 static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(void **state)

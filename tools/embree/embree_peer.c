@@ -14,7 +14,7 @@
 
 typedef struct {
     const char *scene, *modes, *picture;
-    uint32_t frames, width, height;
+    uint32_t frames;
     bool tunes;
     enum RTCIntersectContextFlags flags[RAY_KINDS];
     PeerSettings settings;
@@ -72,7 +72,8 @@ static Options read_options(int count, char **words)
             ok = ok && sscanf(optarg, "%u", &options.settings.threads) == 1;
             break;
         case 's':
-            ok = ok && sscanf(optarg, "%ux%u", &options.width, &options.height) == 2;
+            ok = ok &&
+                 sscanf(optarg, "%ux%u", &options.settings.width, &options.settings.height) == 2;
             break;
         case 'q':
             ok = ok && read_quality(optarg, &options.settings.quality);
@@ -186,8 +187,7 @@ int main(int count, char **words)
     Error error = {0};
     PeerScene scene;
     Framebuffer framebuffer = {0};
-    bool ok = peer_scene_open(&scene, options.scene, &options.settings, options.width,
-                              options.height, &error) &&
+    bool ok = peer_scene_open(&scene, options.scene, &options.settings, &error) &&
               framebuffer_make(&framebuffer, scene.width, scene.height, &error);
     if (ok) {
         measure_modes(&options, &scene, &framebuffer);

@@ -126,8 +126,7 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     return ok;
 }
 
-bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings,
-                     uint32_t width, uint32_t height, Error *error)
+bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings, Error *error)
 {
     Scene scene = {0};
     *peer = (PeerScene){0};
@@ -136,8 +135,8 @@ bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *sett
         ok = error_set(error, "%s: the peer draws scenes of triangles alone", path);
     if (ok && !knows_materials(&scene))
         ok = error_set(error, "%s: the peer knows integers up to 1024 as shininess", path);
-    peer->width = width > 0 ? width : scene.width;
-    peer->height = height > 0 ? height : scene.height;
+    peer->width = settings->width > 0 ? settings->width : scene.width;
+    peer->height = settings->height > 0 ? settings->height : scene.height;
     peer->max_level = scene.max_level;
     ok = ok && fill(peer, &scene, settings, error);
     scene_free(&scene);

@@ -10,6 +10,7 @@ typedef struct {
     enum RTCBuildQuality quality;
     bool robust;
     uint32_t threads;
+    uint32_t width, height; // of the picture; 0: the scene's
 } PeerSettings;
 
 // One geometry holds all triangles; a hit's primID is a triangle in file order.
@@ -27,7 +28,6 @@ typedef struct {
     double build_seconds; // of rtcCommitScene
 } PeerScene;
 
-// Loads the scene's first view and builds Embree's tree; width 0 keeps the scene's size.
-bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings,
-                     uint32_t width, uint32_t height, Error *error);
+// Loads the scene's first view and builds Embree's tree.  The peer is to be closed in either case.
+bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings, Error *error);
 void peer_scene_close(PeerScene *peer);

@@ -174,9 +174,16 @@ typedef struct {
     Floats diffuse, specular;
 } Received;
 
+// What a packet has met: where there is no hit, the rest is not set.
+typedef struct {
+    Mask hit;
+    Surfaces surfaces;
+    Looks looks;
+    Received light;
+} Met;
+
 // Adds what one light gives to each lit surface.
-static void add_light(PeerTile *tile, const PointLight *light, const Surfaces surfaces[PACKETS],
-                      const Mask hit[PACKETS], const Looks looks[PACKETS], Received sums[PACKETS])
+static void add_light(PeerTile *tile, const PointLight *light, Met met[PACKETS])
 {
     Rays rays[PACKETS];
     Points toward_light[PACKETS];
@@ -185,12 +192,13 @@ static void add_light(PeerTile *tile, const PointLight *light, const Surfaces su
     int count = 0;
     for (int packet = 0; packet < PACKETS; packet++) {
         const Points origin = points_all(light->position);
-        const Points direction = points_subtract(surfaces[packet].point, origin);
+        const Surfaces *surfaces = &met[packet].surfaces;
+        const Points direction = points_subtract(surfaces->point, origin);
         const Floats inverse = inverse_root(points_dot(direction, direction));
         toward_light[packet] = points_scale(direction, -inverse);
-        cosine[packet] = points_dot(surfaces[packet].normal, toward_light[packet]);
-        lit[packet] =
-            hit[packet] & (cosine[packet] > all(0)) & (looks[packet].shader != SHADER_SILHOUETTE);
+        cosine[packet] = points_dot(surfaces->normal, toward_light[packet]);
+        lit[packet] = met[packet].hit & (cosine[packet] > all(0)) &
+                      (met[packet].looks.shader != SHADER_SILHOUETTE);
         set_rays(&rays[packet], origin, direction, 0, 1 - AWAY * inverse);
         count += lanes_of(lit[packet]);
     }
@@ -203,13 +211,14 @@ static void add_light(PeerTile *tile, const PointLight *light, const Surfaces su
     call_occluded(tile->scene->scene, &context, lit, rays);
     for (int packet = 0; packet < PACKETS; packet++) {
         const Mask open = lit[packet] & (rays[packet].far >= all(0));
-        const Mask shiny = open & (looks[packet].shader == SHADER_BLINN_PHONG);
-        sums[packet].diffuse += choose(open, light->intensity * cosine[packet], all(0));
+        const Looks *looks = &met[packet].looks;
+        const Mask shiny = open & (looks->shader == SHADER_BLINN_PHONG);
+        met[packet].light.diffuse += choose(open, light->intensity * cosine[packet], all(0));
         if (lanes_of(shiny) > 0)
-            sums[packet].specular +=
+            met[packet].light.specular +=
                 choose(shiny,
-                       light->intensity * highlight(looks[packet].exponent & shiny,
-                                                    &surfaces[packet], toward_light[packet]),
+                       light->intensity * highlight(looks->exponent & shiny, &met[packet].surfaces,
+                                                    toward_light[packet]),
                        all(0));
     }
 }
@@ -240,13 +249,14 @@ static inline void reflect(const Surfaces *surfaces, Paths *paths)
     paths->nearest = AWAY;
 }
 
-// One level of all paths; false where none goes on.
-static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
+// Finds what all paths' next rays meet, and gives the background to those that meet nothing; false
+// where none goes on.
+static bool meet(PeerTile *tile, RayKind kind, Paths paths[PACKETS], Met met[PACKETS])
 {
     const PeerScene *scene = tile->scene;
     RayHits hits[PACKETS];
-    Mask active[PACKETS], hit[PACKETS];
-    int rays = 0, met = 0;
+    Mask active[PACKETS];
+    int rays = 0, hit_count = 0;
     for (int packet = 0; packet < PACKETS; packet++) {
         active[packet] = paths[packet].active;
         set_rays(&hits[packet].rays, paths[packet].origin, paths[packet].direction,
@@ -263,39 +273,45 @@ static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
     call_intersect(scene->scene, &context, active, hits);
     const Points background = points_all(scene->background);
     for (int packet = 0; packet < PACKETS; packet++) {
-        hit[packet] = active[packet] & (hits[packet].geometry != -1);
-        met += lanes_of(hit[packet]);
+        const Mask hit = active[packet] & (hits[packet].geometry != -1);
+        hit_count += lanes_of(hit);
         paths[packet].color = points_add(
-            paths[packet].color, points_scale(background, choose(active[packet] & ~hit[packet],
-                                                                 paths[packet].weight, all(0))));
-        paths[packet].active = hit[packet];
+            paths[packet].color,
+            points_scale(background, choose(active[packet] & ~hit, paths[packet].weight, all(0))));
+        paths[packet].active = met[packet].hit = hit;
+        met[packet].light = (Received){0};
+        if (lanes_of(hit) == 0)
+            continue;
+        met[packet].surfaces = surfaces_at(scene, &hits[packet], hit);
+        met[packet].looks = looks_of(scene, hit, met[packet].surfaces.material);
     }
-    if (met == 0)
+    return hit_count > 0;
+}
+
+// Adds the color of what a packet has met, and lets its paths go on where that reflects.
+static inline void follow(const PeerScene *scene, const Met *met, Paths *paths)
+{
+    const Points color = shaded(scene, &met->looks, &met->light);
+    const Floats reflectivity = met->looks.reflectivity;
+    const Floats weight = choose(met->hit, paths->weight, all(0));
+    paths->color = points_add(paths->color, points_scale(color, weight * (1 - reflectivity)));
+    paths->weight *= reflectivity;
+    paths->active = met->hit & (reflectivity != all(0));
+    reflect(&met->surfaces, paths);
+}
+
+// One level of all paths; false where none goes on.
+static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
+{
+    const PeerScene *scene = tile->scene;
+    Met met[PACKETS];
+    if (!meet(tile, kind, paths, met))
         return false;
-    Surfaces surfaces[PACKETS];
-    Looks looks[PACKETS];
-    Received light[PACKETS];
-    for (int packet = 0; packet < PACKETS; packet++) {
-        light[packet] = (Received){0};
-        if (lanes_of(hit[packet]) == 0)
-            continue;
-        surfaces[packet] = surfaces_at(scene, &hits[packet], hit[packet]);
-        looks[packet] = looks_of(scene, hit[packet], surfaces[packet].material);
-    }
     for (uint32_t index = 0; index < scene->light_count; index++)
-        add_light(tile, &scene->lights[index], surfaces, hit, looks, light);
-    for (int packet = 0; packet < PACKETS; packet++) {
-        if (lanes_of(hit[packet]) == 0)
-            continue;
-        const Points color = shaded(scene, &looks[packet], &light[packet]);
-        const Floats reflectivity = looks[packet].reflectivity;
-        const Floats weight = choose(hit[packet], paths[packet].weight, all(0));
-        paths[packet].color =
-            points_add(paths[packet].color, points_scale(color, weight * (1 - reflectivity)));
-        paths[packet].weight *= reflectivity;
-        paths[packet].active = hit[packet] & (reflectivity != all(0));
-        reflect(&surfaces[packet], &paths[packet]);
-    }
+        add_light(tile, &scene->lights[index], met);
+    for (int packet = 0; packet < PACKETS; packet++)
+        if (lanes_of(met[packet].hit) > 0)
+            follow(scene, &met[packet], &paths[packet]);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include "bash.h"
 
 #include "cli/command.h"
+#include "command_names.h"
 #include "value.h"
 
 static const char head[] =
@@ -68,9 +69,10 @@ static void write_names(FILE *stream, const Command *command)
 
 static void write_commands(FILE *stream)
 {
-    for (size_t i = 0; i < command_count; i++)
-        fprintf(stream, "        %s) command=$word && break ;;\n", command_table[i].name);
-    fputs("        esac\n"
+    fputs("        ", stream);
+    command_names_write(stream, " | ");
+    fputs(") command=$word && break ;;\n"
+          "        esac\n"
           "    done\n"
           "    if [[ $current == -* ]]; then\n"
           "        local words\n"
@@ -89,8 +91,7 @@ static void write_commands(FILE *stream)
           "    done\n"
           "    [[ -n $command ]] || COMPREPLY+=($(compgen -W '",
           stream);
-    for (size_t i = 0; i < command_count; i++)
-        fprintf(stream, "%s%s", i == 0 ? "" : " ", command_table[i].name);
+    command_names_write(stream, " ");
     fputs("' -- \"$current\"))\n"
           "}\n"
           "complete -F _clrt clrt\n",

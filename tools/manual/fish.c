@@ -3,6 +3,7 @@
 #include "fish.h"
 
 #include "cli/command.h"
+#include "command_names.h"
 #include "value.h"
 
 #include <string.h>
@@ -21,9 +22,8 @@ static void write_condition(FILE *stream, const Option *option)
     fputs(" -n '", stream);
     const char *separator = "";
     if (command_takes(NULL, option->name)) {
-        fputs("not __fish_seen_subcommand_from", stream);
-        for (size_t i = 0; i < command_count; i++)
-            fprintf(stream, " %s", command_table[i].name);
+        fputs("not __fish_seen_subcommand_from ", stream);
+        command_names_write(stream, " ");
         separator = "; or ";
     }
     for (size_t i = 0; i < command_count; i++)

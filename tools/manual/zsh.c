@@ -3,6 +3,7 @@
 #include "zsh.h"
 
 #include "cli/command.h"
+#include "command_names.h"
 #include "value.h"
 
 #include <string.h>
@@ -89,8 +90,7 @@ void zsh_write(FILE *stream)
           "for word in ${words[2,CURRENT-1]}; do\n"
           "    case $word in\n    ",
           stream);
-    for (size_t i = 0; i < command_count; i++)
-        fprintf(stream, "%s%s", i == 0 ? "" : " | ", command_table[i].name);
+    command_names_write(stream, " | ");
     fputs(") command=$word && break ;;\n"
           "    esac\n"
           "done\n"

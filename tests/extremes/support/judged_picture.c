@@ -19,8 +19,8 @@ PictureJudgment picture_judge(const Studio *studio, const Scene *scene, const Sc
     picture_draw(&picture, studio, scene, settings);
     require(oracle_draw(&view, render->samples, 1, &expected, &error), &error);
     const Comparison comparison = comparison_make(&view, &picture, &expected, 1);
-    const PictureJudgment judgment = {comparison.differing, comparison.unexplained,
-                                      picture_count_faults(&picture)};
+    const PictureJudgment judgment = {(size_t)render->width * render->height, comparison.differing,
+                                      comparison.unexplained, picture_count_faults(&picture)};
     if (comparison.unexplained > 0)
         comparison_print(&comparison, "oracle");
     framebuffer_free(&picture);
@@ -32,17 +32,15 @@ PictureJudgment picture_judge(const Studio *studio, const Scene *scene, const Sc
 size_t picture_report(const char *test, const char *details, const Studio *studio,
                       const Scene *scene, const PictureSettings *settings)
 {
-    return picture_report_beside(test, details, studio, scene, scene, settings);
+    const PictureJudgment judgment = picture_judge(studio, scene, scene, settings);
+    return picture_report_judgment(test, details, &judgment);
 }
 
-size_t picture_report_beside(const char *test, const char *details, const Studio *studio,
-                             const Scene *scene, const Scene *exact,
-                             const PictureSettings *settings)
+size_t picture_report_judgment(const char *test, const char *details,
+                               const PictureJudgment *judgment)
 {
     char all[160];
-    const PictureJudgment judgment = picture_judge(studio, scene, exact, settings);
     snprintf(all, sizeof all, "%s at_edges=%zu", details,
-             judgment.differing - judgment.unexplained);
-    return report_case(test, all, (size_t)settings->render.width * settings->render.height,
-                       judgment.unexplained + judgment.faults);
+             judgment->differing - judgment->unexplained);
+    return report_case(test, all, judgment->pixels, judgment->unexplained + judgment->faults);
 }

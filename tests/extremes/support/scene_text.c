@@ -18,7 +18,7 @@ Scene scene_text_parse(const char *text)
     return scene;
 }
 
-bool scene_text_is_refused(const char *text)
+static bool is_refused(const char *text)
 {
     Scene scene;
     Error error = {0};
@@ -34,7 +34,7 @@ size_t scene_text_report(const char *test, const char *details, const char *cons
 {
     size_t count = 0, accepted = 0;
     for (; texts[count] != NULL; count++)
-        if (!scene_text_is_refused(texts[count])) {
+        if (!is_refused(texts[count])) {
             print_message("accepted, or refused without a place: %s\n", texts[count]);
             accepted++;
         }

@@ -7,8 +7,6 @@
 // Parses text, which is right.
 Scene scene_text_parse(const char *text);
 
-// Whether text is refused with a message that names its line and column.
-bool scene_text_is_refused(const char *text);
-
-// Counts those of the texts, the last of which is NULL, that are not refused, and reports them.
+// Counts those of the texts, the last of which is NULL, that are not refused with a message that
+// names line and column, and reports them.
 size_t scene_text_report(const char *test, const char *details, const char *const *texts);

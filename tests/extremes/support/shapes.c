@@ -6,7 +6,7 @@
 #include "base/trigonometry.h"
 #include "check.h"
 
-static Mesh mesh_with_room(size_t vertices, size_t triangles)
+Mesh shape_unfilled(size_t vertices, size_t triangles)
 {
     Error error = {0};
     Mesh mesh = {.vertex_count = vertices, .triangle_count = triangles};
@@ -58,7 +58,7 @@ static void connect_globe(Mesh *mesh, uint32_t rings, uint32_t segments)
 static Mesh make_globe(uint32_t rings, uint32_t segments)
 {
     const size_t vertices = 2 + (size_t)(rings - 1) * segments;
-    Mesh mesh = mesh_with_room(vertices, 2 * (size_t)segments * (rings - 1));
+    Mesh mesh = shape_unfilled(vertices, 2 * (size_t)segments * (rings - 1));
     connect_globe(&mesh, rings, segments);
     return mesh;
 }
@@ -99,7 +99,7 @@ Mesh shape_bumpy(Random *random, Vec3 center)
 
 Mesh shape_fan(uint32_t count)
 {
-    Mesh mesh = mesh_with_room((size_t)count + 1, count);
+    Mesh mesh = shape_unfilled((size_t)count + 1, count);
     put_vertex(&mesh, 0, vec3(0, 0, 0));
     for (uint32_t spoke = 0; spoke < count; spoke++) {
         const double angle = 360.0 * spoke / count;
@@ -133,7 +133,7 @@ static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t ce
 Mesh shape_plane(Vec3 corner, Vec3 across, Vec3 down, uint32_t cells)
 {
     const size_t side = (size_t)cells + 1;
-    Mesh mesh = mesh_with_room(side * side, 2 * (size_t)cells * cells);
+    Mesh mesh = shape_unfilled(side * side, 2 * (size_t)cells * cells);
     put_plane(&mesh, 0, (Vec3[3]){corner, across, down}, cells);
     return mesh;
 }
@@ -147,7 +147,7 @@ Mesh shape_cube(double half_side, uint32_t cells)
                               {low, z, y}, {vec3(h, -h, -h), y, z},
                               {low, x, z}, {vec3(-h, h, -h), z, x}};
     const size_t side = (size_t)cells + 1;
-    Mesh mesh = mesh_with_room(6 * side * side, 12 * (size_t)cells * cells);
+    Mesh mesh = shape_unfilled(6 * side * side, 12 * (size_t)cells * cells);
     for (size_t face = 0; face < 6; face++)
         put_plane(&mesh, face, faces[face], cells);
     return mesh;
@@ -155,7 +155,7 @@ Mesh shape_cube(double half_side, uint32_t cells)
 
 Mesh shape_soup(Random *random, uint32_t count, double size)
 {
-    Mesh mesh = mesh_with_room(3 * (size_t)count, count);
+    Mesh mesh = shape_unfilled(3 * (size_t)count, count);
     for (uint32_t triangle = 0; triangle < count; triangle++) {
         const Vec3 place = random_in_cube(random, 1);
         for (uint32_t corner = 0; corner < 3; corner++)
@@ -167,7 +167,7 @@ Mesh shape_soup(Random *random, uint32_t count, double size)
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
 {
-    Mesh mesh = mesh_with_room(3, 1);
+    Mesh mesh = shape_unfilled(3, 1);
     put_vertex(&mesh, 0, a);
     put_vertex(&mesh, 1, b);
     put_vertex(&mesh, 2, c);

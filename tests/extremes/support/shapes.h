@@ -15,6 +15,9 @@ static inline double shape_rounded(double value)
     return (double)rounded;
 }
 
+// A mesh of so many vertices and triangles, both for the caller to fill.
+Mesh shape_unfilled(size_t vertices, size_t triangles);
+
 // Where S(n, k) lies: (s, -0.75 s, 0.5 s) for s = 2^k.
 Vec3 shape_center(int exponent);
 

@@ -43,17 +43,11 @@ size_t report_fails(const char *test, const char *details, size_t rays, const Fa
     return report(&(Case){test, details, rays, fails->ours, 0, fails->peers});
 }
 
-size_t trial_judge_within(const Trial *trial, const char *details, const TestRay *rays,
-                          size_t count, const Judgment *judgment, size_t limit)
-{
-    const Fails fails = trial_fails(trial, rays, count, judgment);
-    return report(&(Case){trial->test, details, count, fails.ours, limit, fails.peers});
-}
-
 size_t trial_judge(const Trial *trial, const char *details, const TestRay *rays, size_t count,
                    const Judgment *judgment)
 {
-    return trial_judge_within(trial, details, rays, count, judgment, 0);
+    const Fails fails = trial_fails(trial, rays, count, judgment);
+    return report_fails(trial->test, details, count, &fails);
 }
 
 static size_t count_misses(void *context, const TestRay *rays, const TestHit *hits, size_t count)

@@ -23,12 +23,9 @@ void fails_add(Fails *sum, const Fails *more);
 void trial_open(Trial *trial, const char *test, RayBatch *batch, const Stage *stage);
 void trial_close(Trial *trial);
 
-// Traces the rays and reports those that the judgment calls wrong; by how many these are past the
-// limit.
+// Traces the rays, reports those that the judgment calls wrong and returns how many they are.
 size_t trial_judge(const Trial *trial, const char *details, const TestRay *rays, size_t count,
                    const Judgment *judgment);
-size_t trial_judge_within(const Trial *trial, const char *details, const TestRay *rays,
-                          size_t count, const Judgment *judgment, size_t limit);
 
 // Wrong is what meets nothing, or something at no finite distance.
 size_t trial_misses(const Trial *trial, const char *details, const TestRay *rays, size_t count);

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# What goes wrong around clrt - disks that are full or read-only, files that change while they are
+# read, memory that runs out - ends with one sentence, its exit status and no half-written file.
+# Usage: test_faults.py CLRT FORMATS FAIL_MEMORY, the last as tests/cli/fail_memory.c is built
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+FORMATS = sys.argv[2].split(", ")
+FAIL_MEMORY = pathlib.Path(sys.argv[3]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+# In every format more than a disk holds here; with kernels that are the same each time.
+LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
+DISK_SIZE = 8192
+
+
+def has_private_disks():
+    command = ["unshare", "-m", "mount", "-t", "tmpfs", "clrt-test", "/mnt"]
+    try:
+        return subprocess.run(command, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+        self.target = self.work / "target"
+        self.target.mkdir()
+
+    def run_command(self, command, **more):
+        environment = dict(os.environ, **more.pop("environment", {}))
+        return subprocess.run(
+            command,
+            cwd=self.work,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            env=environment,
+            timeout=120,
+            **more,
+        )
+
+    def clrt(self, *words, **more):
+        return self.run_command([CLRT, *words], **more)
+
+    # On a disk of its own, mounted at target for that one process, whose listing follows.
+    def clrt_on_disk(self, options, *words):
+        script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
+            { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \
+            ls -A target; exit $code'
+        size, mode = options
+        words = ["unshare", "-m", "sh", "-c", script, "sh", f"size={size}", mode, CLRT, *words]
+        return self.run_command(words)
+
+    def assert_fails(self, run, status, sentence):
+        text = run.stderr.decode()
+        self.assertEqual(run.returncode, status, text)
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertRegex(text, "^clrt: " + sentence)
+
+
+@unittest.skipUnless(has_private_disks(), "disks cannot be mounted here")
+class Disks(Faults):
+    def test_a_full_disk_is_told_and_keeps_no_part_of_the_picture(self):
+        for format in FORMATS:
+            run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "-o", f"target/a.{format}")
+            self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
+            self.assertEqual(run.stdout, b"old\n")
+
+    def test_a_full_disk_keeps_the_picture_that_was_there(self):
+        run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "--format", "png", "-o", "target/old")
+        self.assert_fails(run, 5, "target/old: cannot be written: No space left on device")
+        self.assertEqual(run.stdout, b"old\n")
+
+    def test_a_disk_for_reading_alone_is_told_before_any_work(self):
+        run = self.clrt_on_disk((DISK_SIZE, "ro"), "nowhere.scn", "-o", "target/a.png")
+        self.assert_fails(run, 5, "target/a.png: cannot be written: Read-only file system")
+
+
+class Outputs(Faults):
+    def test_a_file_past_the_limit_of_its_size_is_told_and_removed(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 20, 1 << 20))
+
+        large = [*LARGE, "-s", "800x600"]
+        for format in {"pfm", "ppm"} & set(FORMATS):
+            self.clrt(*large, "-o", "warm." + format)  # compiled kernels are files too
+            run = self.clrt(*large, "-o", f"target/a.{format}", preexec_fn=limit)
+            self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
+            self.assertEqual(os.listdir(self.target), [])
+
+    def test_a_folder_is_no_output(self):
+        (self.target / "a.pfm").mkdir()
+        for words in (["-o", "target/a.pfm"], ["-o", "a.png", "--reference=target/a.pfm"]):
+            run = self.clrt("nowhere.scn", *words)
+            self.assert_fails(run, 5, "target/a.pfm: cannot be written: it is a folder")
+
+
+class Inputs(Faults):
+    def test_a_mesh_that_changes_while_it_is_read_is_a_mesh_or_a_fault(self):
+        mesh = self.work / "mesh.ply"
+        whole = (ROOT / "scenes/models/creature.ply").read_bytes()
+        mesh.write_bytes(whole)
+        done = threading.Event()
+
+        def change():
+            while not done.is_set():
+                for size in (0, len(whole) // 2, len(whole)):
+                    with open(mesh, "r+b") as file:
+                        file.truncate(size)
+                        file.write(whole[:size])
+
+        writer = threading.Thread(target=change)
+        writer.start()
+        try:
+            no_device = {"OCL_ICD_VENDORS": "/nonexistent"}
+            runs = [self.clrt("check", "mesh.ply", environment=no_device) for _ in range(40)]
+        finally:
+            done.set()
+            writer.join()
+        self.assertEqual({run.returncode for run in runs}, {0, 3})
+        for run in runs:
+            if run.returncode == 3:
+                self.assert_fails(run, 3, "mesh.ply")
+
+
+class Memory(Faults):
+    # The first allocations one by one are the first to fail, later ones in larger steps.
+    def count_failures(self, *words):
+        first, failures = 1, 0
+        while True:
+            environment = {"LD_PRELOAD": str(FAIL_MEMORY), "CLRT_FAIL_MEMORY": str(first)}
+            run = self.clrt(*words, environment=environment)
+            if run.returncode == 0:
+                return failures
+            self.assertIn(run.returncode, (3, 4, 5), f"{first}: {run.stderr}")
+            self.assert_fails(run, run.returncode, ".*out of memory")
+            self.assertEqual(os.listdir(self.target), [])
+            failures += 1
+            first += 1 + first // 6
+
+    def test_memory_that_runs_out_is_told_wherever_it_does(self):
+        (self.work / "mesh.scn").write_text(
+            f"ply_file {ROOT}/scenes/cone.ply\nlight 4 4 4 1\nmaterial 3\nsphere 0 0 0 1\n"
+        )
+        picture = ["mesh.scn", "-s", "8x8", "-q"]
+        self.clrt(*picture, "-o", "a.pfm")
+        refined = ["--aa-adaptive", "--reference", "--reference-samples=2"]
+        self.assertGreater(self.count_failures(*picture, "-o", "target/a.png", *refined), 10)
+        os.remove(self.target / "a.png")
+        self.assertGreater(self.count_failures(*picture, "--explain-pixel", "3,3"), 10)
+        self.assertGreater(self.count_failures("check", "mesh.scn"), 10)
+        self.assertGreater(self.count_failures("compare", "a.pfm", "a.pfm"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// In the order of the table, which is that of --help.
+#include "command_names.h"
+
+#include "cli/command.h"
+
+void command_names_write(FILE *stream, const char *separator)
+{
+    for (size_t i = 0; i < command_count; i++)
+        fprintf(stream, "%s%s", i == 0 ? "" : separator, command_table[i].name);
+}
