@@ -43,7 +43,8 @@ def show_goals(scenes):
         for goal in scene["goals"]["errors"]:
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} "
                    f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E in "
-                   f"{goal['milliseconds']:.2f} ms; {rival_text(goal['fixed'])} {rival_text(goal['uniform'])}")
+                   f"{goal['milliseconds']:.2f} ms; {rival_text(goal['fixed'])} "
+                   f"{rival_text(goal['uniform'])}")
         for goal in scene["goals"]["times"]:
             best = goal["fixed"]
             beside = f"{best['errors']:.2f} x that of {best['setting']}" if best else "alone"
