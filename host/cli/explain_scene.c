@@ -3,6 +3,7 @@
 #include "cli/explain_scene.h"
 
 #include "cli/json_file.h"
+#include "cli/savings.h"
 #include "cli/scene_parts.h"
 
 #include <stdio.h>
@@ -20,19 +21,37 @@ static void write_kernels(const Run *run)
            scene_program_reason(run));
 }
 
-// The parts that are needed, compiled though they are not, or left out.
-static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed,
-                        bool is_compiled)
+// The parts that are needed, or compiled though they are not.
+static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed)
 {
     bool is_headed = false;
     for (int i = 0; i < SCENE_PARTS; i++) {
-        if (parts[i].is_needed != is_needed || parts[i].is_compiled != is_compiled)
+        if (parts[i].is_needed != is_needed || !parts[i].is_compiled)
             continue;
         if (!is_headed)
             printf("%s\n", heading);
         is_headed = true;
         printf("  %-11s %s\n", parts[i].name, parts[i].reason);
     }
+}
+
+// What is not compiled, and what that saves.
+static void write_omissions(const ScenePart parts[SCENE_PARTS], KernelFamily family)
+{
+    char saving[SAVING_TEXT];
+    bool is_headed = false;
+    for (int i = 0; i < SCENE_PARTS; i++) {
+        if (parts[i].is_compiled)
+            continue;
+        printf("%s", is_headed ? "" : "left out\n");
+        is_headed = true;
+        saving_describe(parts, (ScenePartKind)i, family, saving);
+        printf("  %-11s %s (%s)\n", parts[i].name, parts[i].reason, saving);
+    }
+    if (is_headed)
+        printf("savings as measured %s,\nwhere %.0f %% is noise (tests/bench/traits.txt); they "
+               "overlap, and empty arrays take no memory in any program\n",
+               saving_source(family), 100 * SAVING_NOISE);
 }
 
 static void write_arrays(const Run *run)
@@ -56,22 +75,42 @@ static void write_text(const Run *run)
     ScenePart parts[SCENE_PARTS];
     scene_parts_list(run, parts);
     write_kernels(run);
-    write_parts(parts, "compiled in", true, true);
-    write_parts(parts, "compiled in and idle, since the program is general", false, true);
-    write_parts(parts, "left out", false, false);
+    write_parts(parts, "compiled in", true);
+    write_parts(parts, "compiled in and idle, since the program is general", false);
+    write_omissions(parts, run->starter.setup.source.choice.family);
     write_arrays(run);
+}
+
+static json_t *saving_json(const ScenePart parts[SCENE_PARTS], ScenePartKind kind,
+                           KernelFamily family)
+{
+    const Saving saving = saving_of(kind, family);
+    if (parts[kind].is_compiled || !saving_is_own(parts, kind))
+        return json_null();
+    return json_pack("{s:f, s:[f, f]}", "compiling", saving.compiling, "tracing",
+                     saving.tracing_least, saving.tracing_most);
 }
 
 static json_t *parts_json(const Run *run)
 {
     ScenePart parts[SCENE_PARTS];
     json_t *list = json_array();
+    const KernelFamily family = run->starter.setup.source.choice.family;
     scene_parts_list(run, parts);
     for (int i = 0; i < SCENE_PARTS; i++)
-        json_array_append_new(list, json_pack("{s:s, s:b, s:b, s:s}", "name", parts[i].name,
-                                              "needed", parts[i].is_needed, "compiled",
-                                              parts[i].is_compiled, "reason", parts[i].reason));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:b, s:b, s:s, s:o}", "name", parts[i].name,
+                                        "needed", parts[i].is_needed, "compiled",
+                                        parts[i].is_compiled, "reason", parts[i].reason, "saves",
+                                        saving_json(parts, (ScenePartKind)i, family)));
     return list;
+}
+
+static json_t *savings_json(const Run *run)
+{
+    const KernelFamily family = run->starter.setup.source.choice.family;
+    return json_pack("{s:s, s:f, s:s}", "measured", saving_source(family), "noise", SAVING_NOISE,
+                     "table", "tests/bench/traits.txt");
 }
 
 static json_t *arrays_json(const Run *run)
@@ -88,13 +127,13 @@ static json_t *whole_json(const Run *run)
 {
     const KernelChoice *choice = &run->starter.setup.source.choice;
     return json_pack(
-        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
+        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o, s:o}", "schema",
         SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
         "device", run->starter.device.name, "kernels", "family", kernel_family_name(choice->family),
         "nodes", kernel_nodes_name(choice->nodes), "precision",
         kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
         "special", run->renderer.is_special, "reason", scene_program_reason(run), "parts",
-        parts_json(run), "uploaded_bytes", arrays_json(run));
+        parts_json(run), "savings", savings_json(run), "uploaded_bytes", arrays_json(run));
 }
 
 ExitCode explain_scene(Run *run, Error *error)

@@ -69,8 +69,8 @@ const Option option_table[] = {
     {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"explain", 0, NULL, read_explain, GROUP_STATISTICS, CLASS_NONE,
-     "tell what of the kernels and the scene's arrays is used, what is left out and why, and draw "
-     "nothing"},
+     "tell what of the kernels and the scene's arrays is used, what is left out, why and what that "
+     "saves, and draw nothing"},
     {"explain-pixel", 0, "X,Y", read_explain_pixel, GROUP_STATISTICS, CLASS_NONE,
      "tell how the color of a pixel comes about, ray by ray, and draw nothing; X counts from the "
      "left and Y from the top, both from 0"},

@@ -33,23 +33,25 @@ void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
     const FlatScene *flat = &run->flat;
     const SceneTraits needed = traits_of(flat, run->options->statistics);
     const bool is_special = run->renderer.is_special;
-    parts[0] = needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
-                              : part("spheres", false, "there are none");
-    parts[1] = needed.triangles ? part("triangles", true, "%u of them", flat->triangle_count)
+    parts[PART_SPHERES] = needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
+                                         : part("spheres", false, "there are none");
+    parts[PART_TRIANGLES] = needed.triangles
+                                ? part("triangles", true, "%u of them", flat->triangle_count)
                                 : part("triangles", false, "there are none");
-    parts[2] = tree_part(run, needed.bvh);
-    parts[3] =
+    parts[PART_TREE] = tree_part(run, needed.bvh);
+    parts[PART_LIGHTS] =
         needed.shaded
             ? part("lights", true, "%u of them on materials that they shade", flat->light_count)
             : part("lights", false, "all materials in use are silhouettes: no shadow rays");
-    parts[4] = needed.mirrors
-                   ? part("mirrors", true, "a material in use reflects")
-                   : part("mirrors", false, "no material in use reflects: no ray is followed on");
-    parts[5] = needed.statistics ? part("statistics", true, "--stats counts rays and tests")
+    parts[PART_MIRRORS] =
+        needed.mirrors
+            ? part("mirrors", true, "a material in use reflects")
+            : part("mirrors", false, "no material in use reflects: no ray is followed on");
+    parts[PART_STATISTICS] = needed.statistics
+                                 ? part("statistics", true, "--stats counts rays and tests")
                                  : part("statistics", false, "nobody asks to count: no --stats");
     for (int i = 0; i < SCENE_PARTS; i++)
-        parts[i].is_compiled = parts[i].is_needed || !is_special;
-    parts[5].is_compiled = parts[5].is_needed;
+        parts[i].is_compiled = parts[i].is_needed || (!is_special && i != PART_STATISTICS);
 }
 
 void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS])

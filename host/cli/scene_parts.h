@@ -4,6 +4,16 @@
 
 #include "cli/run.h"
 
+typedef enum {
+    PART_SPHERES,
+    PART_TRIANGLES,
+    PART_TREE,
+    PART_LIGHTS,
+    PART_MIRRORS,
+    PART_STATISTICS,
+    SCENE_PARTS
+} ScenePartKind;
+
 // Something that kernels are compiled with or without.
 typedef struct {
     const char *name;
@@ -11,8 +21,6 @@ typedef struct {
     bool is_compiled; // the general kernels are compiled with what a scene lacks as well
     char reason[160];
 } ScenePart;
-
-#define SCENE_PARTS 6
 
 // An array of the scene on the device.
 typedef struct {
@@ -22,7 +30,7 @@ typedef struct {
 
 #define SCENE_ARRAYS RENDERER_ARRAYS
 
-// Run has opened its renderer.
+// Run has opened its renderer; parts are in the order of ScenePartKind.
 void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS]);
 void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS]);
 

@@ -105,7 +105,7 @@ bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSi
 {
     uint32_t place[2];
     return place_beyond(tree, group, side, place) &&
-           descend(tree, place, group->level - 1, UINT32_MAX, name) == 0;
+           descend(tree, place, group->level - 1, tree->traced, name) == 0;
 }
 
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name)

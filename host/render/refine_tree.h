@@ -56,7 +56,7 @@ typedef struct {
 } CellName;
 
 // The cell that is not cut next to the one that a group cuts, and no smaller; false where there is
-// none.
+// none.  Cells that are not traced are none: what is cut of them would keep a sample never taken.
 bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSide side,
                           CellName *name);
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);

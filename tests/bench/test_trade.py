@@ -13,7 +13,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = ROOT / "scenes" / "reflections.scn"
 sys.path.insert(0, str(ROOT / "tools"))
-from tradeoff import front  # noqa: E402
+from tradeoff import front, goals, labels, measure, uniform  # noqa: E402
 
 
 def row(milliseconds, rmse):
@@ -38,6 +38,71 @@ class Front(unittest.TestCase):
         self.assertIsNone(front.time_at(rows, 0.5))
 
 
+def setting(kind, milliseconds, rmse, samples, goal=None):
+    return {"kind": kind, "setting": f"{kind} {samples}", "milliseconds": milliseconds,
+            "rmse": rmse, "samples": samples, "goal": goal, "estimate": rmse, "front": False}
+
+
+class Goals(unittest.TestCase):
+    ROWS = [setting("uniform", 4, 0.05, 100), setting("uniform", 20, 0.009, 900),
+            setting("adaptive", 5, 0.008, 200), setting("error", 10, 0.0105, 300, 0.01),
+            setting("error", 10, 0.0012, 300, 0.001), setting("time", 6, 0.016, 300, 0.008)]
+
+    def test_a_goal_is_compared_with_the_fastest_fixed_and_uniform_settings_that_hold_it(self):
+        goal = goals.judge(self.ROWS)["errors"][0]
+        self.assertEqual((goal["fixed"]["setting"], goal["fixed"]["times"]), ("adaptive 200", 2))
+        self.assertEqual(goal["uniform"]["setting"], "uniform 900")
+        self.assertEqual(goal["uniform"]["times"], 0.5)
+        self.assertEqual(goal["uniform"]["samples_ratio"], 300 / 900)
+
+    def test_a_goal_that_nothing_fixed_holds_has_no_rival(self):
+        goal = goals.judge(self.ROWS)["errors"][1]
+        self.assertIsNone(goal["fixed"])
+        self.assertIsNone(goal["uniform"])
+
+    def test_a_time_is_compared_with_the_least_wrong_that_is_as_fast(self):
+        goal = goals.judge(self.ROWS)["times"][0]
+        self.assertEqual((goal["fixed"]["setting"], goal["fixed"]["errors"]), ("adaptive 200", 2))
+        self.assertEqual(goal["seconds_ratio"], 0.75)
+
+    def test_errors_are_held_within_a_tenth(self):
+        self.assertEqual(
+            goals.summary([{"goals": goals.judge(self.ROWS)}]),
+            "of 2 errors asked for 1 are held within 1.1 E, 0 within E; "
+            "0 lie on their scene's front")
+
+
+class Names(unittest.TestCase):
+    def test_scenes_of_one_name_are_numbered(self):
+        self.assertEqual(measure.names_of(["a/cow.scn", "b/cow.scn", "c.scn", "d/cow.scn"]),
+                         ["cow", "cow-2", "c", "cow-3"])
+
+
+class Uniform(unittest.TestCase):
+    def side(self, error, tried):
+        return uniform.side_that_holds(error, tried, lambda side: 1 / side)
+
+    def test_the_fewest_samples_that_hold_an_error_are_found(self):
+        for wanted in (1, 2, 5, 7, 11, 12, 29, 64):
+            tried = {side: 1 / side for side in (2, 4, 12)}
+            self.assertEqual(self.side(1 / wanted, tried), wanted)
+
+    def test_it_says_where_none_holds(self):
+        self.assertIsNone(self.side(1 / 65, {1: 1}))
+
+
+class Labels(unittest.TestCase):
+    def test_no_name_lies_on_another_or_on_a_point(self):
+        points = [(100 + 7 * i, 200 - 5 * i) for i in range(12)]
+        names = [(point, f"setting={place}") for place, point in enumerate(points)]
+        places = labels.place(names, points, (0, 0, 400, 400))
+        boxes = [labels.box_at(center, labels.extent(text))
+                 for (center, _), (_, text) in zip(places, names)]
+        for place, box in enumerate(boxes):
+            self.assertFalse(any(labels.overlap(box, other) for other in boxes[:place]))
+            self.assertFalse(any(labels.overlap(box, (x, y, x, y)) for x, y in points))
+
+
 class Trade(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -47,7 +112,7 @@ class Trade(unittest.TestCase):
             [ROOT / "tools" / "trade", SCENE, "--quick", "--runs", "2", "-s", "64x48",
              "--reference-samples", "256", "-o", cls.folder],
             capture_output=True, text=True, check=False)
-        cls.said = done.stderr
+        cls.said, cls.told = done.stderr, done.stdout
         assert done.returncode == 0, done.stderr
         cls.figures = json.loads((cls.folder / "trade.json").read_text())["scenes"][0]
         cls.rows = {row["setting"]: row for row in cls.figures["rows"]}
@@ -58,6 +123,18 @@ class Trade(unittest.TestCase):
         self.assertGreater(rmse["aa=2"], rmse["aa=4"])
         self.assertGreater(rmse["aa=2 max-level=1"], 2 * rmse["aa=2"])
         self.assertLess(self.figures["reference"]["own_error"], rmse["aa=4"])
+
+    def test_goals_are_settings_whose_errors_are_judged(self):
+        told = self.figures["goals"]
+        self.assertEqual([goal["goal"] for goal in told["errors"]], [0.02, 0.01])
+        for goal in told["errors"]:
+            self.assertEqual(goal["rmse"], self.rows[goal["setting"]]["rmse"])
+            self.assertTrue(0.2 < goal["ratio"] < 1.5)
+            self.assertLessEqual(goal["uniform"]["rmse"], goal["goal"])
+            self.assertLessEqual(goal["fixed"]["milliseconds"], goal["uniform"]["milliseconds"])
+            self.assertIn(f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E", self.told)
+        self.assertTrue(0.5 < told["times"][0]["seconds_ratio"] < 2)
+        self.assertIn("aa=3", self.rows)  # holds 1 %, and is not in the quick grid
 
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():
@@ -84,6 +161,8 @@ class Trade(unittest.TestCase):
         for name, row in self.rows.items():
             self.assertIn(f"<td>{name}</td>", text)
             self.assertIn(f"{100 * row['rmse']:.4f}", text)
+        for goal in self.figures["goals"]["errors"]:
+            self.assertIn(f"<td>{goal['ratio']:.2f} E", text)
         self.assertGreater(self.rows["aa=4"]["ssim"], self.rows["aa=1"]["ssim"])
         self.assertLess(self.rows["aa=4"]["flip"], self.rows["aa=1"]["flip"])
         self.assertTrue(all(0 <= row["flip"] < 0.2 < row["ssim"] <= 1

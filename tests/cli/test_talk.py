@@ -175,6 +175,12 @@ class Schemas(Run):
             words = [*SMALL, "--explain-pixel", pixel, "--json"]
             self.validate("explanation", self.clrt(*words).stdout)
 
+    def test_explanations_of_scenes_are_as_their_schema_says(self):
+        (self.work / "empty.scn").write_text("")
+        for words in ([*SMALL, "--stats"], [*SMALL, "--specialize", "always"], ["empty.scn"]):
+            told = self.clrt(*words, "--explain", "--json").stdout
+            self.validate("explanation-scene", told)
+
     def test_what_the_schemas_do_not_name_is_refused(self):
         statistics = json.loads(self.clrt(*SMALL, "-o", "a.pfm", "--stats=-").stdout)
         statistics["rays"]["lost"] = 1

@@ -20,6 +20,7 @@ INSTALLED = [
     "share/clrt/check.schema.json",
     "share/clrt/compare.schema.json",
     "share/clrt/devices.schema.json",
+    "share/clrt/explanation-scene.schema.json",
     "share/clrt/explanation.schema.json",
     "share/clrt/statistics.schema.json",
     "share/doc/clrt/copyright",

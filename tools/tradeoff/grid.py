@@ -1,29 +1,56 @@
 # SPDX-License-Identifier: MIT
-"""The settings that are tried: names and clrt's words for them."""
+"""The settings that are tried: a kind, a name and clrt's words for each.  Goals tell clrt what is
+wanted, an error or a time; all other kinds are fixed settings."""
+
+import collections
 
 from benchmark import common
+
+KINDS = ["uniform", "levels", "fp64", "adaptive", "error", "time"]
 
 # The assignment's own setting, which others are compared with.
 BASE = "aa=2"
 
+# Goals: root mean square errors, and seconds of tracing.
+ERRORS = [0.02, 0.01, 0.005, 0.002]
+SECONDS = [0.5, 2]
 
-def setting(*words):
-    return " ".join(word.lstrip("-").replace("aa-adaptive", "adaptive") for word in words), [*words]
+Setting = collections.namedtuple("Setting", "kind name words goal")
+
+
+def setting(kind, *words, goal=None):
+    name = " ".join(word.lstrip("-").replace("aa-adaptive", "adaptive") for word in words)
+    return Setting(kind, name, [*words], goal)
 
 
 def plain(sides):
-    return [setting(f"--aa={side}") for side in sides]
+    return [setting("uniform", f"--aa={side}") for side in sides]
 
 
-def all_settings(is_quick):
-    """(name, words) of each; a quick grid has few."""
-    if is_quick:
-        return plain([1, 2, 4]) + [setting("--aa=2", "--max-level=1")]
+def goals(errors, seconds):
+    return ([setting("error", f"--error={100 * error:g}%", goal=error) for error in errors]
+            + [setting("time", f"--time={time:g}", goal=time) for time in seconds])
+
+
+def quick_settings():
+    return (plain([1, 2, 4]) + [setting("levels", "--aa=2", "--max-level=1")]
+            + goals([0.02, 0.01], [0.05]))
+
+
+def many_settings():
     settings = plain([1, 2, 3, 4, 6, 8, 12])
-    settings += [setting(f"--aa={side}", f"--max-level={level}") for side in [1, 2, 4, 8]
-                 for level in [1, 2]]
-    settings += [setting(f"--aa={side}", "--precision=fp64") for side in [1, 2, 4, 8]]
+    settings += [setting("levels", f"--aa={side}", f"--max-level={level}")
+                 for side in [1, 2, 4, 8] for level in [1, 2]]
+    settings += [setting("fp64", f"--aa={side}", "--precision=fp64") for side in [1, 2, 4, 8]]
     if common.has_option("--aa-adaptive"):
-        settings += [setting(f"--aa-adaptive={contrast}")
-                     for contrast in [0.3, 0.1, 0.05, 0.02, 0.01, 0.005]]
+        settings += [setting("adaptive", f"--aa-adaptive={contrast:g}")
+                     for contrast in [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]]
+    if common.has_option("--error"):
+        settings += goals(ERRORS, SECONDS)
     return settings
+
+
+def all_settings(is_quick, kinds):
+    """Those of the kinds; a quick grid has few."""
+    settings = quick_settings() if is_quick else many_settings()
+    return [chosen for chosen in settings if chosen.kind in kinds]

@@ -9,16 +9,27 @@ import subprocess
 import sys
 
 from benchmark import common
-from tradeoff import front, grid
+from tradeoff import front, goals, grid, uniform
 
 # Pictures that a process draws: the first pays for what comes late, the others are timed.
 FRAMES = 3
 
 
-def run_clrt(words):
+def names_of(paths):
+    """The files' names without endings, numbered where two are the same."""
+    names = []
+    for path in paths:
+        stem = pathlib.Path(path).stem
+        same = sum(name == stem or name.startswith(f"{stem}-") for name in names)
+        names.append(f"{stem}-{same + 1}" if same else stem)
+    return names
+
+
+def run_clrt(words, may_miss=False):
+    """clrt ends with 1 where it misses an error that is asked for."""
     done = subprocess.run([common.CLRT, *map(str, words)], capture_output=True, text=True,
                           check=False)
-    if done.returncode != 0:
+    if done.returncode not in ([0, 1] if may_miss else [0]):
         sys.exit(f"clrt {' '.join(map(str, words))}: {done.stderr}")
     return done
 
@@ -37,27 +48,51 @@ def compare(picture, reference, picture_map=None):
     return json.loads(run_clrt(["compare", reference, picture, "--json", *words]).stdout)
 
 
-def first_row(place, name, words, scene, options, folder):
+def draw(setting, scene, options, picture, *more):
+    """Draws the scene with a setting; what clrt said."""
+    return run_clrt([scene, "-q", "-o", picture, *options.clrt_words, *setting.words, *more],
+                    may_miss=setting.kind == "error")
+
+
+def first_row(place, setting, scene, options, folder):
     """Draws a setting's picture, with statistics of a run of its own, and judges it."""
     picture, report = folder / f"{place}.pfm", folder / f"{place}.json"
-    run_clrt([scene, "-q", "-o", picture, *options.clrt_words, *words])
-    run_clrt([scene, "-q", "-o", folder / "unused.pfm", f"--stats={report}", *options.clrt_words,
-              *words])
+    draw(setting, scene, options, picture)
+    draw(setting, scene, options, folder / "unused.pfm", f"--stats={report}")
     told = compare(picture, folder / "reference.pfm", folder / f"{place}-map.png")
     statistics_of = json.loads(report.read_text())
-    return {"setting": name, "words": words, "rmse": told["rmse"], "psnr": told["psnr"],
+    return {"kind": setting.kind, "setting": setting.name, "words": setting.words,
+            "goal": setting.goal, "rmse": told["rmse"], "psnr": told["psnr"],
             "maximum": told["maximum"]["value"], "share_off_by_1": told["off_by_1"]["share"],
             "share_off_by_4": told["off_by_4"]["share"],
+            "samples": statistics_of["samples"]["total"],
+            "estimate": statistics_of["samples"]["error_estimate"] if setting.goal else None,
             "rays": statistics_of["rays"]["total"], "bytes": statistics_of["bytes"]["uploaded"],
             "pixel_hash": statistics_of["pixel_hash"], "picture": picture.name,
             "map": f"{place}-map.png", "times": []}
 
 
+def holding_settings(rows, scene, options, folder):
+    """The uniform settings that hold the errors asked for, as far as the rows lack them."""
+    tried = {int(row["setting"][len("aa="):]): row["rmse"] for row in rows
+             if row["kind"] == "uniform"}
+    known = set(tried)
+
+    def rmse_of(side):
+        draw(grid.plain([side])[0], scene, options, folder / "unused.pfm")
+        return compare(folder / "unused.pfm", folder / "reference.pfm")["rmse"]
+
+    sides = {uniform.side_that_holds(row["goal"], tried, rmse_of) for row in rows
+             if row["kind"] == "error"}
+    return grid.plain(sorted(sides - known - {None}))
+
+
 def time_row(row, scene, options, folder):
-    done = run_clrt([scene, "-q", "-v", "--frames", FRAMES, "-o", folder / "unused.pfm",
-                     *options.clrt_words, *row["words"]])
-    frames = [float(text) for text in re.findall(r"traced in ([0-9.]+) s", done.stderr)]
-    row["times"].append(min(frames[1:]))
+    frames = FRAMES - 1 if row["kind"] == "time" else FRAMES
+    done = run_clrt([scene, "-q", "-v", "--frames", frames, "-o", folder / "unused.pfm",
+                     *options.clrt_words, *row["words"]], may_miss=row["kind"] == "error")
+    traced = [float(text) for text in re.findall(r"traced in ([0-9.]+) s", done.stderr)]
+    row["times"].append(min(traced[1:]))
 
 
 def finish_row(row):
@@ -67,12 +102,19 @@ def finish_row(row):
     row["megarays_per_second"] = row["rays"] / row["milliseconds"] / 1e3
 
 
-def measure_scene(scene, options, folder):
+def first_rows(scene, options, folder):
+    rows = [first_row(place, setting, scene, options, folder)
+            for place, setting in enumerate(grid.all_settings(options.quick, options.kinds))]
+    more = holding_settings(rows, scene, options, folder)
+    return rows + [first_row(len(rows) + place, setting, scene, options, folder)
+                   for place, setting in enumerate(more)]
+
+
+def measure_scene(scene, name, options, folder):
     """All figures of one scene.  Settings alternate, so that none has the quiet hours."""
     folder.mkdir(parents=True, exist_ok=True)
     report = draw_reference(scene, options, folder)
-    rows = [first_row(place, name, words, scene, options, folder)
-            for place, (name, words) in enumerate(grid.all_settings(options.quick))]
+    rows = first_rows(scene, options, folder)
     for turn in range(options.runs):
         for row in rows if turn % 2 == 0 else reversed(rows):
             time_row(row, scene, options, folder)
@@ -80,7 +122,7 @@ def measure_scene(scene, options, folder):
     for row in rows:
         finish_row(row)
     front.mark(rows)
-    return {"scene": pathlib.Path(scene).stem, "path": str(scene), "rows": rows,
+    return {"scene": name, "path": str(scene), "rows": rows, "goals": goals.judge(rows),
             "reference": report["reference"], "device": report["device"],
             "version": report["version"], "settings": report["settings"],
             "triangles": report["scene"]["triangles"]}

@@ -11,16 +11,18 @@ import matplotlib.image
 import numpy
 
 from benchmark import common
-from tradeoff import front, grid, perception, plot
+from tradeoff import front, goal_tables, goals, grid, perception, plot
 
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #111827; margin: 2rem auto; max-width: 76rem;
        padding: 0 1rem; }
 h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 3rem; border-top: 1px solid #e5e7eb;
        padding-top: 1.5rem; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem;
+       margin-bottom: 1rem; }
 th, td { padding: 0.2rem 0.7rem; text-align: right; border-bottom: 1px solid #e5e7eb; }
-th:first-child, td:first-child { text-align: left; } td:first-child { white-space: nowrap; }
+th:first-child, td:first-child { text-align: left; }
+td:first-child, .spread { white-space: nowrap; }
 tr.beaten { color: #6b7280; } tr.front td:first-child { font-weight: 600; }
 .wide { overflow-x: auto; } .wide svg { max-width: 100%; height: auto; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; } figure { margin: 0; width: 17.5rem; }
@@ -29,7 +31,7 @@ figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb;
 figcaption, .note { font-size: 0.85rem; color: #4b5563; }
 """
 
-GOALS = [0.01, 0.005, 0.002, 0.001]
+ERRORS = [0.02, 0.01, 0.005, 0.002, 0.001]
 
 COLUMNS = [
     ("setting", "setting", str),
@@ -50,7 +52,7 @@ COLUMNS = [
 def cell(row, column):
     _, key, words = column
     if key is None:
-        return f"{row['fastest']:.2f}&ndash;{row['slowest']:.2f}"
+        return f'<span class="spread">{row["fastest"]:.2f}&ndash;{row["slowest"]:.2f}</span>'
     return words(row[key]) if key != "setting" else html.escape(row[key])
 
 
@@ -75,11 +77,13 @@ def png_of_pfm(path):
 
 
 def shown_rows(rows):
-    """The fastest, the base, the least wrong that is as fast as the base, and the least wrong."""
+    """The fastest, the base, the least wrong that is as fast as the base, a goal, and the least
+    wrong."""
     best = front.front(rows)
     base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
     rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]
-    chosen = [best[0], base, *rival[-1:], best[-1]]
+    goal = [row for row in rows if row["kind"] == "error"]
+    chosen = [best[0], base, *rival[-1:], *goal[1:2], best[-1]]
     return [row for place, row in enumerate(chosen) if row not in chosen[:place]]
 
 
@@ -98,8 +102,8 @@ def pictures(scene, folder):
     return f'<div class="pictures">{"".join(parts)}</div>'
 
 
-def goal_cell(scene, goal):
-    row = front.time_at(scene["rows"], goal)
+def price_cell(scene, error):
+    row = front.time_at(scene["rows"], error)
     if row is None:
         return "<td>none</td>"
     base = next((r for r in scene["rows"] if r["setting"] == grid.BASE), None)
@@ -107,11 +111,11 @@ def goal_cell(scene, goal):
     return f"<td>{row['milliseconds']:.1f} ms{times}<br>{html.escape(row['setting'])}</td>"
 
 
-def goals(scenes):
+def prices(scenes):
     """What an error costs: the fastest setting within it."""
-    head = "".join(f"<th>RMSE &le; {100 * goal:g} %</th>" for goal in GOALS)
+    head = "".join(f"<th>RMSE &le; {100 * error:g} %</th>" for error in ERRORS)
     body = "".join(f"<tr><td>{html.escape(scene['scene'])}</td>"
-                   + "".join(goal_cell(scene, goal) for goal in GOALS) + "</tr>"
+                   + "".join(price_cell(scene, error) for error in ERRORS) + "</tr>"
                    for scene in scenes)
     return f"<table><tr><th>scene</th>{head}</tr>{body}</table>"
 
@@ -127,9 +131,22 @@ def section(scene, folder):
         f"{100 * reference['own_error']:.4f} %. Of {len(scene['rows'])} settings {beaten} are "
         "beaten by one that is as fast and less wrong; they stand in gray.</p>"
         f'<div class="wide">{plot.svg([scene])}</div>{table(scene["rows"])}'
+        f"{goal_tables.of_scene(scene)}"
         "<h3>Pictures, and where they differ from the reference</h3>"
         '<p class="note">Brightness of a difference is its square root: 1/255 shows as 1/8, 4/255 '
         f"as 1/4, 64/255 and more as full.</p>{pictures(scene, folder)}")
+
+
+def goal_section(scenes):
+    if not goals.all_errors(scenes):
+        return ""
+    return (
+        "<h2>What goals hold and cost</h2><p>Each error E that is asked for by "
+        "<code>--error</code>: the true RMSE against the reference, in parts of E; under it the "
+        "time, as a multiple of that of the fastest fixed setting that holds E, and of that of the "
+        "fewest N x N samples everywhere that do. Who uses a fixed setting must know it beforehand; "
+        "who asks for an error need not.</p>"
+        f"{goal_tables.of_all(scenes)}")
 
 
 def method(scenes):
@@ -156,6 +173,7 @@ def write(path, scenes, folder):
         '<meta name="viewport" content="width=device-width"><title>clrt: time against error</title>'
         f"<style>{STYLE}</style></head><body><h1>Time against error</h1>{method(scenes)}"
         "<h2>What an error costs</h2><p>The fastest setting within each error, and its time as a "
-        f"multiple of the base's.</p>{goals(scenes)}{sections}</body></html>\n",
+        f"multiple of the base's.</p>{prices(scenes)}{goal_section(scenes)}{sections}"
+        "</body></html>\n",
         encoding="utf-8")
     (folder / "trade.svg").write_text(plot.svg(scenes) + "\n", encoding="utf-8")

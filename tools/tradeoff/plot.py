@@ -10,40 +10,50 @@ matplotlib.use("svg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
-from tradeoff import front, grid  # noqa: E402
+from tradeoff import front, grid, labels  # noqa: E402
 
-KINDS = [("uniform samples", "#0b62c4", "o"), ("rays followed less far", "#c2410c", "v"),
-         ("fp64", "#6b7280", "s"), ("adaptive samples", "#15803d", "D")]
-
-
-def kind_of(row):
-    """Place in KINDS."""
-    name = row["setting"]
-    return (3 if "adaptive" in name else 2 if "fp64" in name else 1 if "max-level" in name else 0)
+KINDS = [("uniform", "uniform samples", "#0b62c4", "o"),
+         ("levels", "rays followed less far", "#c2410c", "v"),
+         ("fp64", "fp64", "#6b7280", "s"), ("adaptive", "adaptive samples", "#15803d", "D"),
+         ("error", "an error as the goal", "#a21caf", "*"),
+         ("time", "a time as the goal", "#b45309", "P")]
 
 
 def draw_rows(axes, rows):
-    for kind, (label, color, marker) in enumerate(KINDS):
-        own = [row for row in rows if kind_of(row) == kind]
+    for kind, label, color, marker in KINDS:
+        size = 11 if marker == "*" else 7
+        own = [row for row in rows if row["kind"] == kind]
         for row in own:
             axes.plot([row["fastest"], row["slowest"]], [100 * row["rmse"]] * 2, color=color,
                       linewidth=1, alpha=0.5, zorder=2)
-            axes.plot(row["milliseconds"], 100 * row["rmse"], marker, color=color, markersize=7,
+            axes.plot(row["milliseconds"], 100 * row["rmse"], marker, color=color, markersize=size,
                       markerfacecolor=color if row["front"] else "white", zorder=3)
         if own:
-            axes.plot([], [], marker, color=color, markersize=7, label=label)
+            axes.plot([], [], marker, color=color, markersize=size, label=label)
+
+
+def named(row):
+    return row["front"] or row["setting"] == grid.BASE or row["goal"] is not None
+
+
+def on_page(axes, row):
+    """Where a row's marker is, in points of the page."""
+    x, y = axes.transData.transform((row["milliseconds"], 100 * row["rmse"]))
+    return x * 72 / axes.figure.dpi, y * 72 / axes.figure.dpi
 
 
 def name_rows(axes, rows):
-    """Names what is on the front, and the base."""
-    named = [row for row in rows if row["front"] or row["setting"] == grid.BASE]
-    for place, row in enumerate(sorted(named, key=lambda row: row["milliseconds"])):
-        above = place % 2 == 0  # by turns, as neighbors on the front are close
-        axes.annotate(row["setting"].replace("max-level", "level"),
-                      (row["milliseconds"], 100 * row["rmse"]),
-                      xytext=(7, 5) if above else (-7, -5), ha="left" if above else "right",
-                      va="bottom" if above else "top",
-                      textcoords="offset points", fontsize=8)
+    """Names what is on the front, the base and the goals.  The axes must be where they stay."""
+    frame = [value * 72 / axes.figure.dpi for value in axes.bbox.extents]
+    chosen = sorted(filter(named, rows), key=lambda row: row["milliseconds"])
+    names = [(on_page(axes, row), row["setting"].replace("max-level", "level")) for row in chosen]
+    places = labels.place(names, [on_page(axes, row) for row in rows], frame)
+    for row, (point, text), (center, distance) in zip(chosen, names, places):
+        line = {"arrowstyle": "-", "color": "#9ca3af", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 4}
+        axes.annotate(text, (row["milliseconds"], 100 * row["rmse"]),
+                      xytext=(center[0] - point[0], center[1] - point[1]), ha="center", va="center",
+                      textcoords="offset points", fontsize=labels.SIZE, zorder=5,
+                      arrowprops=line if distance >= labels.FAR else None)
 
 
 def style(axes, scene):
@@ -67,7 +77,6 @@ def draw_scene(axes, scene):
     axes.plot([row["milliseconds"] for row in best], [100 * row["rmse"] for row in best],
               color="#111827", linewidth=1, alpha=0.6, zorder=1)
     draw_rows(axes, rows)
-    name_rows(axes, rows)
     floor = 100 * scene["reference"]["own_error"]
     axes.axhline(floor, color="#9ca3af", linewidth=1, linestyle="--",
                  label="error of the reference itself")
@@ -78,11 +87,15 @@ def svg(scenes):
     """All scenes beside each other, as the text of an SVG."""
     with pyplot.rc_context({"svg.hashsalt": "clrt", "svg.fonttype": "none",
                             "font.family": "sans-serif"}):
-        figure, axes = pyplot.subplots(1, len(scenes), figsize=(6.6 * len(scenes), 4.8),
+        figure, axes = pyplot.subplots(1, len(scenes), figsize=(7.2 * len(scenes), 6),
                                        squeeze=False, layout="constrained")
         for place, scene in zip(axes[0], scenes):
             draw_scene(place, scene)
-        axes[0][0].legend(fontsize=8, framealpha=1)
+        axes[0][0].legend(fontsize=8, framealpha=1, loc="lower left")
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        for place, scene in zip(axes[0], scenes):
+            name_rows(place, scene["rows"])
         text = io.StringIO()
         figure.savefig(text, format="svg", metadata={"Date": None})
         pyplot.close(figure)

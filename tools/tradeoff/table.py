@@ -3,9 +3,11 @@
 
 import csv
 
-COLUMNS = ["setting", "front", "milliseconds", "fastest", "slowest", "rmse", "psnr", "maximum",
-           "share_off_by_1", "share_off_by_4", "ssim", "flip", "megarays_per_second", "rays",
-           "bytes", "pixel_hash"]
+from tradeoff import goals
+
+COLUMNS = ["kind", "setting", "goal", "estimate", "front", "milliseconds", "fastest", "slowest",
+           "rmse", "psnr", "maximum", "share_off_by_1", "share_off_by_4", "ssim", "flip",
+           "megarays_per_second", "samples", "rays", "bytes", "pixel_hash"]
 
 
 def write_csv(path, scenes):
@@ -26,3 +28,27 @@ def show(scene):
         yield (f"{'*' if row['front'] else ' '} {row['setting']:24} {row['milliseconds']:9.2f} ms "
                f"RMSE {row['rmse']:.2e}  largest {row['maximum']:.3f}  "
                f"off {100 * row['share_off_by_1']:.2f} %")
+
+
+def rival_text(rival):
+    if rival is None:
+        return f"{'none holds':29}"
+    return (f"{rival['times']:6.2f} x time, {rival['samples_ratio']:5.2f} x samples of "
+            f"{rival['setting']:22}")
+
+
+def show_goals(scenes):
+    """Lines of what became of each error that was asked for, and of each time."""
+    for scene in scenes:
+        for goal in scene["goals"]["errors"]:
+            yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} "
+                   f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E in "
+                   f"{goal['milliseconds']:.2f} ms; {rival_text(goal['fixed'])} "
+                   f"{rival_text(goal['uniform'])}")
+        for goal in scene["goals"]["times"]:
+            best = goal["fixed"]
+            beside = f"{best['errors']:.2f} x that of {best['setting']}" if best else "alone"
+            yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} {goal['goal']:g} s: "
+                   f"{goal['seconds_ratio']:.2f} of it taken, RMSE {goal['rmse']:.2e}, {beside}")
+    if goals.summary(scenes):
+        yield goals.summary(scenes)

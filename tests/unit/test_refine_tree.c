@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Which cells of a refined picture are neighbors.
+#include "render/refine_tree.h"
+
+#include "unit/cmocka_all.h"
+
+// A pixel of two, its right middle cell cut again, all samples taken.
+static void make_tree(RefineTree *tree)
+{
+    Error error = {0};
+    assert_true(refine_tree_make(tree, 2, 1, &error));
+    assert_true(refine_tree_cut_pixel(tree, 0, 0, &error));
+    assert_true(refine_tree_cut_cell(tree, 1, 5, &error));
+    tree->traced = 3;
+}
+
+static void a_cell_beyond_the_pixel_is_the_pixel_beside(void **state)
+{
+    (void)state;
+    RefineTree tree;
+    CellName name;
+    make_tree(&tree);
+    assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    assert_int_equal(name.group, 0);
+    assert_int_equal(name.cell, 1);
+    refine_tree_free(&tree);
+}
+
+static void cells_without_their_samples_are_no_neighbors_yet(void **state)
+{
+    (void)state;
+    RefineTree tree;
+    CellName name;
+    Error error = {0};
+    make_tree(&tree);
+    assert_true(refine_tree_cut_pixel(&tree, 1, 0, &error));
+    assert_false(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    tree.traced = 4;
+    assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    assert_int_equal(name.group, 3);
+    assert_int_equal(name.cell, 3);
+    refine_tree_free(&tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cell_beyond_the_pixel_is_the_pixel_beside),
+        cmocka_unit_test(cells_without_their_samples_are_no_neighbors_yet),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""What became of goals -> tables of the page."""
+
+import html
+
+from tradeoff import goals
+
+
+def table(head, rows):
+    cells = "".join(f"<th>{word}</th>" for word in head)
+    body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
+    return f'<div class="wide"><table><tr>{cells}</tr>{body}</table></div>'
+
+
+def beside(rival):
+    """What a goal costs, as multiples of a rival's time and samples."""
+    if rival is None:
+        return "none holds it"
+    return (f"{rival['times']:.2f} x time, {rival['samples_ratio']:.2f} x samples<br>"
+            f"of {html.escape(rival['setting'])}, {rival['milliseconds']:.1f} ms")
+
+
+def error_row(goal):
+    verdict = "" if goal["held"] else " (missed)"
+    return [f"{100 * goal['goal']:g} %", f"{100 * goal['rmse']:.4f} %",
+            f"{goal['ratio']:.2f} E{verdict}", f"{100 * goal['estimate']:.4f} %",
+            f"{goal['milliseconds']:.1f}", "yes" if goal["front"] else "no",
+            beside(goal["fixed"]), beside(goal["uniform"])]
+
+
+def time_row(goal):
+    best = goal["fixed"]
+    rival = (f"{best['errors']:.2f} x the error of {html.escape(best['setting'])}, "
+             f"{100 * best['rmse']:.4f} %" if best else "none is as fast")
+    return [f"{goal['goal']:g} s", f"{goal['milliseconds'] / 1e3:.2f} s",
+            f"{100 * goal['rmse']:.4f} %", f"{100 * goal['estimate']:.4f} %",
+            "yes" if goal["front"] else "no", rival]
+
+
+ERROR_HEAD = ["E asked for", "true RMSE", "of E", "estimated", "ms", "on the front",
+              "beside the best fixed setting", "beside the best uniform one"]
+TIME_HEAD = ["time asked for", "taken", "true RMSE", "estimated", "on the front",
+             "beside the best fixed setting that takes no longer"]
+NOTE = ('<p class="note">What is estimated contains the most that rays beyond the highest level '
+        "could change, which asking for an error lowers and asking for a time does not.</p>")
+
+
+def of_scene(scene):
+    """The goals of one scene."""
+    told = scene["goals"]
+    tables = [table(head, map(row, goals_of_kind))
+              for head, row, goals_of_kind in [(ERROR_HEAD, error_row, told["errors"]),
+                                               (TIME_HEAD, time_row, told["times"])]
+              if goals_of_kind]
+    return f"<h3>Goals</h3>{''.join(tables)}{NOTE}" if tables else ""
+
+
+def short(goal):
+    def ratio(rival):
+        return "none" if rival is None else f"{rival['times']:.2f}"
+    return f"{goal['ratio']:.2f} E<br>{ratio(goal['fixed'])}, {ratio(goal['uniform'])}"
+
+
+def of_all(scenes):
+    """A row a scene, a column an error."""
+    asked = [goal["goal"] for goal in scenes[0]["goals"]["errors"]]
+    rows = [[html.escape(scene["scene"]), *map(short, scene["goals"]["errors"])]
+            for scene in scenes]
+    return (table(["scene", *(f"E = {100 * goal:g} %" for goal in asked)], rows)
+            + f'<p class="note">Of{goals.summary(scenes)[2:]}.</p>')

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""Names of points, placed so that none lies on another name or on a point: each takes the nearest
+of places around its point that is free, and a thin line where that is far."""
+
+import math
+
+SIZE = 8  # of the letters, in points
+GAP = 6  # between a point and its name
+FAR = 18  # from here on a line leads to the name
+DIRECTIONS = [(1, 1), (-1, -1), (1, -1), (-1, 1), (0, 1), (0, -1), (1, 0), (-1, 0)]
+DISTANCES = [GAP, 14, 24, 36, 50, 66, 84]
+
+
+def extent(text):
+    """Half the width and half the height of a name, in points, roughly."""
+    return 0.29 * SIZE * len(text) + 1, 0.62 * SIZE
+
+
+def box_at(center, half):
+    return (center[0] - half[0], center[1] - half[1], center[0] + half[0], center[1] + half[1])
+
+
+def overlap(one, other):
+    width = min(one[2], other[2]) - max(one[0], other[0])
+    height = min(one[3], other[3]) - max(one[1], other[1])
+    return max(width, 0) * max(height, 0)
+
+
+def candidates(point, half):
+    for distance in DISTANCES:
+        for x, y in DIRECTIONS:
+            scale = distance / math.hypot(x, y)
+            yield distance, (point[0] + x * (scale + half[0]), point[1] + y * (scale + half[1]))
+
+
+def outside(box, frame):
+    return max(frame[0] - box[0], frame[1] - box[1], box[2] - frame[2], box[3] - frame[3], 0)
+
+
+def cost(candidate, half, taken, frame):
+    """What a place covers first, how far it is second."""
+    distance, center = candidate
+    box = box_at(center, half)
+    covered = sum(overlap(box, other) for other in taken)
+    return covered + 100 * outside(box, frame), distance
+
+
+def place(names, points, frame):
+    """[(center, distance)] of each of the names ((x, y), text), in points of the page."""
+    taken = [(x - 4, y - 4, x + 4, y + 4) for x, y in points]
+    placed = []
+    for point, text in names:
+        half = extent(text)
+        distance, center = min(candidates(point, half),
+                               key=lambda candidate: cost(candidate, half, taken, frame))
+        taken.append(box_at(center, half))
+        placed.append((center, distance))
+    return placed
