@@ -3,9 +3,9 @@
 //
 // A picture has the bits that `clrt SCENE -o picture.pfm` writes of the same scene and settings.
 // The library prints nothing, never ends the program, installs no signal handlers and leaves the
-// environment alone.  Where a call fails, it returns false or NULL and says why in *error, if one
-// is given; nothing has changed then but what the call says.  Arrays and structs are copied: they
-// are the caller's again when a call returns.
+// environment alone; what OpenCL drivers do is theirs.  Where a call fails, it returns false or NULL
+// and, if an error is given, says in it why; nothing has changed then but what the call says.
+// Arrays and structs are copied: they are the caller's again when a call returns.
 //
 // Threads: calls for different scenes and renderers may run at once, and so may renderers that draw
 // the same scene while nobody changes it.  A renderer draws one picture at a time.
