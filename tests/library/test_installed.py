@@ -160,13 +160,24 @@ class Installed(unittest.TestCase):
             return
         program = self.work / "for-valgrind"
         self.build_by_pkg_config(program, "-g")
+        # valgrind's processor has no AVX-512.  Kernels for less are the same under it and without,
+        # where they are compiled fifty times as fast.
+        target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
+        cache = pathlib.Path(os.environ["XDG_CACHE_HOME"]) / "valgrind"
+        cache.mkdir(parents=True, exist_ok=True)
+        environment = {
+            **self.environment,
+            "XDG_CACHE_HOME": str(cache),
+            "POCL_CACHE_DIR": str(cache),
+            "POCL_KERNELLIB_NAME": target,
+        }
         options = [
             "--error-exitcode=9",
             "--leak-check=full",
             f"--suppressions={TESTS / 'memory/drivers.supp'}",
         ]
-        self.assertEqual(run("valgrind", "-q", *options, program, env=self.environment),
-                         self.expected)
+        self.assertEqual(run(program, env=environment), self.expected)
+        self.assertEqual(run("valgrind", "-q", *options, program, env=environment), self.expected)
 
 
 if __name__ == "__main__":
