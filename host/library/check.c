@@ -72,11 +72,13 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
     if (!check_given(error, what, given))
         return false;
     memcpy(&given_size, given, sizeof given_size);
-    if (given_size < size || given_size > LARGEST_STRUCT)
+    if (given_size < sizeof given_size || given_size > LARGEST_STRUCT)
         return check_fail(error, CLRT_ARGUMENT, "%s has a size of %zu, not %zu", what, given_size,
                           size);
-    memcpy(copy, given, size);
-    return is_zero((const unsigned char *)given + size, given_size - size) ||
+    const size_t known = given_size < size ? given_size : size;
+    memset(copy, 0, size);
+    memcpy(copy, given, known);
+    return is_zero((const unsigned char *)given + known, given_size - known) ||
            check_fail(error, CLRT_ARGUMENT, "%s asks for what libclrt %s does not know", what,
                       clrt_version());
 }

@@ -19,5 +19,6 @@ bool check_number(ClrtError *error, const char *what, double number, double low,
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
 bool check_color(ClrtError *error, const char *what, const double color[3]);
 
-// Copies one of the header's structs into copy, which has that size.
+// Copies one of the header's structs into copy, which has that size.  What an older program's
+// struct lacks becomes zero; what a newer one's has more must be.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);

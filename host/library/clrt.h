@@ -3,8 +3,8 @@
 //
 // A picture has the bits that `clrt SCENE -o picture.pfm` writes of the same scene and settings.
 // The library prints nothing, never ends the program, installs no signal handlers and leaves the
-// environment alone; what OpenCL drivers do is theirs.  Where a call fails, it returns false or NULL
-// and, if an error is given, says in it why; nothing has changed then but what the call says.
+// environment alone; what OpenCL drivers do is theirs.  Where a call fails, it returns false or
+// NULL and, if an error is given, says in it why; nothing has changed then but what the call says.
 // Arrays and structs are copied: they are the caller's again when a call returns.
 //
 // Threads: calls for different scenes and renderers may run at once, and so may renderers that draw
@@ -139,7 +139,9 @@ typedef struct ClrtRenderer ClrtRenderer;
 // driver has not kept them.  device is what `clrt --device` takes: PLATFORM:DEVICE, a type (cpu,
 // gpu, accelerator, all) or part of a name; NULL is the first GPU, else the first device.  Of a CPU
 // it uses at most `threads` threads; 0 stands for as many as affinity and the control groups'
-// quotas allow.
+// quotas allow.  A lock in $XDG_CACHE_HOME/clrt, else ~/.cache/clrt, keeps processes that compile
+// at once from losing PoCL's kernels; PoCL itself finds no device where it can write neither to its
+// cache there nor to $POCL_CACHE_DIR.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // NULL is harmless.

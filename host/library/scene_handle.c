@@ -7,6 +7,7 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtError *error)
 {
@@ -80,6 +81,6 @@ bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError 
                              .sphere_count = (uint32_t)inside->spheres.count,
                              .triangle_count = scene_triangle_count(inside),
                              .dropped_triangle_count = dropped_count(inside)};
-    *info = filled;
+    memcpy(info, &filled, filled.size < sizeof filled ? filled.size : sizeof filled);
     return true;
 }

@@ -127,10 +127,27 @@ static void structs_tell_what_they_know_by_their_size(void **state)
     newer.later = 1;
     ASSERT_ARGUMENT(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
                     "asks for what libclrt");
-    newer.picture.size = sizeof newer.picture - 1;
-    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of");
+    newer.picture.size = sizeof newer.picture.size - 1;
+    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of 7");
     newer.picture.size = SIZE_MAX;
     ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of");
+}
+
+static void what_an_older_program_does_not_know_is_the_default(void **state)
+{
+    (void)state;
+    float whole[3 * WIDTH * HEIGHT];
+    ClrtPicture older = {.size = sizeof older, .width = WIDTH, .height = HEIGHT};
+    assert_true(render(older, NULL));
+    memcpy(whole, stage.rgb, sizeof whole);
+    memset(&older.view, 0xff, sizeof older - offsetof(ClrtPicture, view));
+    older.size = offsetof(ClrtPicture, view);
+    assert_true(render(older, NULL));
+    assert_memory_equal(stage.rgb, whole, sizeof whole);
+    ClrtSceneInfo info = {.size = offsetof(ClrtSceneInfo, max_level), .max_level = 77};
+    assert_true(clrt_scene_get_info(stage.scene, &info, NULL));
+    assert_int_equal(info.height, 512);
+    assert_int_equal(info.max_level, 77);
 }
 
 static void a_scene_without_cameras_is_drawn_by_the_pictures_own(void **state)
@@ -235,6 +252,7 @@ int main(void)
         cmocka_unit_test(what_is_null_is_named),
         cmocka_unit_test(pictures_out_of_range_are_refused_and_the_next_is_drawn),
         cmocka_unit_test(structs_tell_what_they_know_by_their_size),
+        cmocka_unit_test(what_an_older_program_does_not_know_is_the_default),
         cmocka_unit_test(a_scene_without_cameras_is_drawn_by_the_pictures_own),
         cmocka_unit_test(what_is_too_far_away_to_be_drawn_is_told),
         cmocka_unit_test(devices_that_are_not_there_are_told),
