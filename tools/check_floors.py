@@ -17,6 +17,7 @@ BELOW = {
     "accel": ["base", "scene"],
     "device": ["base", "scene", "accel"],
     "render": ["base", "scene", "accel", "device", "image"],
+    "library": ["base", "scene", "accel", "device", "image", "render"],
     "view": ["base", "scene", "accel", "device", "image", "render"],
     "cli": ["base", "scene", "accel", "device", "image", "compare", "render", "view"],
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Finds a folder that can be written and locks it with flock, which the system drops by itself
-// when a process dies.
+// when a process dies.  What sets the environment or removes files is cache_open.c.
 #include "device/cache.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,42 +36,27 @@ static bool usable_path(char path[CACHE_PATH_SIZE], const char *base, const char
     return length > 0 && length < CACHE_PATH_SIZE && make_folder(path);
 }
 
-static bool temporary_path(char path[CACHE_PATH_SIZE])
-{
-    const char *base = getenv("TMPDIR");
-    const int length = snprintf(path, CACHE_PATH_SIZE, "%s/clrt-XXXXXX",
-                                base != NULL && base[0] == '/' ? base : "/tmp");
-    return length > 0 && length < CACHE_PATH_SIZE && mkdtemp(path) != NULL;
-}
-
-void cache_open(Cache *cache)
+static bool find_folder(Cache *cache, const char *under_cache, const char *under_home)
 {
     *cache = (Cache){0};
-    if (!usable_path(cache->folder, getenv("XDG_CACHE_HOME"), "/clrt") &&
-        !usable_path(cache->folder, getenv("HOME"), "/.cache/clrt")) {
-        cache->temporary = temporary_path(cache->folder);
-        if (!cache->temporary)
-            cache->folder[0] = '\0';
-    }
-    if (getenv("POCL_CACHE_DIR") != NULL || cache->folder[0] == '\0')
-        return;
-    char pocl[CACHE_PATH_SIZE + 8];
-    snprintf(pocl, sizeof pocl, "%s/pocl", cache->folder);
-    setenv("POCL_CACHE_DIR", pocl, 0);
+    if (usable_path(cache->folder, getenv("XDG_CACHE_HOME"), under_cache) ||
+        usable_path(cache->folder, getenv("HOME"), under_home))
+        return true;
+    cache->folder[0] = '\0';
+    return false;
 }
 
-static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *place)
+bool cache_find(Cache *cache)
 {
-    (void)status, (void)type, (void)place;
-    remove(path);
-    return 0;
+    return find_folder(cache, "/clrt", "/.cache/clrt");
 }
 
-void cache_close(Cache *cache)
+void cache_open_for_library(Cache *cache)
 {
-    if (cache->temporary)
-        nftw(cache->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-    *cache = (Cache){0};
+    if (getenv("POCL_CACHE_DIR") != NULL)
+        cache_find(cache);
+    else
+        find_folder(cache, "/clrt/library", "/.cache/clrt/library");
 }
 
 int cache_lock(const Cache *cache)

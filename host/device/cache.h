@@ -18,6 +18,14 @@ typedef struct {
 // the environment, and must run before the first OpenCL call.
 void cache_open(Cache *cache);
 
+// Chooses one of the first two alone, and leaves it at that; false where neither can be written.
+bool cache_find(Cache *cache);
+
+// For libraries, which leave the environment alone, so that PoCL keeps its kernels where it would.
+// The folder is one of its own, unless POCL_CACHE_DIR is set and thus clrt's kernels are the
+// library's too.  There is none where none can be written; nothing needs closing.
+void cache_open_for_library(Cache *cache);
+
 // Removes a temporary folder.  No OpenCL object may be in use any more.
 void cache_close(Cache *cache);
 

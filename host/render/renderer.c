@@ -129,6 +129,7 @@ void renderer_resize(Renderer *renderer, const RenderSettings *settings)
     renderer->settings.width = renderer->frame.width = settings->width;
     renderer->settings.height = renderer->frame.height = settings->height;
     renderer->settings.samples = renderer->frame.samples = settings->samples;
+    renderer->settings.max_level = renderer->frame.max_level = settings->max_level;
     renderer->settings.tile_width = settings->tile_width;
     renderer->settings.tile_height = settings->tile_height;
 }

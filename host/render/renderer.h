@@ -59,7 +59,7 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Takes another size of pictures, other samples and other tiles from settings; the rest stays.
+// Takes another size of pictures, other samples, levels and tiles from settings; the rest stays.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
 // Draws the picture seen by camera into framebuffer, which has the settings' size, and leaves how

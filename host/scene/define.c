@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/word.h"
+#include "scene/limits.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,13 +33,20 @@ static bool read_factor(Tokens *tokens, float *factor, double largest)
     return true;
 }
 
+void material_set_shininess(Material *material, float shininess)
+{
+    const bool by_squaring =
+        shininess <= LARGEST_INTEGER_EXPONENT && shininess == floorf(shininess);
+    material->shininess = shininess;
+    material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
+}
+
 static bool read_shininess(Tokens *tokens, Material *material)
 {
-    if (!read_factor(tokens, &material->shininess, 1e9))
+    float shininess;
+    if (!read_factor(tokens, &shininess, SHININESS_MOST))
         return false;
-    const bool by_squaring = material->shininess <= LARGEST_INTEGER_EXPONENT &&
-                             material->shininess == floorf(material->shininess);
-    material->exponent = by_squaring ? (uint32_t)material->shininess : UINT32_MAX;
+    material_set_shininess(material, shininess);
     return true;
 }
 
@@ -51,9 +59,9 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
     if (token_is(property, "specular"))
         return read_color(tokens, material->specular);
     if (token_is(property, "kd"))
-        return read_factor(tokens, &material->kd, 1000);
+        return read_factor(tokens, &material->kd, FACTOR_MOST);
     if (token_is(property, "ks"))
-        return read_factor(tokens, &material->ks, 1000);
+        return read_factor(tokens, &material->ks, FACTOR_MOST);
     if (token_is(property, "shininess"))
         return read_shininess(tokens, material);
     if (token_is(property, "reflectivity"))

@@ -11,3 +11,5 @@ bool materials_define(Scene *scene, Tokens *tokens);
 // Reads what follows `material`: a number of the course (any but 0 to 3 is the silhouette, as
 // there) or a defined name.
 bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
+
+void material_set_shininess(Material *material, float shininess);

@@ -36,5 +36,9 @@ typedef struct {
 // Widens low and high to hold the vertices that triangles use: a stray one counts for nothing.
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 
+// Drops the triangles with equal corners and, where some positions are lost, which NaN marks, those
+// that use one; counts both, and clears what was lost.
+void mesh_drop_triangles(Mesh *mesh);
+
 // Frees what the mesh owns and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);

@@ -6,8 +6,6 @@
 #include "scene/ply_bulk.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef uint32_t Triangle[3];
 
@@ -238,55 +236,6 @@ static bool read_elements(Loader *loader)
     return true;
 }
 
-static bool is_same_point(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-static bool is_lost(const double *point)
-{
-    return isnan(point[0]) || isnan(point[1]) || isnan(point[2]);
-}
-
-static bool has_equal_corners(const double *a, const double *b, const double *c)
-{
-    return is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a);
-}
-
-// Closes the gaps that dropped triangles leave.
-static void drop_triangles(Mesh *mesh)
-{
-    size_t kept = 0;
-    const bool some_lost = mesh->bad_positions.count > 0;
-    for (size_t index = 0; index < mesh->triangle_count; index++) {
-        const uint32_t *triangle = mesh->triangles[index];
-        const double *a = mesh->positions[triangle[0]];
-        const double *b = mesh->positions[triangle[1]];
-        const double *c = mesh->positions[triangle[2]];
-        MeshFault *fault = some_lost && (is_lost(a) || is_lost(b) || is_lost(c))
-                               ? &mesh->lost_corners
-                           : has_equal_corners(a, b, c) ? &mesh->equal_corners
-                                                        : NULL;
-        if (fault != NULL) {
-            mesh_fault_add(fault, index);
-            continue;
-        }
-        if (kept < index)
-            memcpy(mesh->triangles[kept], triangle, sizeof(Triangle));
-        kept++;
-    }
-    mesh->dropped_count = mesh->triangle_count - kept;
-    mesh->triangle_count = kept;
-}
-
-// Once no triangle uses them, so that nobody meets a NaN.
-static void clear_lost_vertices(Mesh *mesh)
-{
-    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
-        if (is_lost(mesh->positions[vertex]))
-            memset(mesh->positions[vertex], 0, sizeof mesh->positions[vertex]);
-}
-
 static bool load(Loader *loader)
 {
     Mesh *mesh = loader->mesh;
@@ -296,11 +245,9 @@ static bool load(Loader *loader)
     mesh->triangle_count = loader->triangles.count;
     ply_header_free(&loader->header);
     if (ok)
-        drop_triangles(mesh);
+        mesh_drop_triangles(mesh);
     else
         mesh_free(mesh);
-    if (mesh->bad_positions.count > 0)
-        clear_lost_vertices(mesh);
     return ok;
 }
 

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "base/array.h"
+#include "scene/limits.h"
 #include "scene/ply_reader.h"
 
-#define PLY_COUNT_LIMIT      INT64_C(2147483647) // vertices or triangles in one mesh
-#define PLY_COORDINATE_BOUND 1e30                // leaves room for the products of fp32 geometry
+#define PLY_COUNT_LIMIT      MESH_COUNT_MOST
+#define PLY_COORDINATE_BOUND COORDINATE_MOST
 
 // What a property is to the mesh: the component of that number, the corners of a face, or nothing.
 typedef enum {

@@ -62,6 +62,17 @@ bool scene_complete(Scene *scene, Error *error)
     return true;
 }
 
+const char *viewpoint_fault(const Viewpoint *viewpoint)
+{
+    const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
+    const Vec3 right = vec3_cross(forward, vec3_normalize(viewpoint->up));
+    if (!(vec3_extent(forward) > 0))
+        return "the camera looks at its own place";
+    if (!(vec3_extent(right) > 1e-9))
+        return "the camera looks along its 'up', which must point elsewhere";
+    return NULL;
+}
+
 void scene_hash_input(Scene *scene, const void *bytes, size_t size)
 {
     const XXH128_hash_t input = XXH3_128bits(bytes, size);

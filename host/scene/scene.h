@@ -73,5 +73,8 @@ bool scene_add_input(Scene *scene, const char *path, Error *error);
 size_t scene_triangle_count(const Scene *scene);
 void scene_free(Scene *scene);
 
+// What is wrong with where the camera stands and looks, in words; NULL where nothing is.
+const char *viewpoint_fault(const Viewpoint *viewpoint);
+
 // The material of a define statement that gives nothing but its kind.
 Material material_of_shader(Shader shader);

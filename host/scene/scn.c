@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/word.h"
 #include "scene/define.h"
+#include "scene/limits.h"
 #include "scene/mesh_scene.h"
 #include "scene/mesh_statement.h"
 #include "scene/tokens.h"
@@ -28,7 +29,7 @@ static bool read_light(Parser *parser)
 {
     double position[3], intensity;
     return tokens_numbers(&parser->tokens, 3, position) &&
-           tokens_number_within(&parser->tokens, &intensity, 0, 1e30) &&
+           tokens_number_within(&parser->tokens, &intensity, 0, INTENSITY_MOST) &&
            array_push(&parser->scene->lights,
                       ((Light){{position[0], position[1], position[2]}, intensity}), parser->error);
 }
@@ -37,9 +38,9 @@ static bool read_sphere(Parser *parser)
 {
     double center[3], radius;
     if (!tokens_numbers(&parser->tokens, 3, center) ||
-        !tokens_number_within(&parser->tokens, &radius, 0, 1e30))
+        !tokens_number_within(&parser->tokens, &radius, 0, RADIUS_MOST))
         return false;
-    if (radius < 1e-30)
+    if (radius < RADIUS_LEAST)
         return tokens_fail(&parser->tokens, parser->tokens.last, "expected a radius above zero");
     const Sphere sphere = {{center[0], center[1], center[2]}, radius, parser->material};
     return array_push(&parser->scene->spheres, sphere, parser->error);
@@ -67,19 +68,15 @@ static bool read_camera(Parser *parser)
     double numbers[6], fov;
     const Token start = parser->tokens.last;
     if (!tokens_numbers(&parser->tokens, 6, numbers) ||
-        !tokens_number_within(&parser->tokens, &fov, 1e-6, 179.9999))
+        !tokens_number_within(&parser->tokens, &fov, FOV_LEAST, FOV_MOST))
         return false;
     const Viewpoint viewpoint = {.eye = {numbers[0], numbers[1], numbers[2]},
                                  .look_at = {numbers[3], numbers[4], numbers[5]},
                                  .up = parser->up,
                                  .fov_degrees = fov};
-    const Vec3 forward = vec3_normalize(vec3_sub(viewpoint.look_at, viewpoint.eye));
-    const Vec3 right = vec3_cross(forward, vec3_normalize(viewpoint.up));
-    if (!(vec3_extent(forward) > 0))
-        return tokens_fail(&parser->tokens, start, "the camera looks at its own place");
-    if (!(vec3_extent(right) > 1e-9))
-        return tokens_fail(&parser->tokens, start,
-                           "the camera looks along its 'up', which must point elsewhere");
+    const char *fault = viewpoint_fault(&viewpoint);
+    if (fault != NULL)
+        return tokens_fail(&parser->tokens, start, "%s", fault);
     parser->waiting_up.text = NULL;
     return array_push(&parser->scene->viewpoints, viewpoint, parser->error);
 }

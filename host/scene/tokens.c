@@ -3,15 +3,13 @@
 #include "scene/tokens.h"
 
 #include "base/number.h"
+#include "scene/limits.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-// Coordinates past this could overflow when they are squared in fp64 long before anyone sees them.
-#define LARGEST_NUMBER 1e30
 
 Tokens tokens_of(const char *text, size_t size, const char *name, Error *error)
 {
@@ -146,7 +144,7 @@ bool tokens_number_within(Tokens *tokens, double *value, double low, double high
 bool tokens_numbers(Tokens *tokens, int count, double *values)
 {
     for (int i = 0; i < count; i++)
-        if (!tokens_number_within(tokens, &values[i], -LARGEST_NUMBER, LARGEST_NUMBER))
+        if (!tokens_number_within(tokens, &values[i], -COORDINATE_MOST, COORDINATE_MOST))
             return false;
     return true;
 }

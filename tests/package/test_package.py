@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# What an installation holds, the Debian package of the same, and the licenses of all files.
+# What an installation holds, the Debian packages of the same, and the licenses of all files.
 # Usage: test_package.py CLRT BUILD_FOLDER
 import os
 import pathlib
@@ -31,6 +31,19 @@ INSTALLED = [
     "share/man/man5/clrt-scene.5.gz",
     "share/zsh/site-functions/_clrt",
 ]
+CACHE = (BUILD / "CMakeCache.txt").read_text()
+LIBRARY = ["libclrt0", "libclrt-dev"] if "CLRT_WITH_LIBRARY:BOOL=ON" in CACHE else []
+DEVELOPMENT = [
+    "include/clrt.h",
+    "cmake/clrt/clrtConfig.cmake",
+    "libclrt.so",
+    "pkgconfig/clrt.pc",
+    "doc/clrt/examples/picture.c",
+]
+# Only where the prefix is /usr is there a folder for libraries of the processor's kind.
+LINTIAN = ["lintian", "--fail-on", "error,warning"]
+if "CMAKE_INSTALL_LIBDIR:PATH=lib\n" in CACHE:
+    LINTIAN += ["--suppress-tags", "pkg-config-unavailable-for-cross-compilation"]
 
 
 def run(*words, **settings):
@@ -54,38 +67,61 @@ class Package(unittest.TestCase):
         cls.addClassCleanup(cls.folder.cleanup)
         work = pathlib.Path(cls.folder.name)
         run("cpack", "-G", "DEB", "-B", work / "made", "--config", BUILD / "CPackConfig.cmake")
-        (cls.package,) = (work / "made").glob("*.deb")
+        cls.packages = {file.name.split("_")[0]: file for file in (work / "made").glob("*.deb")}
+        cls.package = cls.packages["clrt"]
         cls.root = work / "root"
         run("dpkg-deb", "-x", cls.package, cls.root)
         cls.clrt = cls.root / "usr/bin/clrt"
+        cls.library_root = work / "library_root"
+        for name in LIBRARY:
+            run("dpkg-deb", "-x", cls.packages[name], cls.library_root)
 
     def test_what_is_installed_is_in_it(self):
         for name in INSTALLED:
             self.assertTrue((self.root / "usr" / name).is_file(), name)
 
+    @unittest.skipUnless(LIBRARY, "the library is not built")
+    def test_the_library_and_what_builds_with_it_are_packages_of_their_own(self):
+        self.assertEqual(set(self.packages), {"clrt", *LIBRARY})
+        for name in DEVELOPMENT:
+            self.assertEqual(len(list((self.library_root / "usr").rglob(name))), 1, name)
+            self.assertEqual(len(list((self.root / "usr").rglob(name))), 0, name)
+        depends = run("dpkg-deb", "-f", self.packages["libclrt-dev"], "Depends")
+        self.assertRegex(depends, r"^libclrt0 \(= [\w.-]+\)\n$")
+
     def test_cmake_installs_the_same_files(self):
         with tempfile.TemporaryDirectory() as prefix:
             run("cmake", "--install", BUILD, "--prefix", prefix)
-            without_library = [
-                [re.sub(r"^lib/.*/", "", name) for name in files_under(pathlib.Path(folder))]
-                for folder in (prefix, self.root / "usr")
-            ]
-            self.assertEqual(*map(sorted, without_library))
+            installed = files_under(pathlib.Path(prefix))
+        packed = files_under(self.root / "usr") + [
+            name for name in files_under(self.library_root / "usr")
+            if not re.match(r"share/(doc|lintian/overrides)/libclrt", name)  # Debian's own
+        ]
+        without_folder = [
+            sorted(re.sub(r"^lib/.*/", "lib/", name) for name in names)
+            for names in (installed, packed)
+        ]
+        self.assertEqual(*without_folder)
 
-    def test_it_runs_no_script_when_it_is_installed(self):
-        with tempfile.TemporaryDirectory() as control:
-            run("dpkg-deb", "-e", self.package, control)
-            self.assertEqual(files_under(pathlib.Path(control)), ["control", "md5sums"])
+    def test_they_run_no_scripts_when_they_are_installed(self):
+        for name, package in self.packages.items():
+            data = ["shlibs", "triggers"] if name == "libclrt0" else []
+            with tempfile.TemporaryDirectory() as control:
+                run("dpkg-deb", "-e", package, control)
+                self.assertEqual(files_under(pathlib.Path(control)), ["control", "md5sums"] + data)
 
-    def test_it_depends_on_what_it_is_linked_to_and_on_an_opencl_driver(self):
-        depends = run("dpkg-deb", "-f", self.package, "Depends")
-        for name in ("pocl-opencl-icd | opencl-icd", "libc6", "libjansson4", "libpng16-16"):
-            self.assertIn(name, depends)
+    def test_they_depend_on_what_they_are_linked_to_and_on_an_opencl_driver(self):
+        common = ["pocl-opencl-icd | opencl-icd", "libc6", "libxxhash0", "ocl-icd-libopencl1"]
+        for package in ["clrt", *LIBRARY[:1]]:
+            depends = run("dpkg-deb", "-f", self.packages[package], "Depends")
+            own = ["libjansson4", "libpng16-16"] if package == "clrt" else []
+            for name in common + own:
+                self.assertIn(name, depends)
 
     @unittest.skipUnless(is_here("lintian"), "lintian is not installed")
-    def test_lintian_accepts_it(self):
+    def test_lintian_accepts_them(self):
         done = subprocess.run(
-            ["lintian", "--fail-on", "error,warning", self.package], capture_output=True, text=True
+            [*LINTIAN, *self.packages.values()], capture_output=True, text=True
         )
         self.assertEqual((done.stdout, done.returncode), ("", 0))
 
@@ -106,7 +142,8 @@ class Package(unittest.TestCase):
 
     @unittest.skipUnless(is_here("readelf"), "readelf is not installed")
     def test_its_programs_are_hardened(self):
-        programs = [self.clrt, *(self.root / "usr/lib").rglob("*.so")]
+        modules = (self.root / "usr/lib").rglob("*.so")
+        programs = [self.clrt, *modules, *(self.library_root / "usr/lib").rglob("*.so.0")]
         for program in programs:
             text = run("readelf", "-lWd", program)
             self.assertIn("GNU_RELRO", text)

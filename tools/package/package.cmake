@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# What belongs to an installation beside the program, and the Debian package: cmake --workflow
-# --preset package makes it.  It runs no script when it is installed: kernels are compiled when they
-# are first used, or by clrt --warm.
+# What belongs to an installation beside the program, and the Debian packages: cmake --workflow
+# --preset package makes them.  They run no script when they are installed: kernels are compiled when
+# they are first used, or by clrt --warm.
 set(folder ${CMAKE_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")
@@ -39,11 +39,17 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME clrt)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "ray tracer on OpenCL with the same bits on every device
 clrt traces scenes of triangle meshes and spheres with OpenCL kernels, on CPUs
 and GPUs, to a file or in a window. The same scene and settings give the same
 picture, bit for bit, on every device; nothing leaks where triangles meet; and
 a check tells what is wrong in a mesh.")
+if(CLRT_WITH_LIBRARY)
+  include(tools/package/library_package.cmake)
+endif()
 include(CPack)

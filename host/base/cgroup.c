@@ -2,7 +2,7 @@
 // Version 2 has one line "0::/path" and a file cpu.max in each group; version 1 a line for each
 // controller, "4:cpu,cpuacct:/path", and two files.  A container may see a path that is not there,
 // beside a mount that begins at its own group: the way up ends at the mount either way.
-#include "cli/cgroup.h"
+#include "base/cgroup.h"
 
 #include <math.h>
 #include <stdbool.h>

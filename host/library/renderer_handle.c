@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The general kernels are taken for every scene: they are compiled once, when a renderer is made.
+#include "library/renderer_handle.h"
+
+#include "base/processors.h"
+#include "library/check.h"
+
+#include <stdlib.h>
+
+static bool open_device(ClrtRenderer *renderer, const char *name, Error *cause)
+{
+    const KernelWish none = {0};
+    if (!device_open_part(&renderer->device, name, renderer->threads, cause))
+        return false;
+    const KernelChoice choice = kernel_choose(&none, renderer->device.is_cpu);
+    renderer->setup = (RendererSetup){
+        .device = &renderer->device, .cache = &renderer->cache, .source = {.choice = choice}};
+    return kernel_check_device(&choice, &renderer->device, cause);
+}
+
+static bool make_kernel(ClrtRenderer *renderer, Error *cause)
+{
+    const SceneTraits traits = traits_general(false);
+    const uint32_t side = kernel_group_side(&renderer->setup.source.choice);
+    const uint32_t group[2] = {side, side};
+    return ready_kernel_make(&renderer->kernel, &renderer->setup, &traits, group, cause);
+}
+
+ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error)
+{
+    Error cause = {0};
+    ClrtRenderer *renderer = memory_zeroed(1, sizeof *renderer, &cause);
+    if (renderer != NULL) {
+        renderer->threads = threads > 0 ? threads : processors_usable();
+        cache_open_for_library(&renderer->cache);
+        if (open_device(renderer, device, &cause) && make_kernel(renderer, &cause))
+            return renderer;
+    }
+    check_fail_for(error, CLRT_DEVICE, &cause);
+    clrt_renderer_free(renderer);
+    return NULL;
+}
+
+static void drop_scene(ClrtRenderer *renderer)
+{
+    renderer_close(&renderer->renderer);
+    flat_free(&renderer->flat);
+    renderer->state = 0;
+}
+
+void clrt_renderer_free(ClrtRenderer *renderer)
+{
+    if (renderer == NULL)
+        return;
+    drop_scene(renderer);
+    ready_kernel_free(&renderer->kernel);
+    device_close(&renderer->device);
+    free(renderer);
+}
+
+static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
+{
+    Triangles triangles = {0};
+    Bvh bvh = {0};
+    Crew *crew = crew_open(renderer->threads);
+    const NodeLayout layout = renderer->setup.source.choice.nodes;
+    const Normalization *normalization = &renderer->normalization;
+    const BvhSettings tree = {BVH_SAH, flat_leaves(layout)};
+    const FlatSource source = {scene, &triangles, &bvh, normalization, layout, crew};
+    const bool ok = triangles_make(&triangles, scene, normalization, crew, cause) &&
+                    bvh_build(&bvh, &triangles, &tree, crew, cause) &&
+                    flat_make(&renderer->flat, &source, cause);
+    crew_close(crew);
+    bvh_free(&bvh);
+    triangles_free(&triangles);
+    return ok;
+}
+
+// Pictures bring their own sizes.
+static bool open_renderer(ClrtRenderer *renderer, Error *cause)
+{
+    ReadyKernel lent = renderer->kernel;
+    RendererSetup setup = renderer->setup;
+    const RenderSettings settings = {.width = 1,
+                                     .height = 1,
+                                     .samples = 1,
+                                     .tile_width = 1,
+                                     .tile_height = 1,
+                                     .group_width = lent.group_width,
+                                     .group_height = lent.group_height,
+                                     .specialization = SPECIALIZE_NEVER};
+    setup.ready = &lent;
+    clRetainProgram(lent.program.handle);
+    clRetainKernel(lent.handle);
+    const bool ok = renderer_open(&renderer->renderer, &setup, &renderer->flat, &settings, cause);
+    ready_kernel_free(&lent);
+    return ok;
+}
+
+bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
+{
+    Error cause = {0};
+    if (renderer->state == scene->state)
+        return true;
+    drop_scene(renderer);
+    renderer->normalization = normalization_of(&scene->scene);
+    if (!normalization_check(&renderer->normalization, &scene->scene, &cause) ||
+        !flatten(renderer, &scene->scene, &cause))
+        return check_fail_for(error, CLRT_SCENE, &cause);
+    if (!open_renderer(renderer, &cause)) {
+        drop_scene(renderer);
+        return check_fail_for(error, CLRT_DEVICE, &cause);
+    }
+    renderer->state = scene->state;
+    return true;
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Numbers of the caller's -> the elements of a scene that are no mesh.
+#include "library/check.h"
+#include "library/scene_handle.h"
+#include "scene/define.h"
+#include "scene/limits.h"
+
+static Vec3 vector_of(const double vector[3])
+{
+    return vec3(vector[0], vector[1], vector[2]);
+}
+
+static bool check_material(const ClrtMaterial *material, ClrtError *error)
+{
+    return check_number(error, "the shading", (double)material->shading, CLRT_SHADING_SILHOUETTE,
+                        CLRT_SHADING_BLINN_PHONG) &&
+           check_color(error, "the diffuse color", material->diffuse) &&
+           check_color(error, "the specular color", material->specular) &&
+           check_number(error, "kd", material->kd, 0, FACTOR_MOST) &&
+           check_number(error, "ks", material->ks, 0, FACTOR_MOST) &&
+           check_number(error, "the shininess", material->shininess, 0, SHININESS_MOST) &&
+           check_number(error, "the reflectivity", material->reflectivity, 0, 1);
+}
+
+bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material, uint32_t *number,
+                             ClrtError *error)
+{
+    ClrtMaterial given;
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) || !check_given(error, "the number", number) ||
+        !check_struct(error, "the material", material, &given, sizeof given) ||
+        !check_material(&given, error))
+        return false;
+    Material made = {.kd = (float)given.kd,
+                     .ks = (float)given.ks,
+                     .shader = (Shader)given.shading,
+                     .reflectivity = (float)given.reflectivity};
+    for (int channel = 0; channel < 3; channel++) {
+        made.diffuse[channel] = (float)given.diffuse[channel];
+        made.specular[channel] = (float)given.specular[channel];
+    }
+    material_set_shininess(&made, (float)given.shininess);
+    const size_t place = scene->scene.materials.count;
+    const bool ok = array_push(&scene->scene.materials, made, &cause);
+    if (ok)
+        *number = (uint32_t)place;
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
+bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], double radius,
+                           uint32_t material, ClrtError *error)
+{
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) ||
+        !check_vector(error, "the center", center, COORDINATE_MOST) ||
+        !check_number(error, "the radius", radius, RADIUS_LEAST, RADIUS_MOST) ||
+        !scene_handle_check_material(scene, material, error))
+        return false;
+    const Sphere sphere = {vector_of(center), radius, material};
+    const bool ok = array_push(&scene->scene.spheres, sphere, &cause);
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
+bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double intensity,
+                          ClrtError *error)
+{
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) ||
+        !check_vector(error, "the position", position, COORDINATE_MOST) ||
+        !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST))
+        return false;
+    const Light light = {vector_of(position), intensity};
+    const bool ok = array_push(&scene->scene.lights, light, &cause);
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
+bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error)
+{
+    ClrtCamera given;
+    if (!check_struct(error, "the camera", camera, &given, sizeof given) ||
+        !check_vector(error, "the eye", given.eye, COORDINATE_MOST) ||
+        !check_vector(error, "the point looked at", given.look_at, COORDINATE_MOST) ||
+        !check_vector(error, "the camera's 'up'", given.up, COORDINATE_MOST) ||
+        !check_number(error, "the field of view", given.fov_degrees, FOV_LEAST, FOV_MOST))
+        return false;
+    *viewpoint = (Viewpoint){.eye = vector_of(given.eye),
+                             .look_at = vector_of(given.look_at),
+                             .up = vector_of(given.up),
+                             .fov_degrees = given.fov_degrees};
+    if (!(vec3_extent(viewpoint->up) > 0))
+        viewpoint->up = vec3(0, 0, 1);
+    const char *fault = viewpoint_fault(viewpoint);
+    return fault == NULL || check_fail(error, CLRT_ARGUMENT, "%s", fault);
+}
+
+bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error)
+{
+    Viewpoint viewpoint;
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) ||
+        !scene_handle_take_camera(&viewpoint, camera, error))
+        return false;
+    const bool ok = array_push(&scene->scene.viewpoints, viewpoint, &cause);
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
+bool clrt_scene_set_background(ClrtScene *scene, const double color[3], ClrtError *error)
+{
+    if (!check_given(error, "the scene", scene) || !check_color(error, "the background", color))
+        return false;
+    scene->scene.background = vector_of(color);
+    return scene_handle_changed(scene, true, NULL, NULL);
+}
+
+bool clrt_scene_set_ambient(ClrtScene *scene, double intensity, ClrtError *error)
+{
+    if (!check_given(error, "the scene", scene) ||
+        !check_number(error, "the ambient light", intensity, 0, 1))
+        return false;
+    scene->scene.ambient = intensity;
+    return scene_handle_changed(scene, true, NULL, NULL);
+}

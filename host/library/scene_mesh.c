@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Arrays of the caller's -> a mesh of a scene.
+#include "library/check.h"
+#include "library/scene_handle.h"
+#include "scene/limits.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// An array of no elements may be NULL.
+static bool check_array(const char *what, const void *array, size_t count, ClrtError *error)
+{
+    if (count > MESH_COUNT_MOST)
+        return check_fail(error, CLRT_ARGUMENT, "the mesh has %zu %s, more than %zu", count, what,
+                          (size_t)MESH_COUNT_MOST);
+    return array != NULL || count == 0 ||
+           check_fail(error, CLRT_ARGUMENT, "the mesh's %s are NULL", what);
+}
+
+static void *copy_array(const void *array, size_t count, size_t size, Error *cause)
+{
+    void *copy = memory_raw(count, size, cause);
+    if (copy != NULL && count > 0)
+        memcpy(copy, array, count * size);
+    return copy;
+}
+
+static bool copy_mesh(Mesh *mesh, const ClrtMesh *given, Error *cause)
+{
+    const size_t vertices = given->vertex_count, triangles = given->triangle_count;
+    *mesh = (Mesh){.vertex_count = vertices, .triangle_count = triangles};
+    mesh->positions = copy_array(given->positions, vertices, sizeof *mesh->positions, cause);
+    mesh->triangles = copy_array(given->triangles, triangles, sizeof *mesh->triangles, cause);
+    if (given->normals != NULL)
+        mesh->normals = copy_array(given->normals, vertices, sizeof *mesh->normals, cause);
+    return mesh->positions != NULL && mesh->triangles != NULL &&
+           (mesh->normals != NULL || given->normals == NULL);
+}
+
+static bool check_vertices(const Mesh *mesh, ClrtError *error)
+{
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double position = mesh->positions[vertex][axis];
+            if (!(fabs(position) < COORDINATE_MOST))
+                return check_fail(error, CLRT_ARGUMENT,
+                                  "a coordinate of vertex %zu is %g, not below 1e30 in size",
+                                  vertex, position);
+            if (mesh->normals != NULL && !isfinite(mesh->normals[vertex][axis]))
+                return check_fail(error, CLRT_ARGUMENT, "the normal of vertex %zu is not finite",
+                                  vertex);
+        }
+    return true;
+}
+
+static bool check_triangles(const Mesh *mesh, ClrtError *error)
+{
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++) {
+            const uint32_t vertex = mesh->triangles[triangle][corner];
+            if (vertex >= mesh->vertex_count)
+                return check_fail(error, CLRT_ARGUMENT,
+                                  "triangle %zu has vertex %u, and there are %zu", triangle, vertex,
+                                  mesh->vertex_count);
+        }
+    return true;
+}
+
+static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error)
+{
+    return check_array("positions", mesh->positions, mesh->vertex_count, error) &&
+           check_array("triangles", mesh->triangles, mesh->triangle_count, error) &&
+           scene_handle_check_material(scene, mesh->material, error);
+}
+
+// The copy is looked at, which nobody changes meanwhile.
+static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
+{
+    Error cause = {0};
+    *object = (MeshObject){
+        .material = given->material, .two_sided = given->two_sided, .smooth = !given->flat};
+    const bool copied =
+        copy_mesh(&object->mesh, given, &cause) || check_fail_for(error, CLRT_SCENE, &cause);
+    const bool ok =
+        copied && check_vertices(&object->mesh, error) && check_triangles(&object->mesh, error);
+    if (!ok)
+        mesh_free(&object->mesh);
+    return ok;
+}
+
+bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error)
+{
+    ClrtMesh given;
+    MeshObject object;
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) ||
+        !check_struct(error, "the mesh", mesh, &given, sizeof given) ||
+        !check_mesh(scene, &given, error) || !take_mesh(&object, &given, error))
+        return false;
+    mesh_drop_triangles(&object.mesh);
+    const bool ok = array_push(&scene->scene.objects, object, &cause);
+    if (!ok)
+        mesh_free(&object.mesh);
+    return scene_handle_changed(scene, ok, &cause, error);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What the numbers of a scene may be, wherever they come from.
+#pragma once
+
+#include <stdint.h>
+
+#define COORDINATE_MOST 1e30 // more could overflow when squared, long before anyone sees it
+#define RADIUS_LEAST    1e-30
+#define RADIUS_MOST     1e30
+#define INTENSITY_MOST  1e30
+#define FOV_LEAST       1e-6 // degrees
+#define FOV_MOST        179.9999
+#define FACTOR_MOST     1000 // kd and ks
+#define SHININESS_MOST  1e9
+
+#define MESH_COUNT_MOST INT64_C(2147483647) // vertices or triangles in one mesh

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// libclrt draws what the program draws, bit for bit, and does what clrt.h says.
+#include "library/filled.h"
+#include "library/program.h"
+#include "unit/cmocka_all.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TILE 128
+
+static ClrtRenderer *renderer; // of most tests
+
+static ClrtRenderer *open_renderer(uint32_t threads)
+{
+    ClrtError error;
+    ClrtRenderer *opened = clrt_renderer_create(getenv("CLRT_DEVICE"), threads, &error);
+    if (opened == NULL)
+        fail_msg("%s", error.text);
+    return opened;
+}
+
+static int open_all(void **state)
+{
+    (void)state;
+    renderer = open_renderer(0);
+    return 0;
+}
+
+static int close_all(void **state)
+{
+    (void)state;
+    clrt_renderer_free(renderer);
+    return 0;
+}
+
+static ClrtScene *load(const char *path)
+{
+    ClrtError error;
+    ClrtScene *scene = clrt_scene_load(path, &error);
+    if (scene == NULL)
+        fail_msg("%s", error.text);
+    return scene;
+}
+
+static float *make_buffer(const ClrtPicture *picture)
+{
+    float *rgb = malloc(3 * (size_t)picture->width * picture->height * sizeof *rgb);
+    assert_non_null(rgb);
+    return rgb;
+}
+
+static float *draw(ClrtRenderer *with, const ClrtScene *scene, const ClrtPicture *picture)
+{
+    ClrtError error;
+    float *rgb = make_buffer(picture);
+    if (!clrt_render(with, scene, picture, rgb, &error))
+        fail_msg("%s", error.text);
+    return rgb;
+}
+
+static void a_loaded_scene_is_the_programs_picture(void **state)
+{
+    static const char *const names[] = {"scenes/reflections.scn", "scenes/simple.scn",
+                                        "scenes/blinn_phong.scn", "tests/image/every_feature.scn"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const ClrtPicture picture = {.size = sizeof picture, .width = 150, .height = 131};
+        ClrtScene *scene = load(program_file(names[i]));
+        float *expected = program_draw(program_file(names[i]), "", 150, 131);
+        assert_true(program_agrees(renderer, scene, &picture, expected));
+        free(expected);
+        clrt_scene_free(scene);
+    }
+}
+
+static void a_lone_mesh_is_framed_as_the_program_frames_it(void **state)
+{
+    (void)state;
+    const ClrtPicture picture = {.size = sizeof picture, .width = 64, .height = 64};
+    ClrtScene *scene = load(program_file("scenes/tetrahedron.ply"));
+    float *expected = program_draw(program_file("scenes/tetrahedron.ply"), "", 64, 64);
+    assert_true(program_agrees(renderer, scene, &picture, expected));
+    free(expected);
+    clrt_scene_free(scene);
+}
+
+static void views_samples_and_levels_are_the_programs(void **state)
+{
+    (void)state;
+    ClrtScene *scene = load(program_file("scenes/reflections.scn"));
+    const ClrtPicture picture = {
+        .size = sizeof picture, .width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1};
+    float *expected = program_draw(program_file("scenes/reflections.scn"),
+                                   "--view 3 --aa=3 --max-level 1", 60, 40);
+    assert_true(program_agrees(renderer, scene, &picture, expected));
+    free(expected);
+    clrt_scene_free(scene);
+}
+
+static void a_filled_scene_is_the_programs_picture_of_the_same_file(void **state)
+{
+    (void)state;
+    char *path = filled_write();
+    ClrtScene *scene = filled_make();
+    for (uint32_t view = 1; view <= 2; view++) {
+        const ClrtPicture picture = {
+            .size = sizeof picture, .width = 150, .height = 100, .view = view, .max_level = 5};
+        float *expected = program_draw(path, view == 1 ? "--view 1" : "--view 2", 150, 100);
+        assert_true(program_agrees(renderer, scene, &picture, expected));
+        free(expected);
+    }
+    clrt_scene_free(scene);
+    filled_remove(path);
+}
+
+static void the_info_counts_what_was_filled_in(void **state)
+{
+    (void)state;
+    ClrtScene *scene = filled_make();
+    ClrtSceneInfo info = {.size = sizeof info};
+    assert_true(clrt_scene_get_info(scene, &info, NULL));
+    assert_int_equal(info.width, 512);
+    assert_int_equal(info.height, 512);
+    assert_int_equal(info.max_level, 3);
+    assert_int_equal(info.view_count, 2);
+    assert_int_equal(info.light_count, 2);
+    assert_int_equal(info.material_count, 6);
+    assert_int_equal(info.sphere_count, 2);
+    assert_int_equal(info.triangle_count, 5);
+    assert_int_equal(info.dropped_triangle_count, 1);
+    clrt_scene_free(scene);
+}
+
+static void a_camera_of_the_pictures_own_takes_the_views_place(void **state)
+{
+    (void)state;
+    ClrtScene *scene = filled_make();
+    ClrtPicture picture = {.size = sizeof picture, .width = 90, .height = 70, .view = 2};
+    float *by_view = draw(renderer, scene, &picture);
+    picture.view = 1;
+    picture.camera = &filled_cameras[1];
+    assert_true(program_agrees(renderer, scene, &picture, by_view));
+    free(by_view);
+    clrt_scene_free(scene);
+}
+
+static void a_scene_that_was_changed_is_drawn_changed(void **state)
+{
+    (void)state;
+    const ClrtPicture picture = {.size = sizeof picture, .width = 40, .height = 30};
+    const double black[3] = {0, 0, 0}, center[3] = {0, 0, 3};
+    const size_t bytes = 3 * 40 * 30 * sizeof(float);
+    ClrtScene *scene = filled_make();
+    float *pictures[3];
+    pictures[0] = draw(renderer, scene, &picture);
+    assert_true(clrt_scene_set_background(scene, black, NULL));
+    pictures[1] = draw(renderer, scene, &picture);
+    assert_true(clrt_scene_add_sphere(scene, center, 0.5, CLRT_MATERIAL_MATTE, NULL));
+    pictures[2] = draw(renderer, scene, &picture);
+    assert_memory_not_equal(pictures[0], pictures[1], bytes);
+    assert_memory_not_equal(pictures[1], pictures[2], bytes);
+    for (int i = 0; i < 3; i++)
+        free(pictures[i]);
+    clrt_scene_free(scene);
+}
+
+static bool count_tiles(void *user, uint64_t tiles_done, uint64_t tiles)
+{
+    uint64_t *last = user;
+    assert_int_equal(tiles, 6);
+    assert_int_equal(tiles_done, ++*last);
+    return true;
+}
+
+static void progress_counts_every_tile(void **state)
+{
+    (void)state;
+    uint64_t last = 0;
+    const ClrtPicture picture = {.size = sizeof picture,
+                                 .width = 300,
+                                 .height = 200,
+                                 .progress = count_tiles,
+                                 .user = &last};
+    ClrtScene *scene = filled_make();
+    free(draw(renderer, scene, &picture));
+    assert_int_equal(last, 6);
+    clrt_scene_free(scene);
+}
+
+static bool stop_at_once(void *user, uint64_t tiles_done, uint64_t tiles)
+{
+    (void)user, (void)tiles_done, (void)tiles;
+    return false;
+}
+
+// Whether all floats of the tile are those of whole, or all are -1.
+static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t tile[2],
+                          const ClrtPicture *picture)
+{
+    size_t same = 0, untouched = 0, count = 0;
+    for (uint32_t y = tile[1]; y < tile[1] + TILE && y < picture->height; y++)
+        for (uint32_t x = tile[0]; x < tile[0] + TILE && x < picture->width; x++)
+            for (uint32_t channel = 0; channel < 3; channel++, count++) {
+                const size_t place = 3 * ((size_t)y * picture->width + x) + channel;
+                same += memcmp(&rgb[place], &whole[place], sizeof *rgb) == 0;
+                untouched += rgb[place] == -1;
+            }
+    assert_true(same == count || untouched == count);
+    return same == count;
+}
+
+static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
+{
+    (void)state;
+    ClrtError error;
+    ClrtPicture picture = {.size = sizeof picture, .width = 600, .height = 200};
+    ClrtScene *scene = filled_make();
+    float *whole = draw(renderer, scene, &picture);
+    float *rgb = make_buffer(&picture);
+    for (size_t i = 0; i < 3 * 600 * 200; i++)
+        rgb[i] = -1;
+    picture.progress = stop_at_once;
+    assert_false(clrt_render(renderer, scene, &picture, rgb, &error));
+    assert_int_equal(error.fault, CLRT_STOPPED);
+    int drawn = 0;
+    for (uint32_t y = 0; y < 200; y += TILE)
+        for (uint32_t x = 0; x < 600; x += TILE)
+            drawn += tile_is_whole(rgb, whole, (const uint32_t[]){x, y}, &picture);
+    assert_in_range(drawn, 1, 9);
+    picture.progress = NULL;
+    assert_true(program_agrees(renderer, scene, &picture, whole));
+    free(rgb);
+    free(whole);
+    clrt_scene_free(scene);
+}
+
+typedef struct {
+    const ClrtScene *scene;
+    const ClrtPicture *picture;
+    float *expected;
+    bool agrees;
+} Job;
+
+static void *draw_thrice(void *context)
+{
+    Job *job = context;
+    ClrtRenderer *own = clrt_renderer_create(getenv("CLRT_DEVICE"), 1, NULL);
+    job->agrees = own != NULL;
+    for (int round = 0; round < 3 && job->agrees; round++)
+        job->agrees = program_agrees(own, job->scene, job->picture, job->expected);
+    clrt_renderer_free(own);
+    return NULL;
+}
+
+static void renderers_draw_at_once_in_threads_of_their_own(void **state)
+{
+    (void)state;
+    pthread_t threads[4];
+    Job jobs[4];
+    const ClrtPicture picture = {.size = sizeof picture, .width = 200, .height = 150, .samples = 2};
+    ClrtScene *scenes[2] = {filled_make(), load(program_file("scenes/reflections.scn"))};
+    float *expected[2];
+    for (int i = 0; i < 2; i++)
+        expected[i] = draw(renderer, scenes[i], &picture);
+    for (int i = 0; i < 4; i++) { // two of them the same scene
+        jobs[i] = (Job){scenes[i % 2], &picture, expected[i % 2], false};
+        assert_int_equal(pthread_create(&threads[i], NULL, draw_thrice, &jobs[i]), 0);
+    }
+    for (int i = 0; i < 4; i++) {
+        pthread_join(threads[i], NULL);
+        assert_true(jobs[i].agrees);
+    }
+    for (int i = 0; i < 2; i++) {
+        free(expected[i]);
+        clrt_scene_free(scenes[i]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_loaded_scene_is_the_programs_picture),
+        cmocka_unit_test(a_lone_mesh_is_framed_as_the_program_frames_it),
+        cmocka_unit_test(views_samples_and_levels_are_the_programs),
+        cmocka_unit_test(a_filled_scene_is_the_programs_picture_of_the_same_file),
+        cmocka_unit_test(the_info_counts_what_was_filled_in),
+        cmocka_unit_test(a_camera_of_the_pictures_own_takes_the_views_place),
+        cmocka_unit_test(a_scene_that_was_changed_is_drawn_changed),
+        cmocka_unit_test(progress_counts_every_tile),
+        cmocka_unit_test(a_stopped_picture_has_whole_tiles_and_leaves_the_rest),
+        cmocka_unit_test(renderers_draw_at_once_in_threads_of_their_own),
+    };
+    return cmocka_run_group_tests(tests, open_all, close_all);
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// What no caller should ask of a renderer gives an error in words, and the next picture is drawn;
+// nothing is printed, and the environment stays as it was.
+#define CL_TARGET_OPENCL_VERSION 120
+#include "library/faults.h"
+#include "library/filled.h"
+#include "unit/cmocka_all.h"
+
+#include <CL/cl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define WIDTH  8
+#define HEIGHT 6
+
+typedef struct {
+    ClrtScene *scene;
+    ClrtRenderer *renderer;
+    float rgb[3 * WIDTH * HEIGHT];
+    char *environment; // before the library was used
+} Stage;
+
+static Stage stage;
+
+extern char **environ;
+
+// All variables, one behind the other; the caller frees it.
+static char *copy_environment(void)
+{
+    size_t size = 1;
+    for (char **variable = environ; *variable != NULL; variable++)
+        size += strlen(*variable) + 1;
+    char *copy = calloc(size, 1);
+    assert_non_null(copy);
+    for (char **variable = environ; *variable != NULL; variable++)
+        strcat(strcat(copy, *variable), "\n");
+    return copy;
+}
+
+// PoCL sets a variable of hwloc's when it is opened, whoever does that.
+static void open_driver(void)
+{
+    cl_platform_id platforms[16];
+    cl_device_id device;
+    cl_uint count = 0;
+    clGetPlatformIDs(16, platforms, &count);
+    for (cl_uint i = 0; i < count && i < 16; i++)
+        clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 1, &device, NULL);
+}
+
+static int open_stage(void **state)
+{
+    (void)state;
+    open_driver();
+    stage.environment = copy_environment();
+    stage.scene = filled_make();
+    stage.renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 0, NULL);
+    return stage.renderer == NULL;
+}
+
+static int close_stage(void **state)
+{
+    (void)state;
+    clrt_renderer_free(stage.renderer);
+    clrt_scene_free(stage.scene);
+    free(stage.environment);
+    return 0;
+}
+
+static void what_is_null_is_named(void **state)
+{
+    (void)state;
+    ClrtScene *scene = stage.scene;
+    const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
+    ASSERT_ARGUMENT(clrt_render(NULL, scene, &picture, stage.rgb, &error), "the renderer is NULL");
+    ASSERT_ARGUMENT(clrt_render(stage.renderer, NULL, &picture, stage.rgb, &error),
+                    "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, NULL, stage.rgb, &error),
+                    "the picture is NULL");
+    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, NULL, &error),
+                    "the picture's memory is NULL");
+    assert_false(clrt_render(NULL, NULL, NULL, NULL, NULL));
+    clrt_renderer_free(NULL);
+}
+
+static bool render(ClrtPicture picture, ClrtError *error)
+{
+    return clrt_render(stage.renderer, stage.scene, &picture, stage.rgb, error);
+}
+
+static void pictures_out_of_range_are_refused_and_the_next_is_drawn(void **state)
+{
+    (void)state;
+    const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
+    ClrtPicture bad[] = {good, good, good, good, good, good};
+    static const char *const words[] = {"the width is 0",      "the height is 65537",
+                                        "samples is 65",       "the level is 1001",
+                                        "view 3 is not among", "the width is 4.29497e+09"};
+    bad[0].width = 0;
+    bad[1].height = 65537;
+    bad[2].samples = 65;
+    bad[3].max_level = 1001;
+    bad[4].view = 3;
+    bad[5].width = UINT32_MAX;
+    for (int i = 0; i < 6; i++)
+        ASSERT_ARGUMENT(render(bad[i], &error), words[i]);
+    ClrtCamera far = filled_cameras[0];
+    far.eye[0] = 1e20;
+    bad[0] = good;
+    bad[0].camera = &far;
+    ASSERT_ARGUMENT(render(bad[0], &error), "more than 1e12 times");
+    far.size = 0;
+    ASSERT_ARGUMENT(render(bad[0], &error), "the camera has a size of 0");
+    assert_true(render(good, NULL));
+}
+
+static void structs_tell_what_they_know_by_their_size(void **state)
+{
+    (void)state;
+    struct {
+        ClrtPicture picture;
+        uint64_t later;
+    } newer = {{.size = sizeof newer, .width = WIDTH, .height = HEIGHT}, 0};
+    assert_true(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, NULL));
+    newer.later = 1;
+    ASSERT_ARGUMENT(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
+                    "asks for what libclrt");
+    newer.picture.size = sizeof newer.picture.size - 1;
+    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of 7");
+    newer.picture.size = SIZE_MAX;
+    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of");
+}
+
+static void what_an_older_program_does_not_know_is_the_default(void **state)
+{
+    (void)state;
+    float whole[3 * WIDTH * HEIGHT];
+    ClrtPicture older = {.size = sizeof older, .width = WIDTH, .height = HEIGHT};
+    assert_true(render(older, NULL));
+    memcpy(whole, stage.rgb, sizeof whole);
+    memset(&older.view, 0xff, sizeof older - offsetof(ClrtPicture, view));
+    older.size = offsetof(ClrtPicture, view);
+    assert_true(render(older, NULL));
+    assert_memory_equal(stage.rgb, whole, sizeof whole);
+    ClrtSceneInfo info = {.size = offsetof(ClrtSceneInfo, max_level), .max_level = 77};
+    assert_true(clrt_scene_get_info(stage.scene, &info, NULL));
+    assert_int_equal(info.height, 512);
+    assert_int_equal(info.max_level, 77);
+}
+
+static void a_scene_without_cameras_is_drawn_by_the_pictures_own(void **state)
+{
+    (void)state;
+    ClrtScene *scene = clrt_scene_create(NULL);
+    ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
+    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
+                    "view 1 is not among the scene's 0");
+    picture.camera = &filled_cameras[0];
+    assert_true(clrt_render(stage.renderer, scene, &picture, stage.rgb, NULL));
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        assert_true(stage.rgb[i] == 1); // the background
+    clrt_scene_free(scene);
+}
+
+static void what_is_too_far_away_to_be_drawn_is_told(void **state)
+{
+    (void)state;
+    ClrtError error = faults_blank();
+    const double far[3] = {1e25, 0, 0}, near[3] = {0, 0, 0};
+    const ClrtPicture picture = {
+        .size = sizeof picture, .width = WIDTH, .height = HEIGHT, .camera = &filled_cameras[0]};
+    ClrtScene *scene = clrt_scene_create(NULL);
+    assert_true(clrt_scene_add_sphere(scene, near, 1, 0, NULL));
+    assert_true(clrt_scene_add_light(scene, far, 1, NULL));
+    faults_assert(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error), &error,
+                  CLRT_SCENE, "light 1 is more than 1e12 times");
+    assert_true(clrt_render(stage.renderer, stage.scene, &picture, stage.rgb, NULL));
+    clrt_scene_free(scene);
+}
+
+static void devices_that_are_not_there_are_told(void **state)
+{
+    (void)state;
+    ClrtError error = faults_blank();
+    faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
+                  "/nowhere/at all.scn");
+    error = faults_blank();
+    faults_assert(clrt_renderer_create("no such device %s", 0, &error) != NULL, &error, CLRT_DEVICE,
+                  "no device matches 'no such device %s'");
+    assert_null(clrt_renderer_create("99:99", UINT32_MAX, NULL));
+}
+
+static bool draw_again(void *user, uint64_t tiles_done, uint64_t tiles)
+{
+    ClrtError *error = user;
+    const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
+    assert_true(tiles_done <= tiles);
+    assert_false(clrt_render(stage.renderer, stage.scene, &picture, stage.rgb, error));
+    return true;
+}
+
+static void a_renderer_that_draws_refuses_another_picture(void **state)
+{
+    (void)state;
+    ClrtError error = faults_blank();
+    ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
+    picture.progress = draw_again;
+    picture.user = &error;
+    assert_true(render(picture, NULL));
+    faults_assert(false, &error, CLRT_ARGUMENT, "the renderer is drawing another picture");
+}
+
+static void use_everything(void)
+{
+    const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
+    ClrtRenderer *renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 1, NULL);
+    clrt_render(renderer, stage.scene, &picture, stage.rgb, NULL);
+    clrt_render(renderer, stage.scene, NULL, stage.rgb, NULL);
+    clrt_renderer_free(renderer);
+    clrt_renderer_free(clrt_renderer_create("nothing", 1, NULL));
+    clrt_scene_free(clrt_scene_load("/nowhere", NULL));
+}
+
+static void nothing_is_printed_and_the_environment_stays(void **state)
+{
+    (void)state;
+    FILE *printed = tmpfile();
+    const int own[2] = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
+    assert_non_null(printed);
+    fflush(NULL);
+    dup2(fileno(printed), STDOUT_FILENO);
+    dup2(fileno(printed), STDERR_FILENO);
+    use_everything();
+    fflush(NULL);
+    dup2(own[0], STDOUT_FILENO);
+    dup2(own[1], STDERR_FILENO);
+    close(own[0]);
+    close(own[1]);
+    fseek(printed, 0, SEEK_END);
+    assert_int_equal(ftell(printed), 0);
+    fclose(printed);
+    char *after = copy_environment();
+    assert_string_equal(stage.environment, after);
+    free(after);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_null_is_named),
+        cmocka_unit_test(pictures_out_of_range_are_refused_and_the_next_is_drawn),
+        cmocka_unit_test(structs_tell_what_they_know_by_their_size),
+        cmocka_unit_test(what_an_older_program_does_not_know_is_the_default),
+        cmocka_unit_test(a_scene_without_cameras_is_drawn_by_the_pictures_own),
+        cmocka_unit_test(what_is_too_far_away_to_be_drawn_is_told),
+        cmocka_unit_test(devices_that_are_not_there_are_told),
+        cmocka_unit_test(a_renderer_that_draws_refuses_another_picture),
+        cmocka_unit_test(nothing_is_printed_and_the_environment_stays),
+    };
+    return cmocka_run_group_tests(tests, open_stage, close_stage);
+}

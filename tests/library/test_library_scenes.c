@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// What no caller should put into a scene gives an error in words and changes nothing.
+#include "library/faults.h"
+#include "library/filled.h"
+#include "unit/cmocka_all.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static ClrtScene *scene;
+
+static const double bad_numbers[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, DBL_MAX,
+                                     -DBL_MAX};
+#define BAD_NUMBERS (sizeof bad_numbers / sizeof *bad_numbers)
+
+static int open_scene(void **state)
+{
+    (void)state;
+    scene = filled_make();
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    (void)state;
+    clrt_scene_free(scene);
+    return 0;
+}
+
+static ClrtSceneInfo info_of(void)
+{
+    ClrtSceneInfo info = {.size = sizeof info};
+    assert_true(clrt_scene_get_info(scene, &info, NULL));
+    return info;
+}
+
+static void what_is_null_is_named(void **state)
+{
+    (void)state;
+    const double three[3] = {0, 0, 0};
+    const ClrtMaterial matte = {.size = sizeof matte};
+    ClrtSceneInfo info = {.size = sizeof info};
+    uint32_t number;
+    ASSERT_ARGUMENT(clrt_scene_load(NULL, &error) != NULL, "the path is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_material(NULL, &matte, &number, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_material(scene, NULL, &number, &error), "the material is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_material(scene, &matte, NULL, &error), "the number is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_sphere(NULL, three, 1, 0, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, NULL, 1, 0, &error), "the center is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(NULL, NULL, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, NULL, &error), "the mesh is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_light(NULL, three, 1, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_camera(NULL, &filled_cameras[0], &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, NULL, &error), "the camera is NULL");
+    ASSERT_ARGUMENT(clrt_scene_set_background(NULL, three, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_set_background(scene, NULL, &error), "the background is NULL");
+    ASSERT_ARGUMENT(clrt_scene_set_ambient(NULL, 0, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_get_info(NULL, &info, &error), "the scene is NULL");
+    ASSERT_ARGUMENT(clrt_scene_get_info(scene, NULL, &error), "the info is NULL");
+    clrt_scene_free(NULL);
+}
+
+static void numbers_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    const double origin[3] = {0, 0, 0};
+    const ClrtSceneInfo before = info_of();
+    for (size_t i = 0; i < BAD_NUMBERS; i++) {
+        const double bad = bad_numbers[i];
+        for (int axis = 0; axis < 3; axis++) {
+            double three[3] = {0, 0, 0};
+            three[axis] = bad;
+            ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, three, 1, 0, &error), "the center is");
+            ASSERT_ARGUMENT(clrt_scene_add_light(scene, three, 1, &error), "the position is");
+            ASSERT_ARGUMENT(clrt_scene_set_background(scene, three, &error), "the background is");
+        }
+        ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, bad, 0, &error), "the radius is");
+        ASSERT_ARGUMENT(clrt_scene_add_light(scene, origin, bad, &error), "the intensity is");
+        ASSERT_ARGUMENT(clrt_scene_set_ambient(scene, bad, &error), "the ambient light is");
+    }
+    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, 0, 0, &error), "the radius is 0");
+    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, 1, 6, &error),
+                    "material 6 is not among the scene's 6");
+    const ClrtSceneInfo after = info_of();
+    assert_memory_equal(&before, &after, sizeof before);
+}
+
+static void no_material_of_impossible_numbers_is_added(void **state)
+{
+    (void)state;
+    const ClrtMaterial matte = {.size = sizeof matte, .shading = CLRT_SHADING_MATTE};
+    for (size_t i = 0; i < BAD_NUMBERS; i++) {
+        ClrtMaterial bad[6] = {matte, matte, matte, matte, matte, matte};
+        static const char *const words[] = {"the diffuse color", "the specular color", "kd", "ks",
+                                            "the shininess",     "the reflectivity"};
+        bad[0].diffuse[2] = bad[1].specular[1] = bad[2].kd = bad_numbers[i];
+        bad[3].ks = bad[4].shininess = bad[5].reflectivity = bad_numbers[i];
+        for (int member = 0; member < 6; member++) {
+            uint32_t number = 77;
+            ASSERT_ARGUMENT(clrt_scene_add_material(scene, &bad[member], &number, &error),
+                            words[member]);
+            assert_int_equal(number, 77);
+        }
+    }
+    for (int shading = -1; shading <= 3; shading += 4) {
+        uint32_t number;
+        ClrtMaterial bad = matte;
+        memcpy(&bad.shading, &shading, sizeof shading);
+        ASSERT_ARGUMENT(clrt_scene_add_material(scene, &bad, &number, &error), "the shading is");
+    }
+}
+
+static const double corners[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+static const uint32_t triangle[3] = {0, 1, 2};
+
+static ClrtMesh good_mesh(void)
+{
+    return (ClrtMesh){.size = sizeof(ClrtMesh),
+                      .positions = corners[0],
+                      .triangles = triangle,
+                      .vertex_count = 3,
+                      .triangle_count = 1};
+}
+
+static void meshes_that_point_nowhere_are_refused(void **state)
+{
+    (void)state;
+    const uint32_t outside[3] = {0, 1, 3}, huge[3] = {UINT32_MAX, 1, 2};
+    ClrtMesh mesh = good_mesh();
+    mesh.positions = NULL;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "positions are NULL");
+    mesh = good_mesh();
+    mesh.triangles = NULL;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "triangles are NULL");
+    mesh = good_mesh();
+    mesh.triangles = outside;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error),
+                    "triangle 0 has vertex 3, and there are 3");
+    mesh.triangles = huge;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "has vertex 4294967295");
+    mesh.vertex_count = 0;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "there are 0");
+    mesh = good_mesh();
+    mesh.vertex_count = SIZE_MAX;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "positions, more than");
+    mesh = good_mesh();
+    mesh.triangle_count = (size_t)1 << 62;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "triangles, more than");
+    mesh = good_mesh();
+    mesh.material = UINT32_MAX;
+    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "material 4294967295");
+}
+
+static void vertices_that_are_no_points_are_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < BAD_NUMBERS; i++) {
+        double positions[3][3];
+        float normals[3][3] = {{0}};
+        ClrtMesh mesh = good_mesh();
+        mesh.normals = normals[0];
+        memcpy(positions, corners, sizeof corners);
+        mesh.positions = positions[0];
+        normals[2][1] = (float)bad_numbers[i];
+        ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error),
+                        "the normal of vertex 2 is not finite");
+        positions[1][2] = bad_numbers[i];
+        ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "a coordinate of vertex 1 is");
+    }
+}
+
+static void impossible_cameras_are_refused(void **state)
+{
+    (void)state;
+    const ClrtCamera good = filled_cameras[0];
+    ClrtCamera bad = good;
+    memcpy(bad.look_at, bad.eye, sizeof bad.eye);
+    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "looks at its own place");
+    for (int axis = 0; axis < 3; axis++)
+        bad.look_at[axis] = bad.eye[axis] + (axis == 2);
+    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "along its 'up'");
+    const double angles[] = {0, -1, 180, (double)NAN};
+    for (int i = 0; i < 4; i++) {
+        bad = good;
+        bad.fov_degrees = angles[i];
+        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "the field of view is");
+    }
+    for (size_t i = 0; i < BAD_NUMBERS; i++) {
+        ClrtCamera cameras[3] = {good, good, good};
+        cameras[0].eye[0] = cameras[1].look_at[1] = cameras[2].up[2] = bad_numbers[i];
+        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[0], &error), "the eye is");
+        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[1], &error), "looked at is");
+        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[2], &error), "'up' is");
+    }
+}
+
+static void files_that_are_not_there_are_told(void **state)
+{
+    (void)state;
+    ClrtError error = faults_blank();
+    faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
+                  "/nowhere/at all.scn");
+    assert_null(clrt_scene_load("", NULL));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_null_is_named),
+        cmocka_unit_test(numbers_out_of_range_are_refused),
+        cmocka_unit_test(no_material_of_impossible_numbers_is_added),
+        cmocka_unit_test(meshes_that_point_nowhere_are_refused),
+        cmocka_unit_test(vertices_that_are_no_points_are_refused),
+        cmocka_unit_test(impossible_cameras_are_refused),
+        cmocka_unit_test(files_that_are_not_there_are_told),
+    };
+    return cmocka_run_group_tests(tests, open_scene, close_scene);
+}
