@@ -8,26 +8,25 @@
 static bool check_window(Options *options, Error *error)
 {
     options->action = ACTION_VIEW;
-    if (options->format != NULL)
-        return error_set(error, "--format is for files: give one with -o FILE");
-    if (options->tile_width != OPTIONS_TILE || options->tile_height != OPTIONS_TILE)
-        return error_set(error, "--tile is for files: give one with -o FILE");
-    if (options->bad_geometry != BAD_GEOMETRY_DROP)
-        return error_set(error, "--bad-geometry is for files: give one with -o FILE");
-    if (options->fits_level)
-        return error_set(error, "--max-level auto is for files: give one with -o FILE");
-    if (options_are_adaptive(options))
-        return error_set(error, "--aa-adaptive, --error and --time are for files: give one with "
-                                "-o FILE");
-    if (options->reference)
-        return error_set(error, "--reference is for files: give one with -o FILE");
-    if (options->aovs != 0)
-        return error_set(error, "--aov is for files: give one with -o FILE.exr");
-    if (options->frames > 1)
-        return error_set(error, "--frames is for files: give one with -o FILE");
-    if (options->statistics_path != NULL)
-        return error_set(error, "--stats=FILE is for files: give one with -o FILE");
-    return true;
+    const struct {
+        bool is_given;
+        const char *names;
+    } refused[] = {
+        {options->format != NULL, "--format is"},
+        {options->tile_width != OPTIONS_TILE || options->tile_height != OPTIONS_TILE, "--tile is"},
+        {options->bad_geometry != BAD_GEOMETRY_DROP, "--bad-geometry is"},
+        {options->fits_level, "--max-level auto is"},
+        {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
+        {options->reference, "--reference is"},
+        {options->frames > 1, "--frames is"},
+        {options->statistics_path != NULL, "--stats=FILE is"},
+        {options->no_metadata, "--no-metadata is"},
+        {options->hash || options->expected_hash != NULL, "--hash and --expect-hash are"},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        if (refused[i].is_given)
+            return error_set(error, "%s for files: give one with -o FILE", refused[i].names);
+    return options->aovs == 0 || error_set(error, "--aov is for files: give one with -o FILE.exr");
 }
 #else
 static bool check_window(Options *options, Error *error)
@@ -91,6 +90,19 @@ static void choose_precision(Options *options)
         wish->choice.precision = PRECISION_FP64;
 }
 
+// One thing at most goes to standard output.
+static bool check_streams(const Options *options, Error *error)
+{
+    const bool picture = strcmp(options->output_path, "-") == 0,
+               statistics =
+                   options->statistics_path != NULL && strcmp(options->statistics_path, "-") == 0;
+    if (picture && statistics)
+        return error_set(error, "the picture and the statistics cannot both go to standard output");
+    return !options->hash || !(picture || statistics) ||
+           error_set(error, "the %s and the hash cannot both go to standard output",
+                     picture ? "picture" : "statistics");
+}
+
 bool options_check_purpose(Options *options, Error *error)
 {
     const char *path = options->output_path;
@@ -101,12 +113,8 @@ bool options_check_purpose(Options *options, Error *error)
         return check_window(options, error);
     if (options->keys != NULL || options->quit_after > 0)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
-                      strcmp(options->statistics_path, "-") == 0;
     return check_format(options, error) && check_aovs(options, error) &&
-           check_certainty(options, error) &&
-           (!both || error_set(error, "the picture and the statistics cannot both go to standard "
-                                      "output"));
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

@@ -27,6 +27,29 @@ bool read_aov(Options *options, const char *value, Error *error)
     return true;
 }
 
+bool read_no_metadata(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->no_metadata = true;
+    return true;
+}
+
+bool read_hash(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->hash = true;
+    return true;
+}
+
+bool read_expect_hash(Options *options, const char *value, Error *error)
+{
+    options->expected_hash = value;
+    return (strlen(value) == FRAMEBUFFER_HASH_SIZE - 1 &&
+            strspn(value, "0123456789abcdefABCDEF") == FRAMEBUFFER_HASH_SIZE - 1) ||
+           error_set(error, "--expect-hash wants %d hexadecimal digits, not '%s'",
+                     FRAMEBUFFER_HASH_SIZE - 1, value);
+}
+
 bool read_explain(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;

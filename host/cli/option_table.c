@@ -13,6 +13,12 @@ const Option option_table[] = {
      "8-bit files: raw values (default) or srgb"},
     {"aov", 0, "LIST", read_aov, GROUP_OUTPUT, CLASS_NONE,
      "add channels to an EXR file; the names are below"},
+    {"no-metadata", 0, NULL, read_no_metadata, GROUP_OUTPUT, CLASS_NONE,
+     "leave out of the file what tells where the picture comes from"},
+    {"hash", 0, NULL, read_hash, GROUP_OUTPUT, CLASS_NONE,
+     "print a hash of the pixels, as they are traced, on standard output"},
+    {"expect-hash", 0, "HASH", read_expect_hash, GROUP_OUTPUT, CLASS_NONE,
+     "exit 1 where the pixels have another hash"},
 
     {"size", 's', "WxH", read_size, GROUP_PICTURE, CLASS_NONE,
      "size of the picture in pixels (the scene's, or 512x512)"},

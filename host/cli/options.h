@@ -73,6 +73,9 @@ typedef struct {
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;
+    bool no_metadata;          // in files of pictures
+    bool hash;                 // of the pixels is told
+    const char *expected_hash; // of the pixels, NULL where none is
     const char *keys;    // to play in the window, NULL for none
     uint32_t quit_after; // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;

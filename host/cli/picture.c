@@ -3,7 +3,9 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "base/output_file.h"
 #include "cli/certain_picture.h"
+#include "cli/provenance.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
 #include "image/image_file.h"
@@ -12,6 +14,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <strings.h>
 
 // One picture of as many as were asked for; they are the same.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
@@ -121,14 +124,15 @@ static bool write_reference(const Run *run, Error *error)
 
 static bool write_picture(Run *run, Error *error)
 {
-    ReportTexts texts;
+    Provenance provenance;
     const Options *options = run->options;
     double moment = clock_seconds();
-    report_make_texts(&run->report, &texts);
+    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
+    provenance_make(&provenance, &run->report);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
-                                    .texts = texts.texts,
-                                    .text_count = REPORT_TEXTS,
+                                    .texts = provenance.texts,
+                                    .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = run->layers.count > 0 ? &run->layers : NULL};
     const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
     run->report.write = run_lap(&moment);
@@ -145,8 +149,17 @@ static bool write_statistics(Run *run, double start, Error *error)
         report_write_text(&run->report, stderr);
         return true;
     }
-    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
     return report_write_json(&run->report, options->statistics_path, error);
+}
+
+// Tells the hash where it is asked for; false where it is not the one expected.
+static bool tell_hash(const Run *run, Error *error)
+{
+    const char *hash = run->report.pixel_hash, *expected = run->options->expected_hash;
+    if (run->options->hash)
+        printf("%s\n", hash);
+    return expected == NULL || strcasecmp(hash, expected) == 0 ||
+           error_set(error, "the hash of the pixels is %s, not the expected %s", hash, expected);
 }
 
 static void describe(const Run *run)
@@ -184,10 +197,12 @@ static ExitCode goal_missed(const Run *run, Error *error)
 ExitCode picture_make(Run *run, Error *error)
 {
     const double start = clock_seconds();
-    if (!image_check_path(run->options->output_path, error))
+    if (!provenance_check_date(error))
+        return EXIT_USAGE;
+    if (!output_file_check(run->options->output_path, error))
         return EXIT_OUTPUT;
     const char *reference_path = run->options->reference_path;
-    if (reference_path != NULL && !image_check_path(reference_path, error))
+    if (reference_path != NULL && !output_file_check(reference_path, error))
         return EXIT_OUTPUT;
     image_prepare(run->options->format);
     run_begin(run);
@@ -212,5 +227,7 @@ ExitCode picture_make(Run *run, Error *error)
         return EXIT_OUTPUT;
     if (run->stopped_by > 0)
         return (ExitCode)(128 + run->stopped_by);
+    if (!tell_hash(run, error))
+        return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }

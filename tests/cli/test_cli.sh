@@ -355,9 +355,9 @@ if [ "${FORMATS:-}" != "png, pfm" ]; then
   check "a JPEG past its size is refused" refuses 5 "a JPEG has at most 65500 pixels a side" \
     "$scene" -s 65536x1 -o a.jpg
   check "EXR holds metadata" grep -aq "clrt:settings" a.exr
-  check "... with the precision" grep -aq "precision=fp32" a.exr
+  check "... with the precision" grep -aq '"precision":"fp32"' a.exr
   check "... fp64's too" pixels b.exr --precision fp64
-  check "... with the precision" grep -aq "precision=fp64" b.exr
+  check "... with the precision" grep -aq '"precision":"fp64"' b.exr
   exr() { "$here/read_exr.py" "$@" 2>>err; }
   check "EXR takes channels" pixels c.exr --aa --bvh sah --aov depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests
   check "... named by the field's conventions" exr c.exr "sorted(types) == sorted('R G B Z N.X N.Y N.Z P.X P.Y P.Z primitive material shadow bounces samples boxtests tritests'.split())"
