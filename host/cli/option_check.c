@@ -17,6 +17,7 @@ static bool check_window(Options *options, Error *error)
         {options->bad_geometry != BAD_GEOMETRY_DROP, "--bad-geometry is"},
         {options->fits_level, "--max-level auto is"},
         {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
+        {options->crop.is_given, "--crop is"},
         {options->reference, "--reference is"},
         {options->frames > 1, "--frames is"},
         {options->statistics_path != NULL, "--stats=FILE is"},
@@ -70,6 +71,14 @@ static bool check_aovs(const Options *options, Error *error)
                      options->format);
 }
 
+// What refining does depends on the pixels around.
+static bool check_crop(const Options *options, Error *error)
+{
+    return !options->crop.is_given || !options_are_adaptive(options) ||
+           error_set(error, "--crop is of the samples of --aa: leave out --aa-adaptive, --error "
+                            "and --time");
+}
+
 static bool check_samples(const Options *options, Error *error)
 {
     const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
@@ -114,7 +123,8 @@ bool options_check_purpose(Options *options, Error *error)
     if (options->keys != NULL || options->quit_after > 0)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
-           check_certainty(options, error) && check_streams(options, error);
+           check_crop(options, error) && check_certainty(options, error) &&
+           check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

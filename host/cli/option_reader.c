@@ -122,6 +122,15 @@ bool read_size(Options *options, const char *value, Error *error)
     return ok;
 }
 
+bool read_crop(Options *options, const char *value, Error *error)
+{
+    return crop_parse(&options->crop, value) ||
+           error_set(error,
+                     "--crop wants X0,Y0,X1,Y1, pixels from the upper left corner or parts of the "
+                     "sides from 0 to 1, not '%s'",
+                     value);
+}
+
 bool read_frames(Options *options, const char *value, Error *error)
 {
     return read_count(value, "frames", FRAMES_MAX, &options->frames, error);

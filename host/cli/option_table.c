@@ -22,6 +22,9 @@ const Option option_table[] = {
 
     {"size", 's', "WxH", read_size, GROUP_PICTURE, CLASS_NONE,
      "size of the picture in pixels (the scene's, or 512x512)"},
+    {"crop", 0, "X0,Y0,X1,Y1", read_crop, GROUP_PICTURE, CLASS_NONE,
+     "draw the pixels from X0,Y0 up to and without X1,Y1 alone; with a dot in a number, all four "
+     "are parts of the sides; an EXR file tells where they lie"},
     {"view", 0, "N", read_view, GROUP_PICTURE, CLASS_NONE,
      "look through the scene's N-th camera (1); without any, the course's six"},
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "cli/crop.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/aov.h"
@@ -55,8 +56,9 @@ typedef struct {
     double time_goal;        // seconds that tracing is to take; 0: any
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's
-    int64_t max_level;       // negative: the scene's
-    bool fits_level;         // max_level is the least whose error no file shows
+    Crop crop;
+    int64_t max_level; // negative: the scene's
+    bool fits_level;   // max_level is the least whose error no file shows
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
@@ -76,8 +78,8 @@ typedef struct {
     bool no_metadata;          // in files of pictures
     bool hash;                 // of the pixels is told
     const char *expected_hash; // of the pixels, NULL where none is
-    const char *keys;    // to play in the window, NULL for none
-    uint32_t quit_after; // frames in the window; 0: when the user quits
+    const char *keys;          // to play in the window, NULL for none
+    uint32_t quit_after;       // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
     Limits limits;         // of ACTION_COMPARE

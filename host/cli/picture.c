@@ -40,7 +40,8 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 static CameraData camera_of(const Run *run, uint32_t samples)
 {
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    return camera_make(viewpoint, &run->normalization, run->settings.height, samples);
+    return camera_make(viewpoint, &run->normalization, render_whole_height(&run->settings),
+                       samples);
 }
 
 static bool draw(Run *run, Error *error)
@@ -131,6 +132,10 @@ static bool write_picture(Run *run, Error *error)
     provenance_make(&provenance, &run->report);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
+                                    .left = run->settings.left,
+                                    .top = run->settings.top,
+                                    .whole_width = render_whole_width(&run->settings),
+                                    .whole_height = render_whole_height(&run->settings),
                                     .texts = provenance.texts,
                                     .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = run->layers.count > 0 ? &run->layers : NULL};

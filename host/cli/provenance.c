@@ -56,12 +56,14 @@ static void write_settings(char *text, const Report *report)
 {
     const RenderSettings *settings = report->settings;
     const Options *options = report->options;
-    json_t *json =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(options->view), "width",
-                  integer(settings->width), "height", integer(settings->height), "samples",
-                  samples_json(report), "max_level", integer(settings->max_level), "encode",
-                  options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
-                  kernel_precision_name(report->choice->precision));
+    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(options->view),
+                             "width", integer(render_whole_width(settings)), "height",
+                             integer(render_whole_height(settings)), "samples",
+                             samples_json(report), "max_level", integer(settings->max_level),
+                             "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw",
+                             "precision", kernel_precision_name(report->choice->precision));
+    if (render_is_part(settings))
+        json_object_set_new(json, "crop", crop_json(settings));
     if (options_are_adaptive(options))
         json_object_set_new(json, "contrast", json_real(report->contrast));
     const size_t length = json_dumpb(json, text, PROVENANCE_SETTINGS - 1,

@@ -169,14 +169,14 @@ static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
     return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
-        integer(report->options->view), "width", integer(settings->width), "height",
-        integer(settings->height), "samples", integer(settings->samples), "max_level",
-        integer(settings->max_level), "truncation_bound", report->truncation, "tile",
-        integer(settings->tile_width), integer(settings->tile_height), "work_group",
-        integer(settings->group_width), integer(settings->group_height), "specialized",
-        report->specialized, "kernel", kernel_family_name(report->choice->family), "nodes",
-        kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
+        integer(report->options->view), "width", integer(render_whole_width(settings)), "height",
+        integer(render_whole_height(settings)), "crop", crop_json(settings), "samples",
+        integer(settings->samples), "max_level", integer(settings->max_level), "truncation_bound",
+        report->truncation, "tile", integer(settings->tile_width), integer(settings->tile_height),
+        "work_group", integer(settings->group_width), integer(settings->group_height),
+        "specialized", report->specialized, "kernel", kernel_family_name(report->choice->family),
+        "nodes", kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
         "precision", kernel_precision_name(report->choice->precision));
 }
 

@@ -73,6 +73,7 @@ bool run_load_scene(Run *run, Error *error)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
+    ok = ok && crop_apply(&options->crop, &run->settings, error);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
     return ok;
 }

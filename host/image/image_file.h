@@ -19,6 +19,8 @@ typedef struct {
     Encoding encoding;  // of 8-bit formats; floats are written as they are
     const ImageText *texts;
     size_t text_count;
+    // Where the picture lies in a whole one of that size, in formats that tell; 0: it is whole.
+    uint32_t left, top, whole_width, whole_height;
     const Layers *layers; // channels beside the colors, in formats that take them; NULL for none
 } ImageSettings;
 

@@ -16,6 +16,7 @@ typedef struct {
     const char *format; /* OpenImageIO's name of the format */
     const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
     int width, height;
+    int left, top, whole_width, whole_height; /* where that lies in a whole picture; 0: is whole */
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */
     size_t text_count;

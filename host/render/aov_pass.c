@@ -107,10 +107,7 @@ static FrameData frame_of(const Renderer *renderer, const Tile *tile, const Came
     FrameData frame = renderer->frame;
     frame.camera = *camera;
     frame.samples = samples;
-    frame.tile_x = tile->x;
-    frame.tile_y = tile->y;
-    frame.tile_width = tile->width;
-    frame.tile_height = tile->height;
+    tile_aim(&frame, &renderer->settings, tile);
     return frame;
 }
 

@@ -172,10 +172,7 @@ bool certifier_certify(const Certifier *certifier, const CameraData *camera,
     frame.camera = *camera;
     while (wanted && progress.tiles_done < progress.tiles) {
         const Tile tile = tile_at(settings, progress.tiles_done);
-        frame.tile_x = tile.x;
-        frame.tile_y = tile.y;
-        frame.tile_width = tile.width;
-        frame.tile_height = tile.height;
+        tile_aim(&frame, settings, &tile);
         if (!certify_tile(certifier, &frame, error))
             return false;
         take_tile(certifier, &tile, map, framebuffer);

@@ -114,10 +114,7 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
 {
     const Renderer *renderer = drawing->renderer;
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
-    frame.tile_x = slot->tile.x;
-    frame.tile_y = slot->tile.y;
-    frame.tile_width = slot->tile.width;
-    frame.tile_height = slot->tile.height;
+    tile_aim(&frame, &renderer->settings, &slot->tile);
     if (!run_kernel(renderer, slot, &frame, error))
         return false;
     cl_int status = CL_SUCCESS;

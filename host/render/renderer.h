@@ -13,14 +13,33 @@ typedef enum {
 } Specialization;
 
 typedef struct {
-    uint32_t width, height;
-    uint32_t samples;   // per pixel and axis
-    uint32_t max_level; // rays of this level return the background
+    uint32_t width, height;             // of what is drawn
+    uint32_t left, top;                 // where that lies in the whole picture,
+    uint32_t whole_width, whole_height; // whose size this is; 0 where all of it is drawn
+    uint32_t samples;                   // per pixel and axis
+    uint32_t max_level;                 // rays of this level return the background
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // of work-groups, in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
+
+// The size of the whole picture.
+static inline uint32_t render_whole_width(const RenderSettings *settings)
+{
+    return settings->whole_width > 0 ? settings->whole_width : settings->width;
+}
+
+static inline uint32_t render_whole_height(const RenderSettings *settings)
+{
+    return settings->whole_height > 0 ? settings->whole_height : settings->height;
+}
+
+static inline bool render_is_part(const RenderSettings *settings)
+{
+    return settings->width < render_whole_width(settings) ||
+           settings->height < render_whole_height(settings);
+}
 
 // Buffers of the scene, among the kernel's arguments.
 #define RENDERER_ARRAYS 7
@@ -59,7 +78,8 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Takes another size of pictures, other samples and other tiles from settings; the rest stays.
+// Takes another size of pictures, which are drawn whole, other samples and other tiles from
+// settings; the rest stays.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
 // Draws the picture seen by camera into framebuffer, which has the settings' size, and leaves how

@@ -27,6 +27,14 @@ Tile tile_at(const RenderSettings *settings, uint64_t number)
                   smaller(settings->tile_height, settings->height - y)};
 }
 
+void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile)
+{
+    frame->tile_x = settings->left + tile->x;
+    frame->tile_y = settings->top + tile->y;
+    frame->tile_width = tile->width;
+    frame->tile_height = tile->height;
+}
+
 static size_t grid_side(NodeLayout nodes, uint32_t tile_side, uint32_t group)
 {
     const uint32_t pixels = nodes == NODES_WIDE ? PACKET_SIDE : 1;

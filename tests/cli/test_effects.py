@@ -36,6 +36,7 @@ TRIALS = {
     "hash": (PLAIN, PLAIN + ["--hash"]),
     "expect-hash": (PLAIN, PLAIN + ["--expect-hash", 32 * "0"]),
     "size": ([SCENE, "-o", "a.pfm"], [SCENE, "-o", "a.pfm", "-s", "24x16"]),
+    "crop": (PLAIN, PLAIN + ["--crop", "4,4,20,12"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
