@@ -18,6 +18,7 @@ static bool check_window(Options *options, Error *error)
         {options->fits_level, "--max-level auto is"},
         {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
         {options->crop.is_given, "--crop is"},
+        {options->parts > 0, "--part is"},
         {options->reference, "--reference is"},
         {options->frames > 1, "--frames is"},
         {options->statistics_path != NULL, "--stats=FILE is"},
@@ -79,6 +80,22 @@ static bool check_crop(const Options *options, Error *error)
                             "and --time");
 }
 
+static bool check_part(const Options *options, Error *error)
+{
+    if (options->parts == 0)
+        return true;
+    if (!image_format_takes_layers(options->format))
+        return error_set(error, "--part needs an EXR file (-o FILE.exr), which clrt merge reads");
+    if (options_are_adaptive(options))
+        return error_set(error,
+                         "--part is of the samples of --aa: leave out --aa-adaptive, --error "
+                         "and --time");
+    if (options->reference)
+        return error_set(error, "--reference is of whole pictures: leave out --part");
+    return !options->no_metadata ||
+           error_set(error, "--part needs the metadata: leave out --no-metadata");
+}
+
 static bool check_samples(const Options *options, Error *error)
 {
     const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
@@ -123,8 +140,8 @@ bool options_check_purpose(Options *options, Error *error)
     if (options->keys != NULL || options->quit_after > 0)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
-           check_crop(options, error) && check_certainty(options, error) &&
-           check_streams(options, error);
+           check_crop(options, error) && check_part(options, error) &&
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)
@@ -138,4 +155,11 @@ bool options_check_compare(Options *options, Error *error)
     if (strcmp(options->output_path, "-") == 0 && (json_told || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
+}
+
+bool options_check_merge(Options *options, Error *error)
+{
+    if (options->output_path == NULL)
+        return error_set(error, "clrt merge wants the name of the whole picture: -o FILE");
+    return check_format(options, error) && check_streams(options, error);
 }

@@ -131,6 +131,20 @@ bool read_crop(Options *options, const char *value, Error *error)
                      value);
 }
 
+bool read_part_of(Options *options, const char *value, Error *error)
+{
+    int64_t part, parts;
+    const char *end = value + strlen(value);
+    const char *slash = integer_parse(value, end, &part);
+    if (slash == NULL || *slash != '/' || integer_parse(slash + 1, end, &parts) != end ||
+        part < 1 || part > parts || parts > PARTS_MAX)
+        return error_set(error, "--part wants I/N, I from 1 to N and N up to %d, not '%s'",
+                         PARTS_MAX, value);
+    options->part = (uint32_t)part;
+    options->parts = (uint32_t)parts;
+    return true;
+}
+
 bool read_frames(Options *options, const char *value, Error *error)
 {
     return read_count(value, "frames", FRAMES_MAX, &options->frames, error);

@@ -60,6 +60,9 @@ const Option option_table[] = {
     {"lanes", 0, "auto|4|8|16", read_lanes, GROUP_SPEED, CLASS_EXACT,
      "width of the kernels' vectors; auto (default) is the device's"},
 
+    {"part", 0, "I/N", read_part_of, GROUP_JOB, CLASS_NONE,
+     "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
+
     {"device", 0, "SPEC", read_device, GROUP_DEVICE, CLASS_EXACT,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
     {"list-devices", 0, "[=text|json]", read_list_devices, GROUP_DEVICE, CLASS_NONE,
@@ -109,11 +112,17 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "who walks the table keeps room for OPTIONS_MOST");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture",
-    [GROUP_QUALITY] = "Quality",   [GROUP_SPEED] = "Speed",
-    [GROUP_DEVICE] = "Device",     [GROUP_STATISTICS] = "Statistics",
-    [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports of check and compare",
-    [GROUP_WINDOW] = "Window",     [GROUP_TALK] = "Talk",
+    [GROUP_OUTPUT] = "Output",
+    [GROUP_PICTURE] = "Picture",
+    [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",
+    [GROUP_JOB] = "Long jobs",
+    [GROUP_DEVICE] = "Device",
+    [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry",
+    [GROUP_REPORT] = "Reports of check and compare",
+    [GROUP_WINDOW] = "Window",
+    [GROUP_TALK] = "Talk",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {

@@ -18,6 +18,7 @@ typedef enum {
     ACTION_VIEW,
     ACTION_CHECK,
     ACTION_COMPARE,
+    ACTION_MERGE,
     ACTION_EXPLAIN,
     ACTION_EXPLAIN_SCENE
 } Action;
@@ -29,6 +30,9 @@ typedef enum {
 } BadGeometry;
 
 #define FRAMES_MAX 1000
+
+// Parts that a picture is drawn in.
+#define PARTS_MAX 65536
 
 // Samples a pixel of a reference: unless they are given, and at most.
 #define REFERENCE_SAMPLES     256
@@ -47,6 +51,8 @@ typedef struct {
     Action action;
     const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
     const char *other_path; // ACTION_COMPARE's second
+    char **part_paths;      // of ACTION_MERGE: part_count of them
+    int part_count;
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     AovSet aovs;             // channels beside the colors
@@ -57,8 +63,9 @@ typedef struct {
     uint32_t view;           // from 1
     uint32_t width, height;  // 0: the scene's
     Crop crop;
-    int64_t max_level; // negative: the scene's
-    bool fits_level;   // max_level is the least whose error no file shows
+    uint32_t part, parts; // from 1; 0, 0: all of the picture
+    int64_t max_level;    // negative: the scene's
+    bool fits_level;      // max_level is the least whose error no file shows
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;

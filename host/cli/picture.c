@@ -10,11 +10,11 @@
 #include "cli/refined_picture.h"
 #include "image/image_file.h"
 #include "render/aov_pass.h"
+#include "render/tile.h"
 #include "scene/camera.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <strings.h>
 
 // One picture of as many as were asked for; they are the same.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
@@ -23,8 +23,7 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
     const RenderSettings *settings = &run->settings;
-    run->report.samples =
-        (uint64_t)settings->width * settings->height * settings->samples * settings->samples;
+    run->report.samples = tile_pixels(settings) * settings->samples * settings->samples;
     const bool ok =
         options_are_adaptive(run->options)
             ? refined_picture_draw(run, camera, &observer, error)
@@ -129,14 +128,15 @@ static bool write_picture(Run *run, Error *error)
     const Options *options = run->options;
     double moment = clock_seconds();
     framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
-    provenance_make(&provenance, &run->report);
+    provenance_fill(&provenance, &run->report);
+    provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
                                     .left = run->settings.left,
                                     .top = run->settings.top,
                                     .whole_width = render_whole_width(&run->settings),
                                     .whole_height = render_whole_height(&run->settings),
-                                    .texts = provenance.texts,
+                                    .texts = provenance.list,
                                     .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = run->layers.count > 0 ? &run->layers : NULL};
     const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
@@ -155,16 +155,6 @@ static bool write_statistics(Run *run, double start, Error *error)
         return true;
     }
     return report_write_json(&run->report, options->statistics_path, error);
-}
-
-// Tells the hash where it is asked for; false where it is not the one expected.
-static bool tell_hash(const Run *run, Error *error)
-{
-    const char *hash = run->report.pixel_hash, *expected = run->options->expected_hash;
-    if (run->options->hash)
-        printf("%s\n", hash);
-    return expected == NULL || strcasecmp(hash, expected) == 0 ||
-           error_set(error, "the hash of the pixels is %s, not the expected %s", hash, expected);
 }
 
 static void describe(const Run *run)
@@ -232,7 +222,7 @@ ExitCode picture_make(Run *run, Error *error)
         return EXIT_OUTPUT;
     if (run->stopped_by > 0)
         return (ExitCode)(128 + run->stopped_by);
-    if (!tell_hash(run, error))
+    if (!provenance_tell_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }

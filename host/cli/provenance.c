@@ -5,10 +5,10 @@
 
 #include "base/number.h"
 
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 
 // The last second of the year 9999.
@@ -46,13 +46,18 @@ static json_t *integer(uint32_t value)
     return json_integer((json_int_t)value);
 }
 
+static json_t *pair_json(uint32_t one, uint32_t other)
+{
+    return json_pack("[oo]", integer(one), integer(other));
+}
+
 static json_t *samples_json(const Report *report)
 {
     return options_are_adaptive(report->options) ? json_string("adaptive")
                                                  : integer(report->settings->samples);
 }
 
-static void write_settings(char *text, const Report *report)
+static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
     const Options *options = report->options;
@@ -66,32 +71,61 @@ static void write_settings(char *text, const Report *report)
         json_object_set_new(json, "crop", crop_json(settings));
     if (options_are_adaptive(options))
         json_object_set_new(json, "contrast", json_real(report->contrast));
-    const size_t length = json_dumpb(json, text, PROVENANCE_SETTINGS - 1,
+    if (settings->parts > 0)
+        json_object_set_new(json, "part", pair_json(settings->part + 1, settings->parts));
+    if (settings->parts > 0)
+        json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
+    return json;
+}
+
+void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings)
+{
+    const size_t length = json_dumpb(settings, text, STORED_TEXT_SIZE - 1,
                                      JSON_SORT_KEYS | JSON_COMPACT | JSON_REAL_PRECISION(6));
-    text[length < PROVENANCE_SETTINGS ? length : 0] = '\0';
-    json_decref(json);
+    text[length < STORED_TEXT_SIZE ? length : 0] = '\0';
+}
+
+static void set(Provenance *provenance, StoredText kind, const char *value)
+{
+    snprintf(provenance->texts[kind], STORED_TEXT_SIZE, "%s", value);
+}
+
+void provenance_fill(Provenance *provenance, const Report *report)
+{
+    json_t *settings = settings_json(report);
+    set(provenance, STORED_VERSION, CLRT_VERSION);
+    scene_hash_name(report->scene_hash, provenance->texts[STORED_SCENE_HASH]);
+    scene_hash_name(report->mesh_hash, provenance->texts[STORED_MESH_HASH]);
+    provenance_write_settings(provenance->texts[STORED_SETTINGS], settings);
+    set(provenance, STORED_DEVICE, report->device_name);
+    set(provenance, STORED_DRIVER, report->device_version);
+    set(provenance, STORED_PIXEL_HASH, report->pixel_hash);
+    set(provenance, STORED_COMPLETE, report->complete ? "yes" : "no");
+    json_decref(settings);
 }
 
 static void add(Provenance *provenance, const char *name, const char *value)
 {
-    provenance->texts[provenance->count++] = (ImageText){name, value};
+    provenance->list[provenance->count++] = (ImageText){name, value};
 }
 
-void provenance_make(Provenance *provenance, const Report *report)
+void provenance_list(Provenance *provenance)
 {
     provenance->count = 0;
-    scene_hash_name(report->scene_hash, provenance->scene_hash);
-    scene_hash_name(report->mesh_hash, provenance->mesh_hash);
-    write_settings(provenance->settings, report);
-    add(provenance, "Software", "clrt " CLRT_VERSION);
+    snprintf(provenance->software, sizeof provenance->software, "clrt %.40s",
+             provenance->texts[STORED_VERSION]);
+    add(provenance, "Software", provenance->software);
     if (write_date(provenance->date, sizeof provenance->date))
         add(provenance, "DateTime", provenance->date);
-    add(provenance, "clrt:version", CLRT_VERSION);
-    add(provenance, "clrt:scene_hash", provenance->scene_hash);
-    add(provenance, "clrt:mesh_hash", provenance->mesh_hash);
-    add(provenance, "clrt:settings", provenance->settings);
-    add(provenance, "clrt:device", report->device_name);
-    add(provenance, "clrt:driver", report->device_version);
-    add(provenance, "clrt:pixel_hash", report->pixel_hash);
-    add(provenance, "clrt:complete", report->complete ? "yes" : "no");
+    for (int kind = 0; kind < STORED_TEXTS; kind++)
+        add(provenance, stored_text_names[kind], provenance->texts[kind]);
+}
+
+bool provenance_tell_hash(const Options *options, const char *hash, Error *error)
+{
+    const char *expected = options->expected_hash;
+    if (options->hash)
+        printf("%s\n", hash);
+    return expected == NULL || strcasecmp(hash, expected) == 0 ||
+           error_set(error, "the hash of the pixels is %s, not the expected %s", hash, expected);
 }

@@ -5,21 +5,28 @@
 
 #include "cli/report.h"
 
-#define PROVENANCE_TEXTS    12
-#define PROVENANCE_SETTINGS 512
+#define PROVENANCE_TEXTS (STORED_TEXTS + 2)
 
-// Strings of the texts that the report does not hold live here, so it stays where it was made.
 typedef struct {
-    ImageText texts[PROVENANCE_TEXTS];
+    char texts[STORED_TEXTS][STORED_TEXT_SIZE];
+    char software[64], date[24];
+    ImageText list[PROVENANCE_TEXTS]; // of the above, so that it stays where it was made
     size_t count;
-    char scene_hash[SCENE_HASH_SIZE], mesh_hash[SCENE_HASH_SIZE];
-    char settings[PROVENANCE_SETTINGS]; // JSON on one line
-    char date[24];
 } Provenance;
 
 // Whether SOURCE_DATE_EPOCH, where the environment has it, is a number of seconds.
 bool provenance_check_date(Error *error);
 
-// The names are told in tools/manual/clrt.1.in.  A date is among them where SOURCE_DATE_EPOCH gives
-// one: two identical runs write identical files.
-void provenance_make(Provenance *provenance, const Report *report);
+// Fills the texts, whose names are told in tools/manual/clrt.1.in.
+void provenance_fill(Provenance *provenance, const Report *report);
+
+// Writes settings on one line, as short as it goes.
+void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
+
+// Lists the texts for a file.  A date is among them where SOURCE_DATE_EPOCH gives one: two
+// identical runs write identical files.
+void provenance_list(Provenance *provenance);
+
+// Prints the hash of a picture's pixels where the options ask for it; false where it is not the one
+// they expect.
+bool provenance_tell_hash(const Options *options, const char *hash, Error *error);

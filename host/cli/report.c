@@ -4,6 +4,7 @@
 
 #include "accel/levels.h"
 #include "cli/json_file.h"
+#include "render/tile.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -25,8 +26,8 @@ static double per_ray(const Report *report, TallyKind kind)
 
 static double samples_per_pixel(const Report *report)
 {
-    const RenderSettings *settings = report->settings;
-    return (double)report->samples / ((double)settings->width * settings->height);
+    const uint64_t pixels = tile_pixels(report->settings);
+    return pixels == 0 ? 0 : (double)report->samples / (double)pixels;
 }
 
 static const char *tree_name(const Report *report)

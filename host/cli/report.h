@@ -4,6 +4,7 @@
 
 #include "cli/options.h"
 #include "compare/difference.h"
+#include "image/stored_image.h"
 
 #include <stdio.h>
 

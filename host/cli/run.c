@@ -49,6 +49,8 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
         .max_level = max_level_of(options, scene),
         .tile_width = options->tile_width,
         .tile_height = options->tile_height,
+        .part = options->parts > 0 ? options->part - 1 : 0,
+        .parts = options->parts,
         .group_width = options->group_width,
         .group_height = options->group_height,
         .statistics = options->statistics,

@@ -39,7 +39,7 @@ static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
     int value = -1;
-    const char *word = strstr(image->settings, name);
+    const char *word = strstr(image->texts[STORED_SETTINGS], name);
     snprintf(pattern, sizeof pattern, "%s%%9d", name);
     return word != NULL && sscanf(word, pattern, &value) == 1 ? value : -1;
 }
@@ -85,7 +85,7 @@ static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];
     for (int i = 0; i < 2; i++) {
-        words[i] = strstr(sides[i].image->settings, "\"samples\":");
+        words[i] = strstr(sides[i].image->texts[STORED_SETTINGS], "\"samples\":");
         if (words[i] == NULL)
             return false;
     }

@@ -135,8 +135,9 @@ void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
     for (int i = 0; i < spec.nchannels; i++)
         std::snprintf(content.names[i], sizeof content.names[i], "%s",
                       spec.channel_name(i).c_str());
-    std::snprintf(content.settings, sizeof content.settings, "%s",
-                  std::string(spec.get_string_attribute("clrt:settings")).c_str());
+    for (int i = 0; i < IMAGE_MODULE_TEXTS; i++)
+        std::snprintf(content.texts[i], sizeof content.texts[i], "%s",
+                      std::string(spec.get_string_attribute(content.text_names[i])).c_str());
 }
 
 bool is_integer(const OIIO::ImageSpec &spec, int channel)

@@ -31,17 +31,19 @@ typedef int ImageModuleWrite(const ImageModulePicture *picture, char *message, s
 #define IMAGE_MODULE_WRITE "clrt_image_module_write"
 ImageModuleWrite clrt_image_module_write;
 
-#define IMAGE_MODULE_CHANNELS      64
-#define IMAGE_MODULE_NAME_SIZE     32
-#define IMAGE_MODULE_SETTINGS_SIZE 512
+#define IMAGE_MODULE_CHANNELS  64
+#define IMAGE_MODULE_NAME_SIZE 32
+#define IMAGE_MODULE_TEXTS     8
+#define IMAGE_MODULE_TEXT_SIZE 512
 
 /* What a file holds. */
 typedef struct {
-    uint64_t values_max; /* larger pictures are refused */
+    uint64_t values_max;           /* larger pictures are refused */
+    const char *const *text_names; /* of the texts that are wanted */
     uint32_t width, height, channel_count;
     int is_8_bit;
     char names[IMAGE_MODULE_CHANNELS][IMAGE_MODULE_NAME_SIZE];
-    char settings[IMAGE_MODULE_SETTINGS_SIZE]; /* the text clrt:settings */
+    char texts[IMAGE_MODULE_TEXTS][IMAGE_MODULE_TEXT_SIZE];
     void *values; /* unsigned char or float, all channels of a pixel together, top row first */
 } ImageModuleContent;
 

@@ -56,7 +56,7 @@ static bool build(AovPass *pass, Error *error)
 static bool make_room(AovPass *pass, Error *error)
 {
     cl_int status;
-    const Tile largest = tile_at(&pass->source->renderer->settings, 0);
+    const Tile largest = tile_largest(&pass->source->renderer->settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t tests = pass->counts_tests ? count : 1;
     cl_context context = pass->source->setup->device->context;

@@ -51,7 +51,7 @@ static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error
 static bool make_room(Certifier *certifier, Error *error)
 {
     cl_int status;
-    const Tile largest = tile_at(&certifier->reference.settings, 0);
+    const Tile largest = tile_largest(&certifier->reference.settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t colors = count * sizeof *certifier->host_colors;
     const size_t marks = count * sizeof *certifier->host_marks;

@@ -29,7 +29,7 @@ typedef struct {
 static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
 {
     const RenderSettings *settings = &renderer->settings;
-    const Tile largest = tile_at(settings, 0);
+    const Tile largest = tile_largest(settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t tallies = settings->statistics ? count : 1;
     const Device *device = renderer->device;

@@ -19,6 +19,7 @@ typedef struct {
     uint32_t samples;                   // per pixel and axis
     uint32_t max_level;                 // rays of this level return the background
     uint32_t tile_width, tile_height;
+    uint32_t part, parts; // of every so many tiles the one of that place is drawn; 0, 0: all are
     uint32_t group_width, group_height; // of work-groups, in work-items
     bool statistics;
     Specialization specialization;

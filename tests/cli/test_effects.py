@@ -55,6 +55,10 @@ TRIALS = {
         PICTURE + ["--kernel", "ray", "--nodes", "pair"],
     ),
     "lanes": (PICTURE + ["--lanes", "8"], PICTURE + ["--lanes", "4"]),
+    "part": (
+        PLAIN + ["--format", "exr", "--tile", "8x8"],
+        PLAIN + ["--format", "exr", "--tile", "8x8", "--part", "2/3"],
+    ),
     "device": (PICTURE, PICTURE + ["--device", "no such device"]),
     "list-devices": ([], ["--list-devices"]),
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),

@@ -19,7 +19,7 @@ static StoredImage gray_image(const char *settings)
 {
     StoredImage image = {.width = PIXELS, .height = 1, .channel_count = CHANNELS};
     Error error = {0};
-    strcpy(image.settings, settings);
+    strcpy(image.texts[STORED_SETTINGS], settings);
     for (int i = 0; i < CHANNELS; i++)
         strcpy(image.names[i], names[i]);
     assert_true(stored_image_allocate(&image, &error));
