@@ -19,6 +19,7 @@ static bool check_window(Options *options, Error *error)
         {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
         {options->crop.is_given, "--crop is"},
         {options->parts > 0, "--part is"},
+        {options->resume, "--resume is"},
         {options->reference, "--reference is"},
         {options->frames > 1, "--frames is"},
         {options->statistics_path != NULL, "--stats=FILE is"},
@@ -96,6 +97,21 @@ static bool check_part(const Options *options, Error *error)
            error_set(error, "--part needs the metadata: leave out --no-metadata");
 }
 
+static bool check_resume(const Options *options, Error *error)
+{
+    if (!options->resume)
+        return true;
+    if (strcmp(options->output_path, "-") == 0)
+        return error_set(error, "--resume goes on with a file: standard output is none");
+    if (options_are_adaptive(options))
+        return error_set(error, "--resume is of the samples of --aa: leave out --aa-adaptive, "
+                                "--error and --time");
+    if (options->statistics)
+        return error_set(error, "--stats counts the rays of whole pictures: leave out --resume");
+    return options->frames == 1 ||
+           error_set(error, "--frames times whole pictures: leave out --resume");
+}
+
 static bool check_samples(const Options *options, Error *error)
 {
     const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
@@ -141,7 +157,8 @@ bool options_check_purpose(Options *options, Error *error)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
            check_crop(options, error) && check_part(options, error) &&
-           check_certainty(options, error) && check_streams(options, error);
+           check_resume(options, error) && check_certainty(options, error) &&
+           check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

@@ -145,6 +145,13 @@ bool read_part_of(Options *options, const char *value, Error *error)
     return true;
 }
 
+bool read_resume(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->resume = true;
+    return true;
+}
+
 bool read_frames(Options *options, const char *value, Error *error)
 {
     return read_count(value, "frames", FRAMES_MAX, &options->frames, error);

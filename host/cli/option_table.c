@@ -62,6 +62,9 @@ const Option option_table[] = {
 
     {"part", 0, "I/N", read_part_of, GROUP_JOB, CLASS_NONE,
      "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
+    {"resume", 0, NULL, read_resume, GROUP_JOB, CLASS_EXACT,
+     "keep finished tiles in FILE.part until the picture is whole, and go on from there or from an "
+     "EXR file that was stopped"},
 
     {"device", 0, "SPEC", read_device, GROUP_DEVICE, CLASS_EXACT,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},

@@ -64,8 +64,9 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: all of the picture
-    int64_t max_level;    // negative: the scene's
-    bool fits_level;      // max_level is the least whose error no file shows
+    bool resume;
+    int64_t max_level; // negative: the scene's
+    bool fits_level;   // max_level is the least whose error no file shows
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;

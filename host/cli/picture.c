@@ -8,6 +8,7 @@
 #include "cli/provenance.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
+#include "cli/stop.h"
 #include "image/image_file.h"
 #include "render/aov_pass.h"
 #include "render/tile.h"
@@ -16,24 +17,40 @@
 #include <math.h>
 #include <stdio.h>
 
+// What is told of every tile.
+typedef struct {
+    Run *run;
+    Progress progress;
+    Error *error;
+} Watch;
+
+static bool tile_done(void *context, const RenderProgress *render)
+{
+    Watch *watch = context;
+    Run *run = watch->run;
+    return resume_keep(&run->resume, &run->settings, &run->framebuffer, render->tiles_done - 1,
+                       watch->error) &&
+           progress_tile_done(&watch->progress, render);
+}
+
 // One picture of as many as were asked for; they are the same.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 {
     double moment = clock_seconds();
-    Progress progress = progress_begin(run->options->quiet);
-    const RenderObserver observer = {progress_tile_done, &progress};
+    Watch watch = {run, progress_begin(run->options->quiet), error};
+    const RenderObserver observer = {tile_done, &watch};
     const RenderSettings *settings = &run->settings;
     run->report.samples = tile_pixels(settings) * settings->samples * settings->samples;
     const bool ok =
         options_are_adaptive(run->options)
             ? refined_picture_draw(run, camera, &observer, error)
             : renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
-    run->stopped_by = progress_end(&progress);
+    run->stopped_by = progress_end(&watch.progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
     run->report.frame_seconds[run->report.frame_count++] = seconds;
-    return ok;
+    return ok && !run->resume.is_broken;
 }
 
 static CameraData camera_of(const Run *run, uint32_t samples)
@@ -48,8 +65,6 @@ static bool draw(Run *run, Error *error)
     const RenderSettings *settings = &run->settings;
     const CameraData camera =
         camera_of(run, options_are_adaptive(run->options) ? REFINE_GRID : settings->samples);
-    if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
-        return false;
     bool ok = true;
     double moment = clock_seconds();
     for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
@@ -57,6 +72,7 @@ static bool draw(Run *run, Error *error)
     starter_note_traced(&run->starter, run_lap(&moment));
     run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
+    run->report.tiles_done = done->tiles_done;
     run->report.complete = ok && done->tiles_done == done->tiles;
     for (int kind = 0; kind < TALLY_KINDS; kind++)
         run->report.tallies[kind] = done->tallies[kind];
@@ -175,6 +191,10 @@ static void describe(const Run *run)
             kernel_precision_name(report->choice->precision),
             report->specialized ? "specialized" : "general", report->kernel_build,
             report->upload_size);
+    if (run->options->resume)
+        fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
+                (unsigned long long)run->settings.ready_tiles,
+                (unsigned long long)tile_count(&run->settings));
 }
 
 static ExitCode goal_missed(const Run *run, Error *error)
@@ -189,16 +209,28 @@ static ExitCode goal_missed(const Run *run, Error *error)
     return EXIT_FAULTS;
 }
 
-ExitCode picture_make(Run *run, Error *error)
+// What shows before any work.
+static ExitCode check_files(Run *run, Error *error)
 {
-    const double start = clock_seconds();
+    const Options *options = run->options;
     if (!provenance_check_date(error))
         return EXIT_USAGE;
-    if (!output_file_check(run->options->output_path, error))
+    if (!output_file_check(options->output_path, error) ||
+        (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
-    const char *reference_path = run->options->reference_path;
-    if (reference_path != NULL && !output_file_check(reference_path, error))
-        return EXIT_OUTPUT;
+    return options->resume && !resume_look(&run->resume, options, error) ? EXIT_SCENE : EXIT_DONE;
+}
+
+// Black, but for the tiles that are there.
+static bool begin_picture(Run *run, Error *error)
+{
+    const RenderSettings *settings = &run->settings;
+    return framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
+           resume_open(&run->resume, &run->report, &run->settings, &run->framebuffer, error);
+}
+
+static ExitCode prepare(Run *run, Error *error)
+{
     image_prepare(run->options->format);
     run_begin(run);
     if (!run_load_scene(run, error)) {
@@ -209,20 +241,37 @@ ExitCode picture_make(Run *run, Error *error)
         return EXIT_OUTPUT;
     if (!run_await_device(run, error))
         return EXIT_DEVICE;
-    if (!run_build_scene(run, error))
+    if (!run_build_scene(run, error) || !begin_picture(run, error))
         return EXIT_SCENE;
-    if (!run_open_renderer(run, error))
-        return EXIT_DEVICE;
-    describe(run);
-    if (!draw(run, error) || !certify(run, error) || !draw_layers(run, error) ||
-        !measure_error(run, error))
-        return EXIT_DEVICE;
+    return run_open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
+}
+
+static ExitCode finish(Run *run, double start, Error *error)
+{
     if (!write_picture(run, error) || !write_reference(run, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
+    resume_close(&run->resume, run->report.complete);
     if (run->stopped_by > 0)
         return (ExitCode)(128 + run->stopped_by);
     if (!provenance_tell_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
+}
+
+ExitCode picture_make(Run *run, Error *error)
+{
+    const double start = clock_seconds();
+    ExitCode code = check_files(run, error);
+    if (code == EXIT_DONE)
+        code = prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
+    describe(run);
+    stop_watch();
+    if (!draw(run, error))
+        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
+    if (!certify(run, error) || !draw_layers(run, error) || !measure_error(run, error))
+        return EXIT_DEVICE;
+    return finish(run, start, error);
 }

@@ -61,6 +61,7 @@ static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
     const Options *options = report->options;
+    const bool is_unfinished = !report->complete && !options_are_adaptive(options);
     json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(options->view),
                              "width", integer(render_whole_width(settings)), "height",
                              integer(render_whole_height(settings)), "samples",
@@ -73,8 +74,10 @@ static json_t *settings_json(const Report *report)
         json_object_set_new(json, "contrast", json_real(report->contrast));
     if (settings->parts > 0)
         json_object_set_new(json, "part", pair_json(settings->part + 1, settings->parts));
-    if (settings->parts > 0)
+    if (settings->parts > 0 || is_unfinished)
         json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
+    if (is_unfinished)
+        json_object_set_new(json, "tiles_done", json_integer((json_int_t)report->tiles_done));
     return json;
 }
 

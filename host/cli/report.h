@@ -41,6 +41,7 @@ typedef struct {
     uint64_t samples;  // of all pixels together
     bool specialized;
     bool complete;
+    uint64_t tiles_done;
     uint64_t tallies[TALLY_KINDS];
     // Seconds.
     double parse, load, build, device, upload, kernel_build, trace, write, total;

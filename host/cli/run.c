@@ -157,6 +157,7 @@ void run_free(Run *run)
     layers_free(&run->layers);
     free(run->samples);
     certainty_map_free(&run->certainty);
+    resume_close(&run->resume, false);
     starter_wait_kernel(&run->starter);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);

@@ -7,6 +7,7 @@
 #include "accel/flat.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/resume.h"
 #include "cli/starter.h"
 #include "render/certifier.h"
 
@@ -24,6 +25,7 @@ typedef struct {
     Layers layers;          // beside the colors
     uint32_t *samples;      // of each pixel, for the layers; NULL where all have as many
     CertaintyMap certainty; // empty unless it was asked for
+    Resume resume;          // empty without --resume
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

@@ -68,11 +68,55 @@ bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image)
     return true;
 }
 
+// Takes what tells the tiles out of the settings.
+static void strip(json_t *json)
+{
+    json_object_del(json, "tile");
+    json_object_del(json, "tiles_done");
+}
+
+// A picture that is whole has all its tiles, whatever they were; the others' must be the same.
+static bool count_done(const StoredImage *image, json_t *json, const RenderSettings *settings,
+                       uint64_t *tiles)
+{
+    const bool is_whole = strcmp(image->texts[STORED_COMPLETE], "yes") == 0;
+    int tile[2] = {(int)settings->tile_width, (int)settings->tile_height};
+    json_int_t done = (json_int_t)tile_count(settings);
+    *tiles = tile_count(settings);
+    if ((!is_whole || settings->parts > 0) &&
+        json_unpack(json, "{s:[ii]}", "tile", &tile[0], &tile[1]) != 0)
+        return false;
+    if (!is_whole && json_unpack(json, "{s:I}", "tiles_done", &done) != 0)
+        return false;
+    if (done < 0 || (uint64_t)done > *tiles)
+        return false;
+    *tiles = (uint64_t)done;
+    return tile[0] == (int)settings->tile_width && tile[1] == (int)settings->tile_height;
+}
+
+bool stored_tiles_done(const StoredImage *image, const char *settings_text,
+                       const RenderSettings *settings, uint64_t *tiles)
+{
+    json_t *stored = json_loads(image->texts[STORED_SETTINGS], 0, NULL);
+    json_t *own = json_loads(settings_text, 0, NULL);
+    bool ok = stored != NULL && own != NULL && count_done(image, stored, settings, tiles);
+    if (ok) {
+        strip(stored);
+        strip(own);
+        ok = json_equal(stored, own) != 0;
+    }
+    json_decref(stored);
+    json_decref(own);
+    return ok;
+}
+
 void stored_tiles_free(StoredTiles *tiles)
 {
     json_decref(tiles->whole);
     *tiles = (StoredTiles){0};
 }
+
+#define NOWHERE UINT32_MAX
 
 static const char *const color_names[3] = {"R", "G", "B"};
 
@@ -98,19 +142,27 @@ bool stored_tiles_name_layers(const StoredImage *image, Layers *layers)
     return stored_tiles_has(image, layers);
 }
 
-bool stored_tiles_has(const StoredImage *image, const Layers *layers)
+bool stored_tiles_has_colors(const StoredImage *image)
 {
-    bool has = image->channel_count == 3 + layers->count;
+    bool has = true;
     for (int color = 0; color < 3; color++)
         has = has && stored_image_channel(image, color_names[color]) >= 0;
+    return has;
+}
+
+bool stored_tiles_has(const StoredImage *image, const Layers *layers)
+{
+    bool has = image->channel_count == 3 + layers->count && stored_tiles_has_colors(image);
     for (uint32_t layer = 0; layer < layers->count; layer++)
         has = has && stored_image_channel(image, layers->list[layer].name) >= 0;
     return has;
 }
 
-// Where each of the image's channels goes in a pixel: 0 to 2 are colors, the others layers.
+// Where each of the image's channels goes in a pixel: 0 to 2 are colors, others layers, or nowhere.
 static void find_places(const StoredImage *image, const Layers *layers, uint32_t *places)
 {
+    for (uint32_t channel = 0; channel < image->channel_count; channel++)
+        places[channel] = NOWHERE;
     for (uint32_t color = 0; color < 3; color++)
         places[stored_image_channel(image, color_names[color])] = color;
     for (uint32_t layer = 0; layer < layers->count; layer++)
@@ -123,15 +175,15 @@ static void copy_pixel(const float *values, const uint32_t *places, uint32_t cou
     for (uint32_t channel = 0; channel < count; channel++)
         if (places[channel] < 3)
             color[places[channel]] = values[channel];
-        else
+        else if (places[channel] != NOWHERE)
             memcpy(&layers[places[channel] - 3], &values[channel], sizeof *values);
 }
 
 void stored_tiles_copy(const RenderSettings *settings, uint64_t count, const StoredImage *image,
                        Framebuffer *framebuffer, Layers *layers)
 {
-    assert(stored_tiles_has(image, layers));
-    uint32_t places[STORED_CHANNELS_MAX] = {0};
+    assert(stored_tiles_has_colors(image));
+    uint32_t places[STORED_CHANNELS_MAX];
     find_places(image, layers, places);
     for (uint64_t number = 0; number < count; number++) {
         const Tile tile = tile_at(settings, number);

@@ -157,8 +157,10 @@ static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObs
 {
     Renderer *renderer = drawing->renderer;
     const uint64_t tiles = tile_count(&renderer->settings);
-    renderer->progress = (RenderProgress){.tiles = tiles};
-    uint64_t started = 0;
+    const uint64_t ready = renderer->settings.ready_tiles;
+    renderer->progress =
+        (RenderProgress){.tiles_done = ready, .tiles = tiles, .tiles_ready = ready};
+    uint64_t started = ready;
     bool wanted = true;
     while (renderer->progress.tiles_done < (wanted ? tiles : started)) {
         while (wanted && started < tiles && started < renderer->progress.tiles_done + SLOTS) {

@@ -19,6 +19,7 @@ typedef struct {
     uint32_t samples;                   // per pixel and axis
     uint32_t max_level;                 // rays of this level return the background
     uint32_t tile_width, tile_height;
+    uint64_t ready_tiles; // that many of the first are there already and are not drawn
     uint32_t part, parts; // of every so many tiles the one of that place is drawn; 0, 0: all are
     uint32_t group_width, group_height; // of work-groups, in work-items
     bool statistics;
@@ -50,6 +51,7 @@ static inline bool render_is_part(const RenderSettings *settings)
 
 typedef struct {
     uint64_t tiles_done, tiles;
+    uint64_t tiles_ready;          // of those done, that were there before
     uint64_t tallies[TALLY_KINDS]; // zeros unless statistics were asked for
 } RenderProgress;
 

@@ -59,6 +59,7 @@ TRIALS = {
         PLAIN + ["--format", "exr", "--tile", "8x8"],
         PLAIN + ["--format", "exr", "--tile", "8x8", "--part", "2/3"],
     ),
+    "resume": (PLAIN + ["-v"], PLAIN + ["-v", "--resume"]),
     "device": (PICTURE, PICTURE + ["--device", "no such device"]),
     "list-devices": ([], ["--list-devices"]),
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
