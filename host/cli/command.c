@@ -22,7 +22,7 @@ static const char *const explain_options[] = {
 
 static const char *const explain_scene_options[] = {
     "explain",   "size",       "view",         "aa",    "bvh",     "no-bvh", "device",
-    "threads",   "specialize", "frames",       "stats", "kernel",  "nodes",  "lanes",
+    "threads",   "specialize", "repeat",       "stats", "kernel",  "nodes",  "lanes",
     "precision", "json",       "bad-geometry", "quiet", "verbose", NULL};
 
 // Asked for by an option.

@@ -21,7 +21,7 @@ static bool check_window(Options *options, Error *error)
         {options->parts > 0, "--part is"},
         {options->resume, "--resume is"},
         {options->reference, "--reference is"},
-        {options->frames > 1, "--frames is"},
+        {options->repeat > 1, "--repeat is"},
         {options->statistics_path != NULL, "--stats=FILE is"},
         {options->no_metadata, "--no-metadata is"},
         {options->hash || options->expected_hash != NULL, "--hash and --expect-hash are"},
@@ -108,8 +108,8 @@ static bool check_resume(const Options *options, Error *error)
                                 "--error and --time");
     if (options->statistics)
         return error_set(error, "--stats counts the rays of whole pictures: leave out --resume");
-    return options->frames == 1 ||
-           error_set(error, "--frames times whole pictures: leave out --resume");
+    return options->repeat == 1 ||
+           error_set(error, "--repeat times whole pictures: leave out --resume");
 }
 
 static bool check_samples(const Options *options, Error *error)

@@ -152,9 +152,9 @@ bool read_resume(Options *options, const char *value, Error *error)
     return true;
 }
 
-bool read_frames(Options *options, const char *value, Error *error)
+bool read_repeat(Options *options, const char *value, Error *error)
 {
-    return read_count(value, "frames", FRAMES_MAX, &options->frames, error);
+    return read_count(value, "repeat", REPEAT_MAX, &options->repeat, error);
 }
 
 bool read_tile(Options *options, const char *value, Error *error)

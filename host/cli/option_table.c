@@ -81,7 +81,7 @@ const Option option_table[] = {
      "measure the picture against one in fp64 with many samples; write that to FILE"},
     {"reference-samples", 0, "N", read_reference_samples, GROUP_STATISTICS, CLASS_NONE,
      "samples a pixel of the reference, an even number (256)"},
-    {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
+    {"repeat", 0, "N", read_repeat, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"explain", 0, NULL, read_explain, GROUP_STATISTICS, CLASS_NONE,
      "tell what of the kernels and the scene's arrays is used, what is left out and why, and draw "

@@ -109,7 +109,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     char shorts[2 * OPTIONS_MOST + 2];
     *options = (Options){.samples = 1,
                          .view = 1,
-                         .frames = 1,
+                         .repeat = 1,
                          .reference_samples = REFERENCE_SAMPLES,
                          .max_level = -1,
                          .uses_bvh = true,

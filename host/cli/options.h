@@ -29,7 +29,7 @@ typedef enum {
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 
-#define FRAMES_MAX 1000
+#define REPEAT_MAX 1000
 
 // Parts that a picture is drawn in.
 #define PARTS_MAX 65536
@@ -75,7 +75,7 @@ typedef struct {
     bool reference;             // the picture is measured against one
     const char *reference_path; // where that is written, NULL for nowhere
     uint32_t reference_samples; // a pixel; an odd number is one more
-    uint32_t frames;            // how often the picture is drawn, from 1
+    uint32_t repeat;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
     KernelWish kernel;

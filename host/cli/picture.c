@@ -67,7 +67,7 @@ static bool draw(Run *run, Error *error)
         camera_of(run, options_are_adaptive(run->options) ? REFINE_GRID : settings->samples);
     bool ok = true;
     double moment = clock_seconds();
-    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
+    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->repeat; frame++)
         ok = draw_frame(run, &camera, error);
     starter_note_traced(&run->starter, run_lap(&moment));
     run->report.trace = run->report.frame_seconds[0];

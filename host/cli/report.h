@@ -45,7 +45,7 @@ typedef struct {
     uint64_t tallies[TALLY_KINDS];
     // Seconds.
     double parse, load, build, device, upload, kernel_build, trace, write, total;
-    double frame_seconds[FRAMES_MAX]; // of every picture drawn; the first is trace
+    double frame_seconds[REPEAT_MAX]; // of every picture drawn; the first is trace
     uint32_t frame_count;
     ReferenceResult reference;
     CertaintyResult certainty;

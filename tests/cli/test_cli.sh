@@ -32,7 +32,7 @@ if [ "${WINDOW:-}" = ON ]; then
     refuses 2 "--aa-adaptive, --error and --time are for files: give one with -o FILE" \
     --aa-adaptive "$scene"
   check "repeated pictures are for files" \
-    refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
+    refuses 2 "--repeat is for files: give one with -o FILE" --repeat 2 "$scene"
   check "channels are for files" \
     refuses 2 "--aov is for files: give one with -o FILE.exr" --aov depth "$scene"
   check "statistics in files are for files" \
@@ -185,7 +185,7 @@ check "tiles have an effect" pixels a.pfm --tile 16x8 --work-group 4x2 --stats=d
 check "... says the JSON" json d.json "d['settings']['tile'] == [16, 8] and d['settings']['work_group'] == [4, 2]"
 check "--specialize always has an effect" pixels a.pfm --specialize always --stats=e.json
 check "... says the JSON" json e.json "d['settings']['specialized']"
-check "--frames draws the picture as often" pixels f.pfm --frames 3 --stats=f.json
+check "--repeat draws the picture as often" pixels f.pfm --repeat 3 --stats=f.json
 check "... and times each" json f.json "len(d['frame_seconds']) == 3 and min(d['frame_seconds']) > 0"
 check "... the first as the picture's own" json f.json "d['seconds']['trace'] == d['frame_seconds'][0]"
 check "... and writes the same picture" cmp a.pfm f.pfm

@@ -67,7 +67,7 @@ TRIALS = {
     "stats": (PLAIN, PICTURE),
     "reference": (PICTURE, PICTURE + ["--reference"]),
     "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
-    "frames": (PICTURE, PICTURE + ["--frames", "2"]),
+    "repeat": (PICTURE, PICTURE + ["--repeat", "2"]),
     "explain": (PLAIN, [SCENE, "-s", "24x16", "--explain"]),
     "explain-pixel": (EXPLAIN + ["9,9"], EXPLAIN + ["12,8"]),
     "bad-geometry": (

@@ -261,7 +261,7 @@ class Refusals(Resume):
             (["-o", "a.pfm", "--aa-adaptive"],
              "--resume is of the samples of --aa: leave out --aa-adaptive, --error and --time"),
             (["-o", "a.pfm", "--stats"], "--stats counts the rays of whole pictures: leave out --resume"),
-            (["-o", "a.pfm", "--frames", "2"], "--frames times whole pictures: leave out --resume"),
+            (["-o", "a.pfm", "--repeat", "2"], "--repeat times whole pictures: leave out --resume"),
         ):
             self.assertEqual(self.clrt(*SMALL, "--resume", *words, code=2), f"clrt: {sentence}\n")
         os.mkfifo(self.work / "pipe.pfm")

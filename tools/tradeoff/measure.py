@@ -54,7 +54,7 @@ def first_row(place, name, words, scene, options, folder):
 
 
 def time_row(row, scene, options, folder):
-    done = run_clrt([scene, "-q", "-v", "--frames", FRAMES, "-o", folder / "unused.pfm",
+    done = run_clrt([scene, "-q", "-v", "--repeat", FRAMES, "-o", folder / "unused.pfm",
                      *options.clrt_words, *row["words"]])
     frames = [float(text) for text in re.findall(r"traced in ([0-9.]+) s", done.stderr)]
     row["times"].append(min(frames[1:]))
