@@ -20,6 +20,7 @@ static bool check_window(Options *options, Error *error)
         {options->crop.is_given, "--crop is"},
         {options->parts > 0, "--part is"},
         {options->resume, "--resume is"},
+        {frames_are_many(&options->frames), "--frames and --turntable are"},
         {options->reference, "--reference is"},
         {options->repeat > 1, "--repeat is"},
         {options->statistics_path != NULL, "--stats=FILE is"},
@@ -112,6 +113,34 @@ static bool check_resume(const Options *options, Error *error)
            error_set(error, "--repeat times whole pictures: leave out --resume");
 }
 
+static bool check_frames(Options *options, Error *error)
+{
+    const Frames *frames = &options->frames;
+    const struct {
+        bool is_given;
+        const char *sentence;
+    } refused[] = {
+        {strcmp(options->output_path, "-") == 0, "standard output takes one: give -o FILE"},
+        {options->statistics_path != NULL, "--stats=FILE is of one"},
+        {options->reference_path != NULL, "--reference=FILE is of one"},
+        {options->expected_hash != NULL, "--expect-hash is of one"},
+        {options->resume, "--resume is of one: name those that are missing by --frames"},
+    };
+    if (!frames_are_many(frames))
+        return true;
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        if (refused[i].is_given)
+            return error_set(error, "--frames and --turntable draw many pictures, and %s",
+                             refused[i].sentence);
+    if (frames->turntable == 0 && options->view_given)
+        return error_set(error, "--frames names the views: leave out --view");
+    if (frames->turntable > 0 && frames->last > frames->turntable)
+        return error_set(error, "--turntable %u has no picture %u", frames->turntable,
+                         frames->last);
+    frames_complete(&options->frames);
+    return true;
+}
+
 static bool check_samples(const Options *options, Error *error)
 {
     const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
@@ -157,8 +186,8 @@ bool options_check_purpose(Options *options, Error *error)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
            check_crop(options, error) && check_part(options, error) &&
-           check_resume(options, error) && check_certainty(options, error) &&
-           check_streams(options, error);
+           check_resume(options, error) && check_frames(options, error) &&
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

@@ -110,6 +110,7 @@ bool read_format(Options *options, const char *value, Error *error)
 
 bool read_view(Options *options, const char *value, Error *error)
 {
+    options->view_given = true;
     return read_count(value, "view", 1000000, &options->view, error);
 }
 
@@ -150,6 +151,18 @@ bool read_resume(Options *options, const char *value, Error *error)
     (void)value, (void)error;
     options->resume = true;
     return true;
+}
+
+bool read_frames(Options *options, const char *value, Error *error)
+{
+    return frames_parse(&options->frames, value) ||
+           error_set(error, "--frames wants A-B or A-B:S, from 1 to %d, not '%s'", FRAMES_MOST,
+                     value);
+}
+
+bool read_turntable(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "turntable", FRAMES_MOST, &options->frames.turntable, error);
 }
 
 bool read_repeat(Options *options, const char *value, Error *error)

@@ -60,6 +60,11 @@ const Option option_table[] = {
     {"lanes", 0, "auto|4|8|16", read_lanes, GROUP_SPEED, CLASS_EXACT,
      "width of the kernels' vectors; auto (default) is the device's"},
 
+    {"turntable", 0, "N", read_turntable, GROUP_JOB, CLASS_NONE,
+     "draw N pictures, each with the camera turned by one N-th further about what it looks at; "
+     "the file's name is numbered in place of its #### or before its ending"},
+    {"frames", 0, "A-B[:S]", read_frames, GROUP_JOB, CLASS_NONE,
+     "draw the views A to B, or those pictures of the turntable, or every S-th of them"},
     {"part", 0, "I/N", read_part_of, GROUP_JOB, CLASS_NONE,
      "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
     {"resume", 0, NULL, read_resume, GROUP_JOB, CLASS_EXACT,

@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "cli/crop.h"
+#include "cli/frames.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/aov.h"
@@ -60,11 +61,13 @@ typedef struct {
     double contrast;         // that adaptive anti-aliasing leaves; 0: none is asked for
     double error_goal;       // root mean square that the picture may be off; 0: any
     double time_goal;        // seconds that tracing is to take; 0: any
-    uint32_t view;           // from 1
-    uint32_t width, height;  // 0: the scene's
+    bool view_given;
+    uint32_t view;          // from 1
+    uint32_t width, height; // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: all of the picture
     bool resume;
+    Frames frames;
     int64_t max_level; // negative: the scene's
     bool fits_level;   // max_level is the least whose error no file shows
     bool uses_bvh;

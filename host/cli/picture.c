@@ -13,9 +13,11 @@
 #include "render/aov_pass.h"
 #include "render/tile.h"
 #include "scene/camera.h"
+#include "scene/turn.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 // What is told of every tile.
 typedef struct {
@@ -55,8 +57,7 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 
 static CameraData camera_of(const Run *run, uint32_t samples)
 {
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    return camera_make(viewpoint, &run->normalization, render_whole_height(&run->settings),
+    return camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings),
                        samples);
 }
 
@@ -155,7 +156,7 @@ static bool write_picture(Run *run, Error *error)
                                     .texts = provenance.list,
                                     .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = run->layers.count > 0 ? &run->layers : NULL};
-    const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
+    const bool ok = image_write(&run->framebuffer, run->output_path, &settings, error);
     run->report.write = run_lap(&moment);
     return ok;
 }
@@ -191,6 +192,14 @@ static void describe(const Run *run)
             kernel_precision_name(report->choice->precision),
             report->specialized ? "specialized" : "general", report->kernel_build,
             report->upload_size);
+}
+
+static void tell_beginning(const Run *run)
+{
+    if (!run->options->verbose)
+        return;
+    if (frames_are_many(&run->options->frames))
+        fprintf(stderr, "picture: %s\n", run->output_path);
     if (run->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
                 (unsigned long long)run->settings.ready_tiles,
@@ -221,14 +230,6 @@ static ExitCode check_files(Run *run, Error *error)
     return options->resume && !resume_look(&run->resume, options, error) ? EXIT_SCENE : EXIT_DONE;
 }
 
-// Black, but for the tiles that are there.
-static bool begin_picture(Run *run, Error *error)
-{
-    const RenderSettings *settings = &run->settings;
-    return framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
-           resume_open(&run->resume, &run->report, &run->settings, &run->framebuffer, error);
-}
-
 static ExitCode prepare(Run *run, Error *error)
 {
     image_prepare(run->options->format);
@@ -241,9 +242,45 @@ static ExitCode prepare(Run *run, Error *error)
         return EXIT_OUTPUT;
     if (!run_await_device(run, error))
         return EXIT_DEVICE;
-    if (!run_build_scene(run, error) || !begin_picture(run, error))
+    if (!run_build_scene(run, error))
         return EXIT_SCENE;
-    return run_open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
+    if (!run_open_renderer(run, error))
+        return EXIT_DEVICE;
+    describe(run);
+    return EXIT_DONE;
+}
+
+// Frees what there is of the picture before.
+static void clear(Run *run)
+{
+    framebuffer_free(&run->framebuffer);
+    framebuffer_free(&run->reference);
+    layers_free(&run->layers);
+    certainty_map_free(&run->certainty);
+    free(run->samples);
+    run->samples = NULL;
+    run->report.frame_count = 0;
+}
+
+// Where the frame of that number is seen from.
+static void look(Run *run, uint32_t number)
+{
+    const Options *options = run->options;
+    const uint32_t steps = options->frames.turntable;
+    run->report.view = steps > 0 ? options->view : number;
+    run->report.turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
+    run->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
+                                    run->scene.has_course_views, run->report.turned);
+}
+
+// Black, but for the tiles that are there.
+static bool begin_picture(Run *run, Error *error)
+{
+    RenderSettings *settings = &run->settings;
+    const bool ok = framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
+                    resume_open(&run->resume, &run->report, settings, &run->framebuffer, error);
+    run->renderer.settings.ready_tiles = settings->ready_tiles;
+    return ok;
 }
 
 static ExitCode finish(Run *run, double start, Error *error)
@@ -259,19 +296,53 @@ static ExitCode finish(Run *run, double start, Error *error)
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }
 
-ExitCode picture_make(Run *run, Error *error)
+static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error)
 {
-    const double start = clock_seconds();
-    ExitCode code = check_files(run, error);
-    if (code == EXIT_DONE)
-        code = prepare(run, error);
-    if (code != EXIT_DONE)
-        return code;
-    describe(run);
+    clear(run);
+    look(run, number);
+    if (!begin_picture(run, error))
+        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
+    tell_beginning(run);
     stop_watch();
     if (!draw(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
     if (!certify(run, error) || !draw_layers(run, error) || !measure_error(run, error))
         return EXIT_DEVICE;
     return finish(run, start, error);
+}
+
+// A goal that one frame misses keeps no other from being drawn.
+static ExitCode make_frames(Run *run, double start, Error *error)
+{
+    ExitCode outcome = EXIT_DONE;
+    const Frames *frames = &run->options->frames;
+    const uint32_t count = frames_count(frames);
+    for (uint32_t place = 0; place < count && outcome <= EXIT_FAULTS; place++) {
+        const uint32_t number = frames_at(frames, place);
+        if (stop_signal() != 0)
+            return (ExitCode)(128 + stop_signal());
+        char *name = frames_name(run->options->output_path, number, error);
+        if (name == NULL)
+            return EXIT_OUTPUT;
+        run->output_path = name;
+        const ExitCode code = make_frame(run, number, start, error);
+        outcome = code > outcome ? code : outcome;
+        free(name);
+    }
+    return outcome;
+}
+
+ExitCode picture_make(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const double start = clock_seconds();
+    ExitCode code = check_files(run, error);
+    if (code == EXIT_DONE)
+        code = prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
+    if (frames_are_many(&options->frames))
+        return make_frames(run, start, error);
+    run->output_path = options->output_path;
+    return make_frame(run, options->view, start, error);
 }

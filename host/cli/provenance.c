@@ -62,12 +62,14 @@ static json_t *settings_json(const Report *report)
     const RenderSettings *settings = report->settings;
     const Options *options = report->options;
     const bool is_unfinished = !report->complete && !options_are_adaptive(options);
-    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(options->view),
+    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(report->view),
                              "width", integer(render_whole_width(settings)), "height",
                              integer(render_whole_height(settings)), "samples",
                              samples_json(report), "max_level", integer(settings->max_level),
                              "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw",
                              "precision", kernel_precision_name(report->choice->precision));
+    if (report->turned > 0)
+        json_object_set_new(json, "turned", json_real(report->turned));
     if (render_is_part(settings))
         json_object_set_new(json, "crop", crop_json(settings));
     if (options_are_adaptive(options))

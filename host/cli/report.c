@@ -171,7 +171,7 @@ static json_t *settings_json(const Report *report)
     const RenderSettings *settings = report->settings;
     return json_pack(
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
-        integer(report->options->view), "width", integer(render_whole_width(settings)), "height",
+        integer(report->view), "width", integer(render_whole_width(settings)), "height",
         integer(render_whole_height(settings)), "crop", crop_json(settings), "samples",
         integer(settings->samples), "max_level", integer(settings->max_level), "truncation_bound",
         report->truncation, "tile", integer(settings->tile_width), integer(settings->tile_height),

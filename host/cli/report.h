@@ -28,6 +28,8 @@ typedef struct {
     const RenderSettings *settings;
     const KernelChoice *choice;
     const char *device_name, *device_version;
+    uint32_t view; // from 1
+    double turned; // degrees, on a turntable
     uint64_t scene_hash[2], mesh_hash[2];
     uint32_t lights, spheres, triangles;
     uint64_t dropped_triangles;

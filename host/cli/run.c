@@ -63,9 +63,12 @@ bool run_load_scene(Run *run, Error *error)
     double moment = clock_seconds();
     const Options *options = run->options;
     bool ok = scn_load(&run->scene, options->scene_path, error);
-    if (ok && options->view > run->scene.viewpoints.count)
+    const Frames *frames = &options->frames;
+    const bool are_views = frames->turntable == 0 && frames->last > 0;
+    const uint32_t view = are_views ? frames->last : options->view;
+    if (ok && view > run->scene.viewpoints.count)
         ok = error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
-                       run->scene.viewpoints.count, options->view);
+                       run->scene.viewpoints.count, view);
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = run_lap(&moment) - run->report.load;
     ok = ok && check_geometry(options, &run->scene, error);

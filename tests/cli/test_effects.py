@@ -55,6 +55,8 @@ TRIALS = {
         PICTURE + ["--kernel", "ray", "--nodes", "pair"],
     ),
     "lanes": (PICTURE + ["--lanes", "8"], PICTURE + ["--lanes", "4"]),
+    "turntable": (PLAIN, PLAIN + ["--turntable", "2"]),
+    "frames": (PLAIN, PLAIN + ["--frames", "2-3"]),
     "part": (
         PLAIN + ["--format", "exr", "--tile", "8x8"],
         PLAIN + ["--format", "exr", "--tile", "8x8", "--part", "2/3"],
