@@ -12,6 +12,9 @@ static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "thre
 static const char *const compare_options[] = {"output", "format",  "fail", "json",
                                               "quiet",  "verbose", NULL};
 
+static const char *const merge_options[] = {"output", "format",      "no-metadata",
+                                            "hash",   "expect-hash", NULL};
+
 static const char *const explain_options[] = {
     "explain-pixel", "size",    "view",   "aa",      "max-level", "bvh",       "no-bvh",
     "device",        "threads", "kernel", "nodes",   "lanes",     "precision", "encode",
@@ -19,7 +22,7 @@ static const char *const explain_options[] = {
 
 static const char *const explain_scene_options[] = {
     "explain",   "size",       "view",         "aa",    "bvh",     "no-bvh", "device",
-    "threads",   "specialize", "frames",       "stats", "kernel",  "nodes",  "lanes",
+    "threads",   "specialize", "repeat",       "stats", "kernel",  "nodes",  "lanes",
     "precision", "json",       "bad-geometry", "quiet", "verbose", NULL};
 
 // Asked for by an option.
@@ -46,6 +49,8 @@ const Command command_table[] = {
      "look for what is wrong in the scene's geometry, and draw nothing", false},
     {"compare", ACTION_COMPARE, compare_options, "PICTURE PICTURE",
      "tell how much two pictures differ; -o draws a map of it", true},
+    {"merge", ACTION_MERGE, merge_options, "PART...",
+     "join the EXR files of all parts that --part drew into the whole picture, -o", false},
 };
 
 const size_t command_count = sizeof command_table / sizeof command_table[0];

@@ -2,6 +2,7 @@
 // Reads both files, measures, and reports; the limits decide about the exit status.
 #include "cli/compare.h"
 
+#include "base/output_file.h"
 #include "cli/compare_report.h"
 #include "compare/difference_picture.h"
 #include "image/image_file.h"
@@ -74,7 +75,7 @@ static ExitCode report(const Comparison *comparison, Error *error)
 static ExitCode run(Comparison *comparison, Error *error)
 {
     const Options *options = comparison->options;
-    if (options->output_path != NULL && !image_check_path(options->output_path, error))
+    if (options->output_path != NULL && !output_file_check(options->output_path, error))
         return EXIT_OUTPUT;
     if (!read_both(comparison, error) || !measure(comparison, error))
         return EXIT_SCENE;

@@ -5,6 +5,7 @@
 #include "cli/device_report.h"
 #include "cli/explain.h"
 #include "cli/explain_scene.h"
+#include "cli/merge.h"
 #include "cli/option_help.h"
 #include "cli/picture.h"
 #include "cli/show.h"
@@ -62,6 +63,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return perform_run(&options, check, error);
     case ACTION_COMPARE:
         return compare_files(&options, error);
+    case ACTION_MERGE:
+        return merge_parts(&options, error);
     case ACTION_EXPLAIN:
         return perform_run(&options, explain_pixel, error);
     case ACTION_EXPLAIN_SCENE:

@@ -8,26 +8,29 @@
 static bool check_window(Options *options, Error *error)
 {
     options->action = ACTION_VIEW;
-    if (options->format != NULL)
-        return error_set(error, "--format is for files: give one with -o FILE");
-    if (options->tile_width != OPTIONS_TILE || options->tile_height != OPTIONS_TILE)
-        return error_set(error, "--tile is for files: give one with -o FILE");
-    if (options->bad_geometry != BAD_GEOMETRY_DROP)
-        return error_set(error, "--bad-geometry is for files: give one with -o FILE");
-    if (options->fits_level)
-        return error_set(error, "--max-level auto is for files: give one with -o FILE");
-    if (options_are_adaptive(options))
-        return error_set(error, "--aa-adaptive, --error and --time are for files: give one with "
-                                "-o FILE");
-    if (options->reference)
-        return error_set(error, "--reference is for files: give one with -o FILE");
-    if (options->aovs != 0)
-        return error_set(error, "--aov is for files: give one with -o FILE.exr");
-    if (options->frames > 1)
-        return error_set(error, "--frames is for files: give one with -o FILE");
-    if (options->statistics_path != NULL)
-        return error_set(error, "--stats=FILE is for files: give one with -o FILE");
-    return true;
+    const struct {
+        bool is_given;
+        const char *names;
+    } refused[] = {
+        {options->format != NULL, "--format is"},
+        {options->tile_width != OPTIONS_TILE || options->tile_height != OPTIONS_TILE, "--tile is"},
+        {options->bad_geometry != BAD_GEOMETRY_DROP, "--bad-geometry is"},
+        {options->fits_level, "--max-level auto is"},
+        {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
+        {options->crop.is_given, "--crop is"},
+        {options->parts > 0, "--part is"},
+        {options->resume, "--resume is"},
+        {frames_are_many(&options->frames), "--frames and --turntable are"},
+        {options->reference, "--reference is"},
+        {options->repeat > 1, "--repeat is"},
+        {options->statistics_path != NULL, "--stats=FILE is"},
+        {options->no_metadata, "--no-metadata is"},
+        {options->hash || options->expected_hash != NULL, "--hash and --expect-hash are"},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        if (refused[i].is_given)
+            return error_set(error, "%s for files: give one with -o FILE", refused[i].names);
+    return options->aovs == 0 || error_set(error, "--aov is for files: give one with -o FILE.exr");
 }
 #else
 static bool check_window(Options *options, Error *error)
@@ -71,6 +74,73 @@ static bool check_aovs(const Options *options, Error *error)
                      options->format);
 }
 
+// What refining does depends on the pixels around.
+static bool check_crop(const Options *options, Error *error)
+{
+    return !options->crop.is_given || !options_are_adaptive(options) ||
+           error_set(error, "--crop is of the samples of --aa: leave out --aa-adaptive, --error "
+                            "and --time");
+}
+
+static bool check_part(const Options *options, Error *error)
+{
+    if (options->parts == 0)
+        return true;
+    if (!image_format_takes_layers(options->format))
+        return error_set(error, "--part needs an EXR file (-o FILE.exr), which clrt merge reads");
+    if (options_are_adaptive(options))
+        return error_set(error,
+                         "--part is of the samples of --aa: leave out --aa-adaptive, --error "
+                         "and --time");
+    if (options->reference)
+        return error_set(error, "--reference is of whole pictures: leave out --part");
+    return !options->no_metadata ||
+           error_set(error, "--part needs the metadata: leave out --no-metadata");
+}
+
+static bool check_resume(const Options *options, Error *error)
+{
+    if (!options->resume)
+        return true;
+    if (strcmp(options->output_path, "-") == 0)
+        return error_set(error, "--resume goes on with a file: standard output is none");
+    if (options_are_adaptive(options))
+        return error_set(error, "--resume is of the samples of --aa: leave out --aa-adaptive, "
+                                "--error and --time");
+    if (options->statistics)
+        return error_set(error, "--stats counts the rays of whole pictures: leave out --resume");
+    return options->repeat == 1 ||
+           error_set(error, "--repeat times whole pictures: leave out --resume");
+}
+
+static bool check_frames(Options *options, Error *error)
+{
+    const Frames *frames = &options->frames;
+    const struct {
+        bool is_given;
+        const char *sentence;
+    } refused[] = {
+        {strcmp(options->output_path, "-") == 0, "standard output takes one: give -o FILE"},
+        {options->statistics_path != NULL, "--stats=FILE is of one"},
+        {options->reference_path != NULL, "--reference=FILE is of one"},
+        {options->expected_hash != NULL, "--expect-hash is of one"},
+        {options->resume, "--resume is of one: name those that are missing by --frames"},
+    };
+    if (!frames_are_many(frames))
+        return true;
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        if (refused[i].is_given)
+            return error_set(error, "--frames and --turntable draw many pictures, and %s",
+                             refused[i].sentence);
+    if (frames->turntable == 0 && options->view_given)
+        return error_set(error, "--frames names the views: leave out --view");
+    if (frames->turntable > 0 && frames->last > frames->turntable)
+        return error_set(error, "--turntable %u has no picture %u", frames->turntable,
+                         frames->last);
+    frames_complete(&options->frames);
+    return true;
+}
+
 static bool check_samples(const Options *options, Error *error)
 {
     const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
@@ -91,6 +161,19 @@ static void choose_precision(Options *options)
         wish->choice.precision = PRECISION_FP64;
 }
 
+// One thing at most goes to standard output.
+static bool check_streams(const Options *options, Error *error)
+{
+    const bool picture = strcmp(options->output_path, "-") == 0,
+               statistics =
+                   options->statistics_path != NULL && strcmp(options->statistics_path, "-") == 0;
+    if (picture && statistics)
+        return error_set(error, "the picture and the statistics cannot both go to standard output");
+    return !options->hash || !(picture || statistics) ||
+           error_set(error, "the %s and the hash cannot both go to standard output",
+                     picture ? "picture" : "statistics");
+}
+
 bool options_check_purpose(Options *options, Error *error)
 {
     const char *path = options->output_path;
@@ -101,12 +184,10 @@ bool options_check_purpose(Options *options, Error *error)
         return check_window(options, error);
     if (options->keys != NULL || options->quit_after > 0)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    const bool both = options->statistics_path != NULL && strcmp(path, "-") == 0 &&
-                      strcmp(options->statistics_path, "-") == 0;
     return check_format(options, error) && check_aovs(options, error) &&
-           check_certainty(options, error) &&
-           (!both || error_set(error, "the picture and the statistics cannot both go to standard "
-                                      "output"));
+           check_crop(options, error) && check_part(options, error) &&
+           check_resume(options, error) && check_frames(options, error) &&
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)
@@ -120,4 +201,11 @@ bool options_check_compare(Options *options, Error *error)
     if (strcmp(options->output_path, "-") == 0 && (json_told || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
+}
+
+bool options_check_merge(Options *options, Error *error)
+{
+    if (options->output_path == NULL)
+        return error_set(error, "clrt merge wants the name of the whole picture: -o FILE");
+    return check_format(options, error) && check_streams(options, error);
 }

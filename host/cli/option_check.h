@@ -10,3 +10,6 @@ bool options_check_purpose(Options *options, Error *error);
 
 // The same of clrt compare, whose picture may be left out.
 bool options_check_compare(Options *options, Error *error);
+
+// The same of clrt merge, which writes to a file alone.
+bool options_check_merge(Options *options, Error *error);

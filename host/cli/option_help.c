@@ -104,7 +104,8 @@ void options_write_help(FILE *stream)
     write_classes(stream);
     show_write_keys(stream);
     fprintf(stream,
-            "\nExit status: 0 done, 1 check found faults or compare's limits are broken, 2 usage,\n"
+            "\nExit status: 0 done, 1 check found faults, compare's limits are broken, or a hash,\n"
+            "             an error or a time is not as asked, 2 usage,\n"
             "             3 scene, mesh or picture, 4 device, 5 output,\n"
             "             128 + signal when stopped.\n");
 }

@@ -27,6 +27,29 @@ bool read_aov(Options *options, const char *value, Error *error)
     return true;
 }
 
+bool read_no_metadata(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->no_metadata = true;
+    return true;
+}
+
+bool read_hash(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->hash = true;
+    return true;
+}
+
+bool read_expect_hash(Options *options, const char *value, Error *error)
+{
+    options->expected_hash = value;
+    return (strlen(value) == FRAMEBUFFER_HASH_SIZE - 1 &&
+            strspn(value, "0123456789abcdefABCDEF") == FRAMEBUFFER_HASH_SIZE - 1) ||
+           error_set(error, "--expect-hash wants %d hexadecimal digits, not '%s'",
+                     FRAMEBUFFER_HASH_SIZE - 1, value);
+}
+
 bool read_explain(Options *options, const char *value, Error *error)
 {
     (void)value, (void)error;
@@ -87,6 +110,7 @@ bool read_format(Options *options, const char *value, Error *error)
 
 bool read_view(Options *options, const char *value, Error *error)
 {
+    options->view_given = true;
     return read_count(value, "view", 1000000, &options->view, error);
 }
 
@@ -99,9 +123,51 @@ bool read_size(Options *options, const char *value, Error *error)
     return ok;
 }
 
+bool read_crop(Options *options, const char *value, Error *error)
+{
+    return crop_parse(&options->crop, value) ||
+           error_set(error,
+                     "--crop wants X0,Y0,X1,Y1, pixels from the upper left corner or parts of the "
+                     "sides from 0 to 1, not '%s'",
+                     value);
+}
+
+bool read_part_of(Options *options, const char *value, Error *error)
+{
+    int64_t part, parts;
+    const char *end = value + strlen(value);
+    const char *slash = integer_parse(value, end, &part);
+    if (slash == NULL || *slash != '/' || integer_parse(slash + 1, end, &parts) != end ||
+        part < 1 || part > parts || parts > PARTS_MAX)
+        return error_set(error, "--part wants I/N, I from 1 to N and N up to %d, not '%s'",
+                         PARTS_MAX, value);
+    options->part = (uint32_t)part;
+    options->parts = (uint32_t)parts;
+    return true;
+}
+
+bool read_resume(Options *options, const char *value, Error *error)
+{
+    (void)value, (void)error;
+    options->resume = true;
+    return true;
+}
+
 bool read_frames(Options *options, const char *value, Error *error)
 {
-    return read_count(value, "frames", FRAMES_MAX, &options->frames, error);
+    return frames_parse(&options->frames, value) ||
+           error_set(error, "--frames wants A-B or A-B:S, from 1 to %d, not '%s'", FRAMES_MOST,
+                     value);
+}
+
+bool read_turntable(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "turntable", FRAMES_MOST, &options->frames.turntable, error);
+}
+
+bool read_repeat(Options *options, const char *value, Error *error)
+{
+    return read_count(value, "repeat", REPEAT_MAX, &options->repeat, error);
 }
 
 bool read_tile(Options *options, const char *value, Error *error)

@@ -13,9 +13,18 @@ const Option option_table[] = {
      "8-bit files: raw values (default) or srgb"},
     {"aov", 0, "LIST", read_aov, GROUP_OUTPUT, CLASS_NONE,
      "add channels to an EXR file; the names are below"},
+    {"no-metadata", 0, NULL, read_no_metadata, GROUP_OUTPUT, CLASS_NONE,
+     "leave out of the file what tells where the picture comes from"},
+    {"hash", 0, NULL, read_hash, GROUP_OUTPUT, CLASS_NONE,
+     "print a hash of the pixels, as they are traced, on standard output"},
+    {"expect-hash", 0, "HASH", read_expect_hash, GROUP_OUTPUT, CLASS_NONE,
+     "exit 1 where the pixels have another hash"},
 
     {"size", 's', "WxH", read_size, GROUP_PICTURE, CLASS_NONE,
      "size of the picture in pixels (the scene's, or 512x512)"},
+    {"crop", 0, "X0,Y0,X1,Y1", read_crop, GROUP_PICTURE, CLASS_NONE,
+     "draw the pixels from X0,Y0 up to and without X1,Y1 alone; with a dot in a number, all four "
+     "are parts of the sides; an EXR file tells where they lie"},
     {"view", 0, "N", read_view, GROUP_PICTURE, CLASS_NONE,
      "look through the scene's N-th camera (1); without any, the course's six"},
 
@@ -51,6 +60,17 @@ const Option option_table[] = {
     {"lanes", 0, "auto|4|8|16", read_lanes, GROUP_SPEED, CLASS_EXACT,
      "width of the kernels' vectors; auto (default) is the device's"},
 
+    {"turntable", 0, "N", read_turntable, GROUP_JOB, CLASS_NONE,
+     "draw N pictures, each with the camera turned by one N-th further about what it looks at; "
+     "the file's name is numbered in place of its #### or before its ending"},
+    {"frames", 0, "A-B[:S]", read_frames, GROUP_JOB, CLASS_NONE,
+     "draw the views A to B, or those pictures of the turntable, or every S-th of them"},
+    {"part", 0, "I/N", read_part_of, GROUP_JOB, CLASS_NONE,
+     "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
+    {"resume", 0, NULL, read_resume, GROUP_JOB, CLASS_EXACT,
+     "keep finished tiles in FILE.part until the picture is whole, and go on from there or from an "
+     "EXR file that was stopped"},
+
     {"device", 0, "SPEC", read_device, GROUP_DEVICE, CLASS_EXACT,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
     {"list-devices", 0, "[=text|json]", read_list_devices, GROUP_DEVICE, CLASS_NONE,
@@ -66,7 +86,7 @@ const Option option_table[] = {
      "measure the picture against one in fp64 with many samples; write that to FILE"},
     {"reference-samples", 0, "N", read_reference_samples, GROUP_STATISTICS, CLASS_NONE,
      "samples a pixel of the reference, an even number (256)"},
-    {"frames", 0, "N", read_frames, GROUP_STATISTICS, CLASS_NONE,
+    {"repeat", 0, "N", read_repeat, GROUP_STATISTICS, CLASS_NONE,
      "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
     {"explain", 0, NULL, read_explain, GROUP_STATISTICS, CLASS_NONE,
      "tell what of the kernels and the scene's arrays is used, what is left out, why and what that "
@@ -100,11 +120,17 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "who walks the table keeps room for OPTIONS_MOST");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",     [GROUP_PICTURE] = "Picture",
-    [GROUP_QUALITY] = "Quality",   [GROUP_SPEED] = "Speed",
-    [GROUP_DEVICE] = "Device",     [GROUP_STATISTICS] = "Statistics",
-    [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports of check and compare",
-    [GROUP_WINDOW] = "Window",     [GROUP_TALK] = "Talk",
+    [GROUP_OUTPUT] = "Output",
+    [GROUP_PICTURE] = "Picture",
+    [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",
+    [GROUP_JOB] = "Long jobs",
+    [GROUP_DEVICE] = "Device",
+    [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry",
+    [GROUP_REPORT] = "Reports of check and compare",
+    [GROUP_WINDOW] = "Window",
+    [GROUP_TALK] = "Talk",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {

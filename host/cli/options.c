@@ -78,6 +78,15 @@ static bool read_pictures(Options *options, int count, char **words, Error *erro
     return options_check_compare(options, error);
 }
 
+static bool read_parts(Options *options, int count, char **words, Error *error)
+{
+    if (optind >= count)
+        return error_set(error, "clrt merge wants the names of all parts of a picture");
+    options->part_paths = words + optind;
+    options->part_count = count - optind;
+    return options_check_merge(options, error);
+}
+
 static bool read_scene(Options *options, int count, char **words, Error *error)
 {
     if (optind >= count && options->action == ACTION_WARM)
@@ -100,7 +109,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     char shorts[2 * OPTIONS_MOST + 2];
     *options = (Options){.samples = 1,
                          .view = 1,
-                         .frames = 1,
+                         .repeat = 1,
                          .reference_samples = REFERENCE_SAMPLES,
                          .max_level = -1,
                          .uses_bvh = true,
@@ -136,6 +145,8 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     }
     if (!check_purposes(given, command, error))
         return false;
+    if (options->action == ACTION_MERGE)
+        return read_parts(options, count, words, error);
     return command != NULL && command->wants_two ? read_pictures(options, count, words, error)
                                                  : read_scene(options, count, words, error);
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "cli/crop.h"
+#include "cli/frames.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/aov.h"
@@ -17,6 +19,7 @@ typedef enum {
     ACTION_VIEW,
     ACTION_CHECK,
     ACTION_COMPARE,
+    ACTION_MERGE,
     ACTION_EXPLAIN,
     ACTION_EXPLAIN_SCENE
 } Action;
@@ -27,7 +30,10 @@ typedef enum {
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 
-#define FRAMES_MAX 1000
+#define REPEAT_MAX 1000
+
+// Parts that a picture is drawn in.
+#define PARTS_MAX 65536
 
 // Samples a pixel of a reference: unless they are given, and at most.
 #define REFERENCE_SAMPLES     256
@@ -46,6 +52,8 @@ typedef struct {
     Action action;
     const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
     const char *other_path; // ACTION_COMPARE's second
+    char **part_paths;      // of ACTION_MERGE: part_count of them
+    int part_count;
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     AovSet aovs;             // channels beside the colors
@@ -53,10 +61,15 @@ typedef struct {
     double contrast;         // that adaptive anti-aliasing leaves; 0: none is asked for
     double error_goal;       // root mean square that the picture may be off; 0: any
     double time_goal;        // seconds that tracing is to take; 0: any
-    uint32_t view;           // from 1
-    uint32_t width, height;  // 0: the scene's
-    int64_t max_level;       // negative: the scene's
-    bool fits_level;         // max_level is the least whose error no file shows
+    bool view_given;
+    uint32_t view;          // from 1
+    uint32_t width, height; // 0: the scene's
+    Crop crop;
+    uint32_t part, parts; // from 1; 0, 0: all of the picture
+    bool resume;
+    Frames frames;
+    int64_t max_level; // negative: the scene's
+    bool fits_level;   // max_level is the least whose error no file shows
     bool uses_bvh;
     bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
@@ -65,7 +78,7 @@ typedef struct {
     bool reference;             // the picture is measured against one
     const char *reference_path; // where that is written, NULL for nowhere
     uint32_t reference_samples; // a pixel; an odd number is one more
-    uint32_t frames;            // how often the picture is drawn, from 1
+    uint32_t repeat;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
     KernelWish kernel;
@@ -73,8 +86,11 @@ typedef struct {
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;
-    const char *keys;    // to play in the window, NULL for none
-    uint32_t quit_after; // frames in the window; 0: when the user quits
+    bool no_metadata;          // in files of pictures
+    bool hash;                 // of the pixels is told
+    const char *expected_hash; // of the pixels, NULL where none is
+    const char *keys;          // to play in the window, NULL for none
+    uint32_t quit_after;       // frames in the window; 0: when the user quits
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
     Limits limits;         // of ACTION_COMPARE

@@ -3,41 +3,62 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "base/output_file.h"
 #include "cli/certain_picture.h"
+#include "cli/provenance.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
+#include "cli/stop.h"
 #include "image/image_file.h"
 #include "render/aov_pass.h"
+#include "render/tile.h"
 #include "scene/camera.h"
+#include "scene/turn.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+
+// What is told of every tile.
+typedef struct {
+    Run *run;
+    Progress progress;
+    Error *error;
+} Watch;
+
+static bool tile_done(void *context, const RenderProgress *render)
+{
+    Watch *watch = context;
+    Run *run = watch->run;
+    return resume_keep(&run->resume, &run->settings, &run->framebuffer, render->tiles_done - 1,
+                       watch->error) &&
+           progress_tile_done(&watch->progress, render);
+}
 
 // One picture of as many as were asked for; they are the same.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 {
     double moment = clock_seconds();
-    Progress progress = progress_begin(run->options->quiet);
-    const RenderObserver observer = {progress_tile_done, &progress};
+    Watch watch = {run, progress_begin(run->options->quiet), error};
+    const RenderObserver observer = {tile_done, &watch};
     const RenderSettings *settings = &run->settings;
-    run->report.samples =
-        (uint64_t)settings->width * settings->height * settings->samples * settings->samples;
+    run->report.samples = tile_pixels(settings) * settings->samples * settings->samples;
     const bool ok =
         options_are_adaptive(run->options)
             ? refined_picture_draw(run, camera, &observer, error)
             : renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
-    run->stopped_by = progress_end(&progress);
+    run->stopped_by = progress_end(&watch.progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
     run->report.frame_seconds[run->report.frame_count++] = seconds;
-    return ok;
+    return ok && !run->resume.is_broken;
 }
 
 static CameraData camera_of(const Run *run, uint32_t samples)
 {
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    return camera_make(viewpoint, &run->normalization, run->settings.height, samples);
+    return camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings),
+                       samples);
 }
 
 static bool draw(Run *run, Error *error)
@@ -45,15 +66,14 @@ static bool draw(Run *run, Error *error)
     const RenderSettings *settings = &run->settings;
     const CameraData camera =
         camera_of(run, options_are_adaptive(run->options) ? REFINE_GRID : settings->samples);
-    if (!framebuffer_make(&run->framebuffer, settings->width, settings->height, error))
-        return false;
     bool ok = true;
     double moment = clock_seconds();
-    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->frames; frame++)
+    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->repeat; frame++)
         ok = draw_frame(run, &camera, error);
     starter_note_traced(&run->starter, run_lap(&moment));
     run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
+    run->report.tiles_done = done->tiles_done;
     run->report.complete = ok && done->tiles_done == done->tiles;
     for (int kind = 0; kind < TALLY_KINDS; kind++)
         run->report.tallies[kind] = done->tallies[kind];
@@ -121,16 +141,22 @@ static bool write_reference(const Run *run, Error *error)
 
 static bool write_picture(Run *run, Error *error)
 {
-    ReportTexts texts;
+    Provenance provenance;
     const Options *options = run->options;
     double moment = clock_seconds();
-    report_make_texts(&run->report, &texts);
+    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
+    provenance_fill(&provenance, &run->report);
+    provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
-                                    .texts = texts.texts,
-                                    .text_count = REPORT_TEXTS,
+                                    .left = run->settings.left,
+                                    .top = run->settings.top,
+                                    .whole_width = render_whole_width(&run->settings),
+                                    .whole_height = render_whole_height(&run->settings),
+                                    .texts = provenance.list,
+                                    .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = run->layers.count > 0 ? &run->layers : NULL};
-    const bool ok = image_write(&run->framebuffer, options->output_path, &settings, error);
+    const bool ok = image_write(&run->framebuffer, run->output_path, &settings, error);
     run->report.write = run_lap(&moment);
     return ok;
 }
@@ -145,7 +171,6 @@ static bool write_statistics(Run *run, double start, Error *error)
         report_write_text(&run->report, stderr);
         return true;
     }
-    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
     return report_write_json(&run->report, options->statistics_path, error);
 }
 
@@ -169,6 +194,18 @@ static void describe(const Run *run)
             report->upload_size);
 }
 
+static void tell_beginning(const Run *run)
+{
+    if (!run->options->verbose)
+        return;
+    if (frames_are_many(&run->options->frames))
+        fprintf(stderr, "picture: %s\n", run->output_path);
+    if (run->options->resume)
+        fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
+                (unsigned long long)run->settings.ready_tiles,
+                (unsigned long long)tile_count(&run->settings));
+}
+
 static ExitCode goal_missed(const Run *run, Error *error)
 {
     const Report *report = &run->report;
@@ -181,14 +218,20 @@ static ExitCode goal_missed(const Run *run, Error *error)
     return EXIT_FAULTS;
 }
 
-ExitCode picture_make(Run *run, Error *error)
+// What shows before any work.
+static ExitCode check_files(Run *run, Error *error)
 {
-    const double start = clock_seconds();
-    if (!image_check_path(run->options->output_path, error))
+    const Options *options = run->options;
+    if (!provenance_check_date(error))
+        return EXIT_USAGE;
+    if (!output_file_check(options->output_path, error) ||
+        (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
-    const char *reference_path = run->options->reference_path;
-    if (reference_path != NULL && !image_check_path(reference_path, error))
-        return EXIT_OUTPUT;
+    return options->resume && !resume_look(&run->resume, options, error) ? EXIT_SCENE : EXIT_DONE;
+}
+
+static ExitCode prepare(Run *run, Error *error)
+{
     image_prepare(run->options->format);
     run_begin(run);
     if (!run_load_scene(run, error)) {
@@ -204,13 +247,102 @@ ExitCode picture_make(Run *run, Error *error)
     if (!run_open_renderer(run, error))
         return EXIT_DEVICE;
     describe(run);
-    if (!draw(run, error) || !certify(run, error) || !draw_layers(run, error) ||
-        !measure_error(run, error))
-        return EXIT_DEVICE;
+    return EXIT_DONE;
+}
+
+// Frees what there is of the picture before.
+static void clear(Run *run)
+{
+    framebuffer_free(&run->framebuffer);
+    framebuffer_free(&run->reference);
+    layers_free(&run->layers);
+    certainty_map_free(&run->certainty);
+    free(run->samples);
+    run->samples = NULL;
+    run->report.frame_count = 0;
+}
+
+// Where the frame of that number is seen from.
+static void look(Run *run, uint32_t number)
+{
+    const Options *options = run->options;
+    const uint32_t steps = options->frames.turntable;
+    run->report.view = steps > 0 ? options->view : number;
+    run->report.turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
+    run->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
+                                    run->scene.has_course_views, run->report.turned);
+}
+
+// Black, but for the tiles that are there.
+static bool begin_picture(Run *run, Error *error)
+{
+    RenderSettings *settings = &run->settings;
+    const bool ok = framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
+                    resume_open(&run->resume, &run->report, settings, &run->framebuffer, error);
+    run->renderer.settings.ready_tiles = settings->ready_tiles;
+    return ok;
+}
+
+static ExitCode finish(Run *run, double start, Error *error)
+{
     if (!write_picture(run, error) || !write_reference(run, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
+    resume_close(&run->resume, run->report.complete);
     if (run->stopped_by > 0)
         return (ExitCode)(128 + run->stopped_by);
+    if (!provenance_tell_hash(run->options, run->report.pixel_hash, error))
+        return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
+}
+
+static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error)
+{
+    clear(run);
+    look(run, number);
+    if (!begin_picture(run, error))
+        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
+    tell_beginning(run);
+    stop_watch();
+    if (!draw(run, error))
+        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
+    if (!certify(run, error) || !draw_layers(run, error) || !measure_error(run, error))
+        return EXIT_DEVICE;
+    return finish(run, start, error);
+}
+
+// A goal that one frame misses keeps no other from being drawn.
+static ExitCode make_frames(Run *run, double start, Error *error)
+{
+    ExitCode outcome = EXIT_DONE;
+    const Frames *frames = &run->options->frames;
+    const uint32_t count = frames_count(frames);
+    for (uint32_t place = 0; place < count && outcome <= EXIT_FAULTS; place++) {
+        const uint32_t number = frames_at(frames, place);
+        if (stop_signal() != 0)
+            return (ExitCode)(128 + stop_signal());
+        char *name = frames_name(run->options->output_path, number, error);
+        if (name == NULL)
+            return EXIT_OUTPUT;
+        run->output_path = name;
+        const ExitCode code = make_frame(run, number, start, error);
+        outcome = code > outcome ? code : outcome;
+        free(name);
+    }
+    return outcome;
+}
+
+ExitCode picture_make(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const double start = clock_seconds();
+    ExitCode code = check_files(run, error);
+    if (code == EXIT_DONE)
+        code = prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
+    if (frames_are_many(&options->frames))
+        return make_frames(run, start, error);
+    run->output_path = options->output_path;
+    return make_frame(run, options->view, start, error);
 }

@@ -4,29 +4,12 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
+#include "cli/stop.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static volatile sig_atomic_t stopped_by;
-
-static void stop(int signal_number)
-{
-    stopped_by = signal_number;
-}
-
-// A signal that is ignored, as in a background job, stays so.
-static void take_signal(int number, struct sigaction *before)
-{
-    // SA_RESETHAND: the second signal meets the default action.
-    struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(number, NULL, before);
-    if (before->sa_handler != SIG_IGN)
-        sigaction(number, &action, NULL);
-}
 
 Progress progress_begin(bool silent)
 {
@@ -34,15 +17,16 @@ Progress progress_begin(bool silent)
     const bool dumb = kind == NULL || strcmp(kind, "dumb") == 0;
     Progress progress = {
         .silent = silent, .terminal = isatty(STDERR_FILENO) && !dumb, .start = clock_seconds()};
-    take_signal(SIGINT, &progress.interrupt);
-    take_signal(SIGTERM, &progress.terminate);
     return progress;
 }
 
-static void print_progress(Progress *progress, double done, double elapsed)
+// What this run has drawn tells how fast it is; what it found drawn took it no time.
+static void print_progress(Progress *progress, const RenderProgress *render)
 {
-    const unsigned percent = (unsigned)(done * 100);
-    const double left = elapsed / done - elapsed;
+    const double elapsed = clock_seconds() - progress->start;
+    const unsigned percent = (unsigned)(100 * (double)render->tiles_done / (double)render->tiles);
+    const double left = elapsed * (double)(render->tiles - render->tiles_done) /
+                        (double)(render->tiles_done - render->tiles_ready);
     if (progress->terminal) {
         fprintf(stderr, "\r\033[Ktracing %u %%, %.0f s left", percent, left);
         fflush(stderr);
@@ -57,9 +41,8 @@ bool progress_tile_done(void *context, const RenderProgress *render)
 {
     Progress *progress = context;
     if (!progress->silent)
-        print_progress(progress, (double)render->tiles_done / (double)render->tiles,
-                       clock_seconds() - progress->start);
-    return stopped_by == 0;
+        print_progress(progress, render);
+    return stop_signal() == 0;
 }
 
 int progress_end(Progress *progress)
@@ -67,7 +50,5 @@ int progress_end(Progress *progress)
     if (progress->line_open)
         fprintf(stderr, "\r\033[K");
     progress->line_open = false;
-    sigaction(SIGINT, &progress->interrupt, NULL);
-    sigaction(SIGTERM, &progress->terminate, NULL);
-    return stopped_by;
+    return stop_signal();
 }

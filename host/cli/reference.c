@@ -59,6 +59,7 @@ static bool open_run(Reference *reference, const Run *picture, Error *error)
     run_begin(run);
     if (!run_load_scene(run, error))
         return false;
+    run->viewpoint = picture->viewpoint;
     if (run->settings.max_level < run->scene.max_level)
         run->settings.max_level = run->scene.max_level;
     return run_prepare(run, error) == EXIT_DONE &&
@@ -81,8 +82,8 @@ static bool draw_pass(Reference *reference, uint32_t pass, Error *error)
     Run *run = &reference->run;
     const int half = (int)(pass % 2);
     const double place = pass / 2; // in its half
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    CameraData camera = camera_make(viewpoint, &run->normalization, run->settings.height, 1);
+    CameraData camera =
+        camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};

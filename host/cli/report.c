@@ -4,6 +4,7 @@
 
 #include "accel/levels.h"
 #include "cli/json_file.h"
+#include "render/tile.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -25,8 +26,8 @@ static double per_ray(const Report *report, TallyKind kind)
 
 static double samples_per_pixel(const Report *report)
 {
-    const RenderSettings *settings = report->settings;
-    return (double)report->samples / ((double)settings->width * settings->height);
+    const uint64_t pixels = tile_pixels(report->settings);
+    return pixels == 0 ? 0 : (double)report->samples / (double)pixels;
 }
 
 static const char *tree_name(const Report *report)
@@ -38,8 +39,8 @@ static const char *tree_name(const Report *report)
 
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
 {
-    report->scene_hash[0] = scene->hash[0];
-    report->scene_hash[1] = scene->hash[1];
+    memcpy(report->scene_hash, scene->hash, sizeof report->scene_hash);
+    memcpy(report->mesh_hash, scene->mesh_hash, sizeof report->mesh_hash);
     report->lights = (uint32_t)scene->lights.count;
     report->spheres = (uint32_t)scene->spheres.count;
     report->triangles = (uint32_t)scene_triangle_count(scene);
@@ -50,29 +51,6 @@ void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
     report->bvh_depth = bvh->depth;
     report->bvh_largest_leaf = bvh->largest_leaf;
     levels_count(bvh, report->bvh_inner);
-}
-
-void report_make_texts(const Report *report, ReportTexts *texts)
-{
-    const RenderSettings *settings = report->settings;
-    snprintf(texts->scene_hash, sizeof texts->scene_hash, "%016" PRIx64 "%016" PRIx64,
-             report->scene_hash[1], report->scene_hash[0]);
-    char samples[48];
-    if (options_are_adaptive(report->options))
-        snprintf(samples, sizeof samples, "adaptive contrast=%g", report->contrast);
-    else
-        snprintf(samples, sizeof samples, "%ux%u", settings->samples, settings->samples);
-    snprintf(texts->settings, sizeof texts->settings,
-             "view=%u size=%ux%u samples=%s max_level=%u encode=%s precision=%s",
-             report->options->view, settings->width, settings->height, samples, settings->max_level,
-             report->options->encoding == ENCODE_SRGB ? "srgb" : "raw",
-             kernel_precision_name(report->choice->precision));
-    const ImageText list[REPORT_TEXTS] = {
-        {"Software", "clrt " CLRT_VERSION},     {"clrt:version", CLRT_VERSION},
-        {"clrt:scene_hash", texts->scene_hash}, {"clrt:settings", texts->settings},
-        {"clrt:device", report->device_name},   {"clrt:complete", report->complete ? "yes" : "no"},
-    };
-    memcpy(texts->texts, list, sizeof list);
 }
 
 void report_write_text(const Report *report, FILE *stream)
@@ -159,13 +137,16 @@ static json_t *frames_json(const Report *report)
     return list;
 }
 
-static json_t *scene_json(const Report *report, const ReportTexts *texts)
+static json_t *scene_json(const Report *report)
 {
-    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "path",
-                     json_file_path(report->options->scene_path), "hash", texts->scene_hash,
-                     "lights", integer(report->lights), "spheres", integer(report->spheres),
-                     "triangles", integer(report->triangles), "dropped_triangles",
-                     integer(report->dropped_triangles));
+    char hash[SCENE_HASH_SIZE], mesh_hash[SCENE_HASH_SIZE];
+    scene_hash_name(report->scene_hash, hash);
+    scene_hash_name(report->mesh_hash, mesh_hash);
+    return json_pack("{s:o, s:s, s:s, s:o, s:o, s:o, s:o}", "path",
+                     json_file_path(report->options->scene_path), "hash", hash, "mesh_hash",
+                     mesh_hash, "lights", integer(report->lights), "spheres",
+                     integer(report->spheres), "triangles", integer(report->triangles),
+                     "dropped_triangles", integer(report->dropped_triangles));
 }
 
 // Down to the deepest there are.
@@ -189,14 +170,14 @@ static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
     return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
-        integer(report->options->view), "width", integer(settings->width), "height",
-        integer(settings->height), "samples", integer(settings->samples), "max_level",
-        integer(settings->max_level), "truncation_bound", report->truncation, "tile",
-        integer(settings->tile_width), integer(settings->tile_height), "work_group",
-        integer(settings->group_width), integer(settings->group_height), "specialized",
-        report->specialized, "kernel", kernel_family_name(report->choice->family), "nodes",
-        kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
+        integer(report->view), "width", integer(render_whole_width(settings)), "height",
+        integer(render_whole_height(settings)), "crop", crop_json(settings), "samples",
+        integer(settings->samples), "max_level", integer(settings->max_level), "truncation_bound",
+        report->truncation, "tile", integer(settings->tile_width), integer(settings->tile_height),
+        "work_group", integer(settings->group_width), integer(settings->group_height),
+        "specialized", report->specialized, "kernel", kernel_family_name(report->choice->family),
+        "nodes", kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
         "precision", kernel_precision_name(report->choice->precision));
 }
 
@@ -232,9 +213,9 @@ static json_t *certainty_json(const Report *report)
 }
 
 // The parts of the report, each under its name.
-static void add_parts(json_t *json, const Report *report, const ReportTexts *texts)
+static void add_parts(json_t *json, const Report *report)
 {
-    json_object_set_new(json, "scene", scene_json(report, texts));
+    json_object_set_new(json, "scene", scene_json(report));
     json_object_set_new(json, "bvh", tree_json(report));
     json_object_set_new(json, "settings", settings_json(report));
     json_object_set_new(json, "samples", samples_json(report));
@@ -248,9 +229,7 @@ static void add_parts(json_t *json, const Report *report, const ReportTexts *tex
 
 static json_t *report_json(const Report *report)
 {
-    ReportTexts texts;
     struct rusage usage;
-    report_make_texts(report, &texts);
     getrusage(RUSAGE_SELF, &usage);
     json_t *json = json_pack(
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema", SCHEMA_VERSION, "version",
@@ -258,7 +237,7 @@ static json_t *report_json(const Report *report)
         "name", report->device_name, "driver", report->device_version, "bytes", "uploaded",
         integer(report->upload_size), "peak_memory", integer((uint64_t)usage.ru_maxrss * 1024));
     if (json != NULL)
-        add_parts(json, report, &texts);
+        add_parts(json, report);
     return json;
 }
 

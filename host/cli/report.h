@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a run cost, as text and as JSON, and what its picture's metadata say.
+// What a run cost, as text and as JSON.
 #pragma once
 
 #include "cli/options.h"
 #include "compare/difference.h"
+#include "image/stored_image.h"
 
 #include <stdio.h>
-
-#define REPORT_TEXTS 6
 
 // What a picture differs by from its reference.
 typedef struct {
@@ -29,7 +28,9 @@ typedef struct {
     const RenderSettings *settings;
     const KernelChoice *choice;
     const char *device_name, *device_version;
-    uint64_t scene_hash[2];
+    uint32_t view; // from 1
+    double turned; // degrees, on a turntable
+    uint64_t scene_hash[2], mesh_hash[2];
     uint32_t lights, spheres, triangles;
     uint64_t dropped_triangles;
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
@@ -42,27 +43,19 @@ typedef struct {
     uint64_t samples;  // of all pixels together
     bool specialized;
     bool complete;
+    uint64_t tiles_done;
     uint64_t tallies[TALLY_KINDS];
     // Seconds.
     double parse, load, build, device, upload, kernel_build, trace, write, total;
-    double frame_seconds[FRAMES_MAX]; // of every picture drawn; the first is trace
+    double frame_seconds[REPEAT_MAX]; // of every picture drawn; the first is trace
     uint32_t frame_count;
     ReferenceResult reference;
     CertaintyResult certainty;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 
-// The texts a picture carries; strings live in storage.
-typedef struct {
-    ImageText texts[REPORT_TEXTS];
-    char scene_hash[33];
-    char settings[256];
-} ReportTexts;
-
 // Takes what there is to tell of a scene and its tree.
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
-
-void report_make_texts(const Report *report, ReportTexts *texts);
 
 // The error of a picture that was measured against a reference, on stream.
 void report_write_error(const Report *report, FILE *stream);

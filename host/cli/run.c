@@ -49,6 +49,8 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
         .max_level = max_level_of(options, scene),
         .tile_width = options->tile_width,
         .tile_height = options->tile_height,
+        .part = options->parts > 0 ? options->part - 1 : 0,
+        .parts = options->parts,
         .group_width = options->group_width,
         .group_height = options->group_height,
         .statistics = options->statistics,
@@ -61,9 +63,12 @@ bool run_load_scene(Run *run, Error *error)
     double moment = clock_seconds();
     const Options *options = run->options;
     bool ok = scn_load(&run->scene, options->scene_path, error);
-    if (ok && options->view > run->scene.viewpoints.count)
+    const Frames *frames = &options->frames;
+    const bool are_views = frames->turntable == 0 && frames->last > 0;
+    const uint32_t view = are_views ? frames->last : options->view;
+    if (ok && view > run->scene.viewpoints.count)
         ok = error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
-                       run->scene.viewpoints.count, options->view);
+                       run->scene.viewpoints.count, view);
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = run_lap(&moment) - run->report.load;
     ok = ok && check_geometry(options, &run->scene, error);
@@ -73,6 +78,7 @@ bool run_load_scene(Run *run, Error *error)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
+    ok = ok && crop_apply(&options->crop, &run->settings, error);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
     if (!ok)
         starter_decide(&run->starter, false);
@@ -165,6 +171,7 @@ void run_free(Run *run)
     layers_free(&run->layers);
     free(run->samples);
     certainty_map_free(&run->certainty);
+    resume_close(&run->resume, false);
     starter_wait_kernel(&run->starter);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);

@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/resume.h"
 #include "cli/starter.h"
 #include "render/certifier.h"
 
@@ -21,10 +22,13 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
-    Framebuffer reference;  // empty unless one was asked for
-    Layers layers;          // beside the colors
-    uint32_t *samples;      // of each pixel, for the layers; NULL where all have as many
-    CertaintyMap certainty; // empty unless it was asked for
+    Framebuffer reference;   // empty unless one was asked for
+    Layers layers;           // beside the colors
+    uint32_t *samples;       // of each pixel, for the layers; NULL where all have as many
+    CertaintyMap certainty;  // empty unless it was asked for
+    const char *output_path; // of the picture being drawn
+    Viewpoint viewpoint;     // it is seen from
+    Resume resume;           // empty without --resume
     Report report;
     int stopped_by; // a signal, 0 where the picture is whole
 } Run;

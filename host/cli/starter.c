@@ -98,7 +98,8 @@ static bool leaves_kernels_open(const Options *options)
 void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles)
 {
     KernelChoice choice;
-    const double pixels = (double)settings->width * settings->height * starter->options->frames;
+    const double pixels = (double)settings->width * settings->height * starter->options->repeat *
+                          frames_count(&starter->options->frames);
     const QuickKernelRun run = {pixels * settings->samples * settings->samples, triangles};
     starter->is_quick = leaves_kernels_open(starter->options) &&
                         quick_kernel_choose(&starter->setup, &run, &choice);

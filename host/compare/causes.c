@@ -34,12 +34,12 @@ typedef struct {
     int level;                               // what --max-level was, -1 where it is not told
 } Side;
 
-// What follows name= among the words of the settings.
+// The number of that name among the settings, which are JSON without blanks.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
     int value = -1;
-    const char *word = strstr(image->settings, name);
+    const char *word = strstr(image->texts[STORED_SETTINGS], name);
     snprintf(pattern, sizeof pattern, "%s%%9d", name);
     return word != NULL && sscanf(word, pattern, &value) == 1 ? value : -1;
 }
@@ -51,7 +51,7 @@ static Side side_of(const StoredImage *image)
                   .shadow = stored_image_channel(image, "shadow"),
                   .bounces = stored_image_channel(image, "bounces"),
                   .samples = stored_image_channel(image, "samples"),
-                  .level = setting_of(image, "max_level=")};
+                  .level = setting_of(image, "\"max_level\":")};
 }
 
 static bool is_complete(const Side *side)
@@ -80,17 +80,17 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// The words of the settings that tell where samples are.
+// By the setting that tells where samples are.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];
     for (int i = 0; i < 2; i++) {
-        words[i] = strstr(sides[i].image->settings, "samples=");
+        words[i] = strstr(sides[i].image->texts[STORED_SETTINGS], "\"samples\":");
         if (words[i] == NULL)
             return false;
     }
-    const size_t length = strcspn(words[0], " ");
-    return length == strcspn(words[1], " ") && strncmp(words[0], words[1], length) == 0;
+    const size_t length = strcspn(words[0], ",}");
+    return length == strcspn(words[1], ",}") && strncmp(words[0], words[1], length) == 0;
 }
 
 static bool has_same_samples(const Side sides[2], size_t pixel)

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Chooses the writer by format and moves the finished file into its place.
+// Chooses the writer by format.
 #include "image/image_file.h"
 
+#include "base/output_file.h"
 #include "image/encode.h"
 #include "image/image_process.h"
 #include "image/pfm.h"
 #include "image/png_file.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 // libjpeg ends the process past it.
 #define JPEG_SIZE_MAX 65500
@@ -84,60 +82,6 @@ void image_prepare(const char *format)
         image_process_start();
 }
 
-static bool is_replaceable(const char *path)
-{
-    struct stat status;
-    return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
-}
-
-// Makes an empty file for the unfinished picture, in the folder of path, so that it can be renamed
-// to it, or among the system's temporary files, and returns its name.
-static char *temporary_file(const char *path, bool beside, Error *error)
-{
-    const char *slash = strrchr(path, '/');
-    const char *system = getenv("TMPDIR");
-    const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
-    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    const size_t size = strlen(path) + strlen(folder) + 32;
-    char *name = memory_raw(size, 1, error);
-    if (name == NULL)
-        return NULL;
-    if (beside)
-        snprintf(name, size, "%.*s.clrt-XXXXXX", (int)length, path);
-    else
-        snprintf(name, size, "%s/clrt-XXXXXX", folder);
-    const int file = mkstemp(name);
-    if (file >= 0) {
-        const mode_t mask = umask(0);
-        umask(mask);
-        fchmod(file, 0666 & ~mask);
-        close(file);
-        return name;
-    }
-    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    free(name);
-    return NULL;
-}
-
-bool image_check_path(const char *path, Error *error)
-{
-    struct stat status;
-    const bool exists = stat(path, &status) == 0;
-    if (path[strlen(path) - 1] == '/' || (exists && S_ISDIR(status.st_mode)))
-        return error_set(error, "%s: cannot be written: it is a folder", path);
-    if (!is_replaceable(path)) {
-        const bool writable = strcmp(path, "-") == 0 || access(path, W_OK) == 0;
-        return writable || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    }
-    char *temporary = temporary_file(path, true, error);
-    if (temporary == NULL)
-        return false;
-    unlink(temporary);
-    free(temporary);
-    return strlen(strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path) <= NAME_MAX ||
-           error_set(error, "%s: cannot be written: the name is too long", path);
-}
-
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error)
 {
     const char *module = find_format(format)->module;
@@ -172,6 +116,10 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
         .width = (int)framebuffer->width,
         .height = (int)framebuffer->height,
+        .left = (int)settings->left,
+        .top = (int)settings->top,
+        .whole_width = (int)settings->whole_width,
+        .whole_height = (int)settings->whole_height,
         .is_float = format->is_float,
         .texts = (const char *const *)settings->texts,
         .text_count = settings->text_count,
@@ -205,52 +153,15 @@ static bool write_format(const Framebuffer *framebuffer, const char *path,
     return write_by_module(framebuffer, path, format, settings, cause);
 }
 
-static bool copy_stream(FILE *from, FILE *to)
-{
-    char block[65536];
-    size_t count;
-    while ((count = fread(block, 1, sizeof block, from)) > 0)
-        if (fwrite(block, 1, count, to) != count)
-            return false;
-    return !ferror(from) && fflush(to) == 0;
-}
-
-// Pipes and devices cannot be replaced by a file: the finished bytes are copied into them.
-static bool copy_file(const char *from, const char *path, Error *cause)
-{
-    const bool standard = strcmp(path, "-") == 0;
-    FILE *source = fopen(from, "rb");
-    FILE *target = standard ? stdout : fopen(path, "wb");
-    // Gone by name already, so that nothing is left of it if the process is ended here.
-    unlink(from);
-    const bool ok = source != NULL && target != NULL && copy_stream(source, target);
-    if (!ok)
-        error_set(cause, "%s", strerror(errno));
-    if (source != NULL)
-        fclose(source);
-    if (target != NULL && !standard)
-        fclose(target);
-    return ok;
-}
-
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error)
 {
-    const bool replaceable = is_replaceable(path);
-    char *temporary = temporary_file(path, replaceable, error);
-    if (temporary == NULL)
-        return false;
+    OutputFile file;
     Error cause = {0};
-    bool ok = write_format(framebuffer, temporary, settings, &cause);
-    if (ok && !replaceable)
-        ok = copy_file(temporary, path, &cause);
-    if (ok && replaceable && rename(temporary, path) != 0)
-        ok = error_set(&cause, "%s", strerror(errno));
-    if (!ok) {
-        unlink(temporary);
-        error_set(error, "%s: cannot be written: %s",
-                  strcmp(path, "-") == 0 ? "standard output" : path, cause.text);
-    }
-    free(temporary);
-    return ok;
+    if (!output_file_begin(&file, path, error))
+        return false;
+    const bool ok = write_format(framebuffer, file.temporary, settings, &cause);
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s",
+                     strcmp(path, "-") == 0 ? "standard output" : path, cause.text);
 }

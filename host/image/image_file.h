@@ -19,6 +19,8 @@ typedef struct {
     Encoding encoding;  // of 8-bit formats; floats are written as they are
     const ImageText *texts;
     size_t text_count;
+    // Where the picture lies in a whole one of that size, in formats that tell; 0: it is whole.
+    uint32_t left, top, whole_width, whole_height;
     const Layers *layers; // channels beside the colors, in formats that take them; NULL for none
 } ImageSettings;
 
@@ -44,14 +46,9 @@ double image_format_half_step(const char *format, Encoding encoding);
 // alone, while no other thread runs.
 void image_prepare(const char *format);
 
-// Whether a picture can be written to path, as far as that shows beforehand: asked before the
-// picture is traced, so that no work is lost.
-bool image_check_path(const char *path, Error *error);
-
 // Whether the format has room for a picture of that size.
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error);
 
-// Writes the picture to path ("-": standard output).  A new or regular file appears whole or not
-// at all; into links, pipes and devices the finished bytes are copied.
+// Writes the picture to path ("-": standard output), as base/output_file.h does.
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);

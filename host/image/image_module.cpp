@@ -45,6 +45,7 @@ void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
 {
     constexpr int strip = 32; // of which OpenEXR's own chunks, of 16 rows with ZIP, are a part
+    const int first_row = output.spec().y;
     constexpr size_t color_size = 3 * sizeof(float);
     const size_t width = static_cast<size_t>(picture.width);
     const size_t layer_size = picture.layer_count * sizeof(uint32_t);
@@ -60,10 +61,22 @@ bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
             std::memcpy(next + color_size, layer + i * layer_size, layer_size);
             next += color_size + layer_size;
         }
-        if (!output.write_scanlines(top, bottom, 0, OIIO::TypeDesc::UNKNOWN, rows.data()))
+        if (!output.write_scanlines(first_row + top, first_row + bottom, 0, OIIO::TypeDesc::UNKNOWN,
+                                    rows.data()))
             return false;
     }
     return true;
+}
+
+// EXR alone has windows that other programs look at.
+void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
+{
+    if (picture.whole_width == 0 || std::strcmp(picture.format, "openexr") != 0)
+        return;
+    spec.x = picture.left;
+    spec.y = picture.top;
+    spec.full_width = picture.whole_width;
+    spec.full_height = picture.whole_height;
 }
 
 bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, OIIO::TypeDesc type)
@@ -85,6 +98,7 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
     if (picture.layer_count > 0)
         describe_layers(spec, picture);
+    describe_place(spec, picture);
     // Without it OpenEXR and TIFF write the time, and no two files would be equal.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
@@ -121,8 +135,9 @@ void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
     for (int i = 0; i < spec.nchannels; i++)
         std::snprintf(content.names[i], sizeof content.names[i], "%s",
                       spec.channel_name(i).c_str());
-    std::snprintf(content.settings, sizeof content.settings, "%s",
-                  std::string(spec.get_string_attribute("clrt:settings")).c_str());
+    for (int i = 0; i < IMAGE_MODULE_TEXTS; i++)
+        std::snprintf(content.texts[i], sizeof content.texts[i], "%s",
+                      std::string(spec.get_string_attribute(content.text_names[i])).c_str());
 }
 
 bool is_integer(const OIIO::ImageSpec &spec, int channel)

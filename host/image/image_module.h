@@ -16,6 +16,7 @@ typedef struct {
     const char *format; /* OpenImageIO's name of the format */
     const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
     int width, height;
+    int left, top, whole_width, whole_height; /* where that lies in a whole picture; 0: is whole */
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */
     size_t text_count;
@@ -30,17 +31,19 @@ typedef int ImageModuleWrite(const ImageModulePicture *picture, char *message, s
 #define IMAGE_MODULE_WRITE "clrt_image_module_write"
 ImageModuleWrite clrt_image_module_write;
 
-#define IMAGE_MODULE_CHANNELS      64
-#define IMAGE_MODULE_NAME_SIZE     32
-#define IMAGE_MODULE_SETTINGS_SIZE 512
+#define IMAGE_MODULE_CHANNELS  64
+#define IMAGE_MODULE_NAME_SIZE 32
+#define IMAGE_MODULE_TEXTS     8
+#define IMAGE_MODULE_TEXT_SIZE 512
 
 /* What a file holds. */
 typedef struct {
-    uint64_t values_max; /* larger pictures are refused */
+    uint64_t values_max;           /* larger pictures are refused */
+    const char *const *text_names; /* of the texts that are wanted */
     uint32_t width, height, channel_count;
     int is_8_bit;
     char names[IMAGE_MODULE_CHANNELS][IMAGE_MODULE_NAME_SIZE];
-    char settings[IMAGE_MODULE_SETTINGS_SIZE]; /* the text clrt:settings */
+    char texts[IMAGE_MODULE_TEXTS][IMAGE_MODULE_TEXT_SIZE];
     void *values; /* unsigned char or float, all channels of a pixel together, top row first */
 } ImageModuleContent;
 

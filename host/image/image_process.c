@@ -23,6 +23,7 @@
 // Strings follow it, each with its zero, then the pixels and then the layers.
 typedef struct {
     uint64_t width, height, is_float, text_count;
+    uint64_t left, top, whole_width, whole_height;
     uint64_t string_size, pixel_size;
     uint64_t layer_count, layer_size;
     int32_t layer_is_integer[IMAGE_MODULE_LAYERS];
@@ -65,6 +66,10 @@ static bool send_request(const ImageModulePicture *picture)
 {
     Request request = {.width = (uint64_t)picture->width,
                        .height = (uint64_t)picture->height,
+                       .left = (uint64_t)picture->left,
+                       .top = (uint64_t)picture->top,
+                       .whole_width = (uint64_t)picture->whole_width,
+                       .whole_height = (uint64_t)picture->whole_height,
                        .is_float = picture->is_float != 0,
                        .text_count = picture->text_count,
                        .pixel_size = pixel_size(picture),
@@ -102,6 +107,10 @@ static ImageModulePicture picture_of(const Request *request)
 {
     ImageModulePicture picture = {.width = (int)request->width,
                                   .height = (int)request->height,
+                                  .left = (int)request->left,
+                                  .top = (int)request->top,
+                                  .whole_width = (int)request->whole_width,
+                                  .whole_height = (int)request->whole_height,
                                   .is_float = request->is_float != 0,
                                   .text_count = request->text_count,
                                   .layer_count = request->layer_count};

@@ -26,13 +26,13 @@ typedef struct {
     char message[512];
     uint32_t width, height, channel_count, is_8_bit;
     char names[STORED_CHANNELS_MAX][STORED_NAME_SIZE];
-    char settings[STORED_SETTINGS_SIZE];
+    char texts[STORED_TEXTS][STORED_TEXT_SIZE];
 } Head;
 
 _Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
                    STORED_NAME_SIZE == IMAGE_MODULE_NAME_SIZE &&
-                   STORED_SETTINGS_SIZE == IMAGE_MODULE_SETTINGS_SIZE,
-               "names and settings are copied whole");
+                   STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
+               "names and texts are copied whole");
 
 static void limit(int resource, rlim_t most)
 {
@@ -72,7 +72,7 @@ static void fill_head(Head *head, const ImageModuleContent *content)
     head->channel_count = content->channel_count;
     head->is_8_bit = content->is_8_bit != 0;
     memcpy(head->names, content->names, sizeof head->names);
-    memcpy(head->settings, content->settings, sizeof head->settings);
+    memcpy(head->texts, content->texts, sizeof head->texts);
 }
 
 static size_t value_count(const Head *head)
@@ -84,7 +84,7 @@ static _Noreturn void serve(int socket, const char *path, const char *format)
 {
     Error failure = {0};
     Head head = {0};
-    ImageModuleContent content = {.values_max = STORED_VALUES_MAX};
+    ImageModuleContent content = {.values_max = STORED_VALUES_MAX, .text_names = stored_text_names};
     live_within_limits();
     ImageModuleRead *read = (ImageModuleRead *)open_module(IMAGE_MODULE_READ, &failure);
     snprintf(head.message, sizeof head.message, "%.500s", failure.text);
@@ -118,10 +118,11 @@ static bool take_head(StoredImage *image, const Head *head, Error *cause)
     *image = (StoredImage){
         .width = head->width, .height = head->height, .channel_count = head->channel_count};
     memcpy(image->names, head->names, sizeof image->names);
-    memcpy(image->settings, head->settings, sizeof image->settings);
+    memcpy(image->texts, head->texts, sizeof image->texts);
     for (uint32_t i = 0; i < STORED_CHANNELS_MAX; i++)
         image->names[i][STORED_NAME_SIZE - 1] = '\0';
-    image->settings[STORED_SETTINGS_SIZE - 1] = '\0';
+    for (int i = 0; i < STORED_TEXTS; i++)
+        image->texts[i][STORED_TEXT_SIZE - 1] = '\0';
     return stored_image_allocate(image, cause);
 }
 

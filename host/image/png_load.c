@@ -24,14 +24,15 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t count)
         png_error(png, "it ends early");
 }
 
-static void copy_settings(png_structp png, png_infop info, StoredImage *image)
+static void copy_texts(png_structp png, png_infop info, StoredImage *image)
 {
     png_textp texts;
     int count = 0;
     png_get_text(png, info, &texts, &count);
     for (int i = 0; i < count; i++)
-        if (strcmp(texts[i].key, "clrt:settings") == 0)
-            snprintf(image->settings, sizeof image->settings, "%s", texts[i].text);
+        for (int kind = 0; kind < STORED_TEXTS; kind++)
+            if (strcmp(texts[i].key, stored_text_names[kind]) == 0)
+                snprintf(image->texts[kind], sizeof image->texts[kind], "%s", texts[i].text);
 }
 
 static void read_header(png_structp png, png_infop info, StoredImage *image)
@@ -41,7 +42,7 @@ static void read_header(png_structp png, png_infop info, StoredImage *image)
                            .height = png_get_image_height(png, info),
                            .channel_count = 3,
                            .names = {"R", "G", "B"}};
-    copy_settings(png, info, image);
+    copy_texts(png, info, image);
     png_set_expand(png);
     png_set_gray_to_rgb(png);
     png_set_strip_alpha(png);

@@ -5,6 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const stored_text_names[STORED_TEXTS] = {
+    [STORED_VERSION] = "clrt:version",       [STORED_SCENE_HASH] = "clrt:scene_hash",
+    [STORED_MESH_HASH] = "clrt:mesh_hash",   [STORED_SETTINGS] = "clrt:settings",
+    [STORED_DEVICE] = "clrt:device",         [STORED_DRIVER] = "clrt:driver",
+    [STORED_PIXEL_HASH] = "clrt:pixel_hash", [STORED_COMPLETE] = "clrt:complete",
+};
+
 void stored_image_free(StoredImage *image)
 {
     free(image->values);

@@ -6,18 +6,33 @@
 
 #include <stdint.h>
 
-#define STORED_NAME_SIZE     32
-#define STORED_SETTINGS_SIZE 512
+#define STORED_NAME_SIZE 32
+#define STORED_TEXT_SIZE 512
 
 // What is read at most.  The values are 4 GiB.
 #define STORED_SIDE_MAX     65536
 #define STORED_CHANNELS_MAX 64
 #define STORED_VALUES_MAX   ((uint64_t)1 << 30)
 
+// The texts that clrt's own pictures carry; stored_text_names has their names in files.
+typedef enum {
+    STORED_VERSION,
+    STORED_SCENE_HASH,
+    STORED_MESH_HASH,
+    STORED_SETTINGS,
+    STORED_DEVICE,
+    STORED_DRIVER,
+    STORED_PIXEL_HASH,
+    STORED_COMPLETE,
+    STORED_TEXTS
+} StoredText;
+
+extern const char *const stored_text_names[STORED_TEXTS];
+
 typedef struct {
     uint32_t width, height, channel_count;
     char names[STORED_CHANNELS_MAX][STORED_NAME_SIZE]; // "R", "G", "B" and others; of gray, "Y"
-    char settings[STORED_SETTINGS_SIZE]; // the text clrt:settings, empty where there is none
+    char texts[STORED_TEXTS][STORED_TEXT_SIZE];        // each empty where there is none
     float *values; // all channels of a pixel together, the top row first; owned
 } StoredImage;
 

@@ -56,7 +56,7 @@ static bool build(AovPass *pass, Error *error)
 static bool make_room(AovPass *pass, Error *error)
 {
     cl_int status;
-    const Tile largest = tile_at(&pass->source->renderer->settings, 0);
+    const Tile largest = tile_largest(&pass->source->renderer->settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t tests = pass->counts_tests ? count : 1;
     cl_context context = pass->source->setup->device->context;
@@ -107,10 +107,7 @@ static FrameData frame_of(const Renderer *renderer, const Tile *tile, const Came
     FrameData frame = renderer->frame;
     frame.camera = *camera;
     frame.samples = samples;
-    frame.tile_x = tile->x;
-    frame.tile_y = tile->y;
-    frame.tile_width = tile->width;
-    frame.tile_height = tile->height;
+    tile_aim(&frame, &renderer->settings, tile);
     return frame;
 }
 

@@ -51,7 +51,7 @@ static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error
 static bool make_room(Certifier *certifier, Error *error)
 {
     cl_int status;
-    const Tile largest = tile_at(&certifier->reference.settings, 0);
+    const Tile largest = tile_largest(&certifier->reference.settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t colors = count * sizeof *certifier->host_colors;
     const size_t marks = count * sizeof *certifier->host_marks;
@@ -172,10 +172,7 @@ bool certifier_certify(const Certifier *certifier, const CameraData *camera,
     frame.camera = *camera;
     while (wanted && progress.tiles_done < progress.tiles) {
         const Tile tile = tile_at(settings, progress.tiles_done);
-        frame.tile_x = tile.x;
-        frame.tile_y = tile.y;
-        frame.tile_width = tile.width;
-        frame.tile_height = tile.height;
+        tile_aim(&frame, settings, &tile);
         if (!certify_tile(certifier, &frame, error))
             return false;
         take_tile(certifier, &tile, picture);

@@ -29,7 +29,7 @@ typedef struct {
 static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
 {
     const RenderSettings *settings = &renderer->settings;
-    const Tile largest = tile_at(settings, 0);
+    const Tile largest = tile_largest(settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t tallies = settings->statistics ? count : 1;
     const Device *device = renderer->device;
@@ -114,10 +114,7 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
 {
     const Renderer *renderer = drawing->renderer;
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
-    frame.tile_x = slot->tile.x;
-    frame.tile_y = slot->tile.y;
-    frame.tile_width = slot->tile.width;
-    frame.tile_height = slot->tile.height;
+    tile_aim(&frame, &renderer->settings, &slot->tile);
     if (!run_kernel(renderer, slot, &frame, error))
         return false;
     cl_int status = CL_SUCCESS;
@@ -160,8 +157,10 @@ static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObs
 {
     Renderer *renderer = drawing->renderer;
     const uint64_t tiles = tile_count(&renderer->settings);
-    renderer->progress = (RenderProgress){.tiles = tiles};
-    uint64_t started = 0;
+    const uint64_t ready = renderer->settings.ready_tiles;
+    renderer->progress =
+        (RenderProgress){.tiles_done = ready, .tiles = tiles, .tiles_ready = ready};
+    uint64_t started = ready;
     bool wanted = true;
     while (renderer->progress.tiles_done < (wanted ? tiles : started)) {
         while (wanted && started < tiles && started < renderer->progress.tiles_done + SLOTS) {

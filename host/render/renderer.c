@@ -55,8 +55,8 @@ static bool upload_scene(Renderer *renderer, const FlatScene *flat, Error *error
 static FrameData frame_of(const FlatScene *flat, const RenderSettings *settings)
 {
     FrameData frame = {.ambient = flat->ambient,
-                       .width = settings->width,
-                       .height = settings->height,
+                       .width = render_whole_width(settings),
+                       .height = render_whole_height(settings),
                        .samples = settings->samples,
                        .max_level = settings->max_level,
                        .light_count = flat->light_count,

@@ -13,14 +13,35 @@ typedef enum {
 } Specialization;
 
 typedef struct {
-    uint32_t width, height;
-    uint32_t samples;   // per pixel and axis
-    uint32_t max_level; // rays of this level return the background
+    uint32_t width, height;             // of what is drawn
+    uint32_t left, top;                 // where that lies in the whole picture,
+    uint32_t whole_width, whole_height; // whose size this is; 0 where all of it is drawn
+    uint32_t samples;                   // per pixel and axis
+    uint32_t max_level;                 // rays of this level return the background
     uint32_t tile_width, tile_height;
+    uint64_t ready_tiles; // that many of the first are there already and are not drawn
+    uint32_t part, parts; // of every so many tiles the one of that place is drawn; 0, 0: all are
     uint32_t group_width, group_height; // of work-groups, in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
+
+// The size of the whole picture.
+static inline uint32_t render_whole_width(const RenderSettings *settings)
+{
+    return settings->whole_width > 0 ? settings->whole_width : settings->width;
+}
+
+static inline uint32_t render_whole_height(const RenderSettings *settings)
+{
+    return settings->whole_height > 0 ? settings->whole_height : settings->height;
+}
+
+static inline bool render_is_part(const RenderSettings *settings)
+{
+    return settings->width < render_whole_width(settings) ||
+           settings->height < render_whole_height(settings);
+}
 
 // Buffers of the scene, among the kernel's arguments.
 #define RENDERER_ARRAYS 7
@@ -30,6 +51,7 @@ typedef struct {
 
 typedef struct {
     uint64_t tiles_done, tiles;
+    uint64_t tiles_ready;          // of those done, that were there before
     uint64_t tallies[TALLY_KINDS]; // zeros unless statistics were asked for
 } RenderProgress;
 
@@ -59,7 +81,8 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Takes another size of pictures, other samples, levels and tiles from settings; the rest stays.
+// Takes another size of pictures, which are drawn whole, other samples, levels and tiles from
+// settings; the rest stays.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
 // Draws the picture seen by camera into framebuffer, which has the settings' size, and leaves how

@@ -61,7 +61,7 @@ bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse
     const double start = clock_seconds();
     bool ok = scene_init(scene, error) && parse(&object.mesh, file->bytes, file->size, name, error);
     scene->mesh_seconds = clock_seconds() - start;
-    scene_hash_input(scene, file->bytes, file->size);
+    scene_hash_mesh(scene, file->bytes, file->size);
     const double radius = radius_of(&object.mesh, &center);
     const bool kept = ok && array_push(&scene->objects, object, error);
     if (!kept)

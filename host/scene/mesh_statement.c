@@ -124,7 +124,7 @@ static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path
         error_set(error, "%s:%u:%u: %s", tokens->name, path.line, path.column, cause.text);
     ok = ok && scene_add_input(scene, full, error);
     if (ok) {
-        scene_hash_input(scene, file.bytes, file.size);
+        scene_hash_mesh(scene, file.bytes, file.size);
         ok = parse(mesh, file.bytes, file.size, full, error);
     }
     file_free(&file);

@@ -4,6 +4,8 @@
 
 #include "base/trigonometry.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
@@ -73,13 +75,29 @@ const char *viewpoint_fault(const Viewpoint *viewpoint)
     return NULL;
 }
 
+static void mix(uint64_t hash[2], XXH128_hash_t input)
+{
+    const uint64_t chain[4] = {hash[0], hash[1], input.low64, input.high64};
+    const XXH128_hash_t mixed = XXH3_128bits(chain, sizeof chain);
+    hash[0] = mixed.low64;
+    hash[1] = mixed.high64;
+}
+
 void scene_hash_input(Scene *scene, const void *bytes, size_t size)
 {
+    mix(scene->hash, XXH3_128bits(bytes, size));
+}
+
+void scene_hash_mesh(Scene *scene, const void *bytes, size_t size)
+{
     const XXH128_hash_t input = XXH3_128bits(bytes, size);
-    const uint64_t chain[4] = {scene->hash[0], scene->hash[1], input.low64, input.high64};
-    const XXH128_hash_t mixed = XXH3_128bits(chain, sizeof chain);
-    scene->hash[0] = mixed.low64;
-    scene->hash[1] = mixed.high64;
+    mix(scene->hash, input);
+    mix(scene->mesh_hash, input);
+}
+
+void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE])
+{
+    snprintf(name, SCENE_HASH_SIZE, "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
 }
 
 bool scene_add_input(Scene *scene, const char *path, Error *error)

@@ -55,7 +55,9 @@ typedef struct {
     uint32_t max_level;
     ARRAY(char *) inputs; // paths of the files it was read from; owned
     double mesh_seconds;  // of the loading spent on reading meshes
-    uint64_t hash[2];     // XXH3 of the bytes of the scene file and its meshes, in the order read
+    // XXH3 of the bytes of the scene file and its meshes in the order read, and of the meshes
+    // alone, which is zero without any.
+    uint64_t hash[2], mesh_hash[2];
 } Scene;
 
 // Fills scene with what a scene file starts from: the course's constants and four materials.
@@ -64,8 +66,13 @@ bool scene_init(Scene *scene, Error *error);
 // Takes the course's six viewpoints where the scene has none of its own.
 bool scene_complete(Scene *scene, Error *error);
 
-// Mixes size bytes of input into scene->hash.
+// Mixes size bytes of input into scene->hash, those of a mesh into scene->mesh_hash too.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
+void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
+
+// 32 hexadecimal digits that name a hash, the high half first.
+#define SCENE_HASH_SIZE 33
+void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE]);
 
 // Notes that the scene was read from the file at path too.
 bool scene_add_input(Scene *scene, const char *path, Error *error);

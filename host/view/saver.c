@@ -40,7 +40,7 @@ static bool write_one(Saver *saver, const Framebuffer *picture, const char *stem
                       const char *ending)
 {
     char path[PATH_MAX];
-    const ImageText text = {"clrt:settings", saver->settings};
+    const ImageText text = {"clrt:state", saver->settings};
     const ImageSettings settings = {.format = ending, .texts = &text, .text_count = 1};
     snprintf(path, sizeof path, "%s-%u.%s", stem, number, ending);
     return image_write(picture, path, &settings, &saver->error);

@@ -7,8 +7,8 @@ import struct
 import sys
 import zlib
 
-TEXTS = ["Software", "clrt:version", "clrt:scene_hash", "clrt:settings", "clrt:device",
-         "clrt:complete"]
+TEXTS = ["Software", "clrt:version", "clrt:scene_hash", "clrt:mesh_hash", "clrt:settings",
+         "clrt:device", "clrt:driver", "clrt:pixel_hash", "clrt:complete"]
 
 
 def read_chunks(data):

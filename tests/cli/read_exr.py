@@ -54,7 +54,8 @@ def unpack_chunk(packed, size):
 
 
 def read_exr(path, row=None):
-    data = open(path, "rb").read()
+    with open(path, "rb") as file:
+        data = file.read()
     attributes, place = read_header(data)
     channels = list(read_channels(attributes["channels"]))
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])

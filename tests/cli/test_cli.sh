@@ -25,7 +25,7 @@ if [ "${WINDOW:-}" = ON ]; then
     refuses 2 "--aa-adaptive, --error and --time are for files: give one with -o FILE" \
     --aa-adaptive "$scene"
   check "repeated pictures are for files" \
-    refuses 2 "--frames is for files: give one with -o FILE" --frames 2 "$scene"
+    refuses 2 "--repeat is for files: give one with -o FILE" --repeat 2 "$scene"
   check "channels are for files" \
     refuses 2 "--aov is for files: give one with -o FILE.exr" --aov depth "$scene"
   check "statistics in files are for files" \
@@ -178,7 +178,7 @@ check "tiles have an effect" pixels a.pfm --tile 16x8 --work-group 4x2 --stats=d
 check "... says the JSON" json d.json "d['settings']['tile'] == [16, 8] and d['settings']['work_group'] == [4, 2]"
 check "--specialize always has an effect" pixels a.pfm --specialize always --stats=e.json
 check "... says the JSON" json e.json "d['settings']['specialized']"
-check "--frames draws the picture as often" pixels f.pfm --frames 3 --stats=f.json
+check "--repeat draws the picture as often" pixels f.pfm --repeat 3 --stats=f.json
 check "... and times each" json f.json "len(d['frame_seconds']) == 3 and min(d['frame_seconds']) > 0"
 check "... the first as the picture's own" json f.json "d['seconds']['trace'] == d['frame_seconds'][0]"
 check "... and writes the same picture" cmp a.pfm f.pfm
@@ -348,9 +348,9 @@ if [ "${FORMATS:-}" != "png, pfm" ]; then
   check "a JPEG past its size is refused" refuses 5 "a JPEG has at most 65500 pixels a side" \
     "$scene" -s 65536x1 -o a.jpg
   check "EXR holds metadata" grep -aq "clrt:settings" a.exr
-  check "... with the precision" grep -aq "precision=fp32" a.exr
+  check "... with the precision" grep -aq '"precision":"fp32"' a.exr
   check "... fp64's too" pixels b.exr --precision fp64
-  check "... with the precision" grep -aq "precision=fp64" b.exr
+  check "... with the precision" grep -aq '"precision":"fp64"' b.exr
   exr() { "$here/read_exr.py" "$@" 2>>err; }
   check "EXR takes channels" pixels c.exr --aa --bvh sah --aov depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests
   check "... named by the field's conventions" exr c.exr "sorted(types) == sorted('R G B Z N.X N.Y N.Z P.X P.Y P.Z primitive material shadow bounces samples boxtests tritests'.split())"

@@ -64,7 +64,7 @@ class Streams(Run):
             self.assertEqual(done.stderr, b"", words)
 
     def test_talk_goes_to_standard_error_alone(self):
-        for words in (["-v"], ["--stats"], ["-v", "--frames", "2"]):
+        for words in (["-v"], ["--stats"], ["-v", "--repeat", "2"]):
             done = self.clrt(*SMALL, "-o", "a.pfm", *words)
             self.assertTrue(done.stderr, words)
             self.assertEqual(done.stdout, b"", words)
@@ -137,7 +137,7 @@ class Schemas(Run):
         jsonschema.validate(json.loads(text), schema, cls=jsonschema.Draft202012Validator)
 
     def test_statistics_are_as_their_schema_says(self):
-        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--frames", "3", "--aa"], ["--reference"]):
+        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"]):
             done = self.clrt(*SMALL, "-o", "a.pfm", "--stats=-", *words)
             self.validate("statistics", done.stdout)
         mesh = ["open.ply", "-s", "8x8", "-o", "a.pfm", "--stats=-"]

@@ -19,7 +19,7 @@ static StoredImage gray_image(const char *settings)
 {
     StoredImage image = {.width = PIXELS, .height = 1, .channel_count = CHANNELS};
     Error error = {0};
-    strcpy(image.settings, settings);
+    strcpy(image.texts[STORED_SETTINGS], settings);
     for (int i = 0; i < CHANNELS; i++)
         strcpy(image.names[i], names[i]);
     assert_true(stored_image_allocate(&image, &error));
@@ -57,8 +57,8 @@ static Causes find(StoredImage images[2])
 static void every_pixel_counts_for_its_first_cause(void **state)
 {
     (void)state;
-    StoredImage images[2] = {gray_image("samples=1x1 max_level=2 a"),
-                             gray_image("samples=2x2 max_level=4 a")};
+    StoredImage images[2] = {gray_image("{\"max_level\":2,\"samples\":1,\"view\":1}"),
+                             gray_image("{\"max_level\":4,\"samples\":2,\"view\":1}")};
     StoredImage *other = &images[1];
     for (int pixel = 0; pixel < PIXELS - 1; pixel++)
         add(other, pixel, GREEN, 0.0625f * (float)(1 + pixel));
@@ -86,8 +86,8 @@ static void every_pixel_counts_for_its_first_cause(void **state)
 static void with_the_same_samples_the_rest_is_rounding(void **state)
 {
     (void)state;
-    StoredImage images[2] = {gray_image("samples=2x2 max_level=3"),
-                             gray_image("samples=2x2 max_level=3")};
+    StoredImage images[2] = {gray_image("{\"max_level\":3,\"samples\":2}"),
+                             gray_image("{\"max_level\":3,\"samples\":2}")};
     add(&images[1], 4, RED, 0.25f);
     const Causes causes = find(images);
     assert_int_equal(causes.pixels[CAUSE_ROUNDING], 1);
@@ -97,7 +97,8 @@ static void with_the_same_samples_the_rest_is_rounding(void **state)
 static void pixels_of_an_adaptive_picture_may_have_other_samples(void **state)
 {
     (void)state;
-    StoredImage images[2] = {gray_image("samples=adaptive"), gray_image("samples=adaptive")};
+    StoredImage images[2] = {gray_image("{\"samples\":\"adaptive\"}"),
+                             gray_image("{\"samples\":\"adaptive\"}")};
     add(&images[1], 4, RED, 0.25f);
     add(&images[1], 5, RED, 0.25f);
     add(&images[1], 5, SAMPLES, 8);
@@ -109,7 +110,7 @@ static void pixels_of_an_adaptive_picture_may_have_other_samples(void **state)
 static void paths_that_end_before_the_limit_were_not_cut(void **state)
 {
     (void)state;
-    StoredImage images[2] = {gray_image("max_level=3"), gray_image("max_level=4")};
+    StoredImage images[2] = {gray_image("{\"max_level\":3}"), gray_image("{\"max_level\":4}")};
     add(&images[1], 2, BOUNCES, 1);
     add(&images[1], 2, BLUE, 0.25f);
     assert_int_equal(find(images).pixels[CAUSE_REFLECTION], 1);
@@ -118,7 +119,7 @@ static void paths_that_end_before_the_limit_were_not_cut(void **state)
 static void files_without_the_channels_tell_no_cause(void **state)
 {
     (void)state;
-    StoredImage images[2] = {gray_image("samples=1x1"), gray_image("samples=1x1")};
+    StoredImage images[2] = {gray_image("{\"samples\":1}"), gray_image("{\"samples\":1}")};
     strcpy(images[1].names[SHADOW], "Z");
     assert_false(find(images).known);
 }

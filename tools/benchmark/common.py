@@ -23,7 +23,7 @@ def compile_ahead():
 
 def draw(scene, options, folder, frames=1):
     """Seconds of each of the pictures that clrt draws of a scene, one after another."""
-    frames = ["--frames", str(frames)] if frames > 1 else []
+    frames = ["--repeat", str(frames)] if frames > 1 else []
     done = subprocess.run([CLRT, str(scene), "-q", "-v", "-o", f"{folder}/clrt.pfm", *frames,
                            *options], capture_output=True, text=True, check=False)
     if done.returncode != 0:

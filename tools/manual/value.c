@@ -14,7 +14,8 @@ void value_name(const Option *option, char *name, size_t size)
     const char *argument = option->argument;
     if (option_argument_is_optional(option))
         argument += strspn(argument, "[=");
-    snprintf(name, size, "%.*s", (int)strcspn(argument, "]"), argument);
+    snprintf(name, size, "%.*s",
+             (int)strcspn(argument, option_argument_is_optional(option) ? "]" : ""), argument);
 }
 
 // Separators of any length give way to one blank each.

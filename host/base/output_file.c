@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Renaming replaces a name at once, whoever reads it meanwhile and whenever the process is killed.
+#include "base/output_file.h"
+
+#include "base/array.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool is_replaceable(const char *path)
+{
+    struct stat status;
+    return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
+}
+
+// In the folder of path, so that it can be renamed to it, or among the system's temporary files.
+static char *temporary_file(const char *path, bool beside, Error *error)
+{
+    const char *slash = strrchr(path, '/');
+    const char *system = getenv("TMPDIR");
+    const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
+    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+    const size_t size = strlen(path) + strlen(folder) + 32;
+    char *name = memory_raw(size, 1, error);
+    if (name == NULL)
+        return NULL;
+    if (beside)
+        snprintf(name, size, "%.*s.clrt-XXXXXX", (int)length, path);
+    else
+        snprintf(name, size, "%s/clrt-XXXXXX", folder);
+    const int file = mkstemp(name);
+    if (file >= 0) {
+        const mode_t mask = umask(0);
+        umask(mask);
+        fchmod(file, 0666 & ~mask);
+        close(file);
+        return name;
+    }
+    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    free(name);
+    return NULL;
+}
+
+bool output_file_check(const char *path, Error *error)
+{
+    struct stat status;
+    const bool exists = stat(path, &status) == 0;
+    if (path[strlen(path) - 1] == '/' || (exists && S_ISDIR(status.st_mode)))
+        return error_set(error, "%s: cannot be written: it is a folder", path);
+    if (!is_replaceable(path)) {
+        const bool writable = strcmp(path, "-") == 0 || access(path, W_OK) == 0;
+        return writable || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    }
+    char *temporary = temporary_file(path, true, error);
+    if (temporary == NULL)
+        return false;
+    unlink(temporary);
+    free(temporary);
+    return strlen(strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path) <= NAME_MAX ||
+           error_set(error, "%s: cannot be written: the name is too long", path);
+}
+
+bool output_file_begin(OutputFile *file, const char *path, Error *error)
+{
+    *file = (OutputFile){.path = path, .replaces = is_replaceable(path)};
+    file->temporary = temporary_file(path, file->replaces, error);
+    return file->temporary != NULL;
+}
+
+static bool copy_stream(FILE *from, FILE *to)
+{
+    char block[65536];
+    size_t count;
+    while ((count = fread(block, 1, sizeof block, from)) > 0)
+        if (fwrite(block, 1, count, to) != count)
+            return false;
+    return !ferror(from) && fflush(to) == 0;
+}
+
+static bool copy_file(const char *from, const char *path, Error *cause)
+{
+    const bool standard = strcmp(path, "-") == 0;
+    FILE *source = fopen(from, "rb");
+    FILE *target = standard ? stdout : fopen(path, "wb");
+    // Gone by name already, so that nothing is left of it if the process is ended here.
+    unlink(from);
+    const bool ok = source != NULL && target != NULL && copy_stream(source, target);
+    if (!ok)
+        error_set(cause, "%s", strerror(errno));
+    if (source != NULL)
+        fclose(source);
+    if (target != NULL && !standard)
+        fclose(target);
+    return ok;
+}
+
+bool output_file_end(OutputFile *file, bool ok, Error *cause)
+{
+    if (ok && !file->replaces)
+        ok = copy_file(file->temporary, file->path, cause);
+    if (ok && file->replaces && rename(file->temporary, file->path) != 0)
+        ok = error_set(cause, "%s", strerror(errno));
+    if (!ok)
+        unlink(file->temporary);
+    free(file->temporary);
+    *file = (OutputFile){0};
+    return ok;
+}

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Many pictures from one run: each is the picture that is drawn alone, in a numbered file.
+# Usage: test_frames.py CLRT FORMATS
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from read_exr import read_exr, read_header
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+HAS_EXR = "exr" in sys.argv[2]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+SMALL = [SCENE, "-s", "32x24"]
+TURNED = [(5, 0, 2), (0, 5, 2), (-5, 0, 2), (0, -5, 2)]
+
+
+class Frames(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+
+    def clrt(self, *words, code=0):
+        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr if code else done.stdout
+
+    def bytes_of(self, name):
+        return (self.work / name).read_bytes()
+
+    def names(self, suffix):
+        return sorted(str(path.relative_to(self.work)) for path in self.work.rglob(f"*{suffix}"))
+
+    def test_frames_are_the_views_to_the_byte(self):
+        for more in [], ["--aa=3"], ["--precision", "fp64"], ["--aa-adaptive"], ["--crop", "3,2,30,20"]:
+            self.clrt(*SMALL, *more, "--frames", "1-6:2", "-o", "a.png")
+            self.assertEqual(self.names(".png"), ["a.0001.png", "a.0003.png", "a.0005.png"])
+            for view in "1", "3", "5":
+                self.clrt(*SMALL, *more, "--view", view, "-o", "one.png")
+                self.assertTrue(self.bytes_of(f"a.000{view}.png") == self.bytes_of("one.png"), (view, more))
+                (self.work / f"a.000{view}.png").unlink()
+            (self.work / "one.png").unlink()
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_channels_are_each_frame_s_own(self):
+        words = [*SMALL, "--bvh", "sah", "--aov", "depth,normal,samples,certainty", "--reference-samples", "2"]
+        self.clrt(*words, "--frames", "2-4", "-o", "a.exr")
+        for view in "2", "3", "4":
+            self.clrt(*words, "--view", view, "-o", "one.exr")
+            self.assertTrue(self.bytes_of(f"a.000{view}.exr") == self.bytes_of("one.exr"), view)
+
+    def test_a_turntable_turns_the_eye_about_what_it_looks_at(self):
+        scene = "light 3 2 8 1\nsphere 0 0 0 1\nsphere 1 1 0 0.5\n"
+        look = "0 0 0.5 45\n"
+        (self.work / "turn.scn").write_text(f"{scene}camera 5 0 2 {look}")
+        cameras = "".join(f"camera {x} {y} {z} {look}" for x, y, z in TURNED)
+        (self.work / "views.scn").write_text(scene + cameras)
+        for name, words in (("turn", ["--turntable", "4"]), ("views", ["--frames", "1-4"])):
+            self.clrt(f"{name}.scn", "-s", "40x30", *words, "-o", f"{name}.pfm")
+        pictures = [self.bytes_of(f"turn.000{number}.pfm") for number in range(1, 5)]
+        self.assertEqual(len(set(pictures)), 4)
+        for number, picture in enumerate(pictures, 1):
+            self.assertTrue(picture == self.bytes_of(f"views.000{number}.pfm"), number)
+
+    def test_the_first_of_a_turntable_is_the_view_itself(self):
+        self.clrt(*SMALL, "--turntable", "7", "--frames", "1-1", "--view", "3", "-o", "a.png")
+        self.clrt(*SMALL, "--view", "3", "-o", "one.png")
+        self.assertTrue(self.bytes_of("a.0001.png") == self.bytes_of("one.png"))
+
+    def test_named_frames_of_a_turntable_are_those_of_the_whole_turn(self):
+        hashes = self.clrt(*SMALL, "--turntable", "6", "-o", "all.pfm", "--hash").split()
+        self.assertEqual(len(set(hashes)), 6)
+        some = self.clrt(*SMALL, "--turntable", "6", "--frames", "2-6:3", "-o", "some.pfm", "--hash").split()
+        self.assertEqual(some, [hashes[1], hashes[4]])
+        self.assertEqual(self.names(".pfm")[6:], ["some.0002.pfm", "some.0005.pfm"])
+
+    def test_metadata_tell_the_turn(self):
+        self.clrt(*SMALL, "--turntable", "8", "--frames", "2-3", "-o", "a.png")
+        data = self.bytes_of("a.0003.png")
+        self.assertIn(b'"turned":90.0,"view":1', data)
+        self.assertIn(b'"turned":45.0,"view":1', self.bytes_of("a.0002.png"))
+
+    def test_names_are_numbered_in_place_of_the_last_crosses(self):
+        (self.work / "d#.d").mkdir()
+        for pattern, name in (("a.pfm", "a.0002.pfm"), ("b##.pfm", "b02.pfm"), ("#c######x.pfm", "#c000002x.pfm"),
+                              ("d#.d/e.pfm", "d#.d/e.0002.pfm"), ("#.pfm", "2.pfm")):
+            self.clrt(*SMALL, "--frames", "2-2", "-o", pattern)
+            self.assertEqual(self.names(".pfm"), [name])
+            (self.work / name).unlink()
+        self.clrt(*SMALL, "--frames", "2-2", "-o", "f", "--format", "pfm")
+        self.assertTrue((self.work / "f.0002").exists())
+        self.clrt(*SMALL, "-o", "g##.pfm")
+        self.assertEqual(self.names(".pfm"), ["g##.pfm"])
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_a_signal_ends_the_series_with_the_picture_it_meets(self):
+        words = [SCENE, "-s", "400x300", "--aa=16", "--tile", "400x20", "-j", "1", "--turntable", "99"]
+        process = subprocess.Popen([CLRT, *words, "-q", "-o", "a.exr"], cwd=self.work)
+        end = time.monotonic() + 200
+        while not (self.work / "a.0001.exr").exists() and time.monotonic() < end:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=200), 128 + signal.SIGINT)
+        *whole, last = self.names(".exr")
+        for name in whole:
+            self.assertEqual(read_header(self.bytes_of(name))[0]["clrt:complete"], b"yes")
+        texts = read_header(self.bytes_of(last))[0]
+        self.assertEqual(texts["clrt:complete"], b"no")
+        done = json.loads(texts["clrt:settings"])["tiles_done"]
+        below = read_exr(self.work / last)[1]["R"][done * 20 * 400 :]
+        self.assertTrue(done == 15 or set(below) == {0}, "what is not drawn is black")
+
+    def test_what_is_of_one_picture_is_refused(self):
+        many = "--frames and --turntable draw many pictures, and "
+        for words, sentence in (
+            (["-o", "-"], many + "standard output takes one: give -o FILE"),
+            (["-o", "a.pfm", "--stats=a.json"], many + "--stats=FILE is of one"),
+            (["-o", "a.pfm", "--reference=b.pfm"], many + "--reference=FILE is of one"),
+            (["-o", "a.pfm", "--expect-hash", 32 * "0"], many + "--expect-hash is of one"),
+            (["-o", "a.pfm", "--resume"],
+             many + "--resume is of one: name those that are missing by --frames"),
+            (["-o", "a.pfm", "--view", "2"], "--frames names the views: leave out --view"),
+            (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
+        ):
+            self.assertEqual(self.clrt(*SMALL, "--frames", "1-2", *words, code=2), f"clrt: {sentence}\n")
+        self.assertEqual(self.clrt(*SMALL, "--frames", "5-7", "-o", "a.pfm", code=3),
+                         f"clrt: {SCENE} has 6 viewpoints, so there is no view 7\n")
+
+    def test_what_is_no_range_is_refused(self):
+        for value in "3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-":
+            self.assertEqual(self.clrt(*SMALL, "-o", "a.pfm", f"--frames={value}", code=2),
+                             f"clrt: --frames wants A-B or A-B:S, from 1 to 1000000, not '{value}'\n")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What is told of the time that is left, in the lines of a log.
+#include "base/clock.h"
+#include "cli/progress.h"
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+// What a picture says that began so many seconds ago.
+static void tell(char *text, size_t size, double seconds, const RenderProgress *render)
+{
+    Progress progress = {.start = clock_seconds() - seconds};
+    FILE *log = tmpfile();
+    const int before = dup(STDERR_FILENO);
+    assert_non_null(log);
+    fflush(stderr);
+    dup2(fileno(log), STDERR_FILENO);
+    assert_true(progress_tile_done(&progress, render));
+    fflush(stderr);
+    dup2(before, STDERR_FILENO);
+    close(before);
+    rewind(log);
+    text[fread(text, 1, size - 1, log)] = '\0';
+    fclose(log);
+}
+
+static void the_time_left_follows_from_the_tiles_that_are_done(void **state)
+{
+    (void)state;
+    char text[128];
+    const RenderProgress render = {.tiles_done = 25, .tiles = 100};
+    tell(text, sizeof text, 10.2, &render);
+    assert_string_equal(text, "tracing 25 %, 31 s left\n");
+}
+
+static void tiles_of_an_earlier_run_took_this_one_no_time(void **state)
+{
+    (void)state;
+    char text[128];
+    const RenderProgress render = {.tiles_done = 60, .tiles = 100, .tiles_ready = 50};
+    tell(text, sizeof text, 10.1, &render);
+    assert_string_equal(text, "tracing 60 %, 40 s left\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_time_left_follows_from_the_tiles_that_are_done),
+        cmocka_unit_test(tiles_of_an_earlier_run_took_this_one_no_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# What a picture's file tells of where it comes from, and what the hash of its pixels is good for.
+# Usage: test_provenance.py CLRT FORMATS
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from read_exr import read_header
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+HAS_EXR = "exr" in sys.argv[2]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+SMALL = [SCENE, "-s", "24x16"]
+NAMES = ["Software", "clrt:version", "clrt:scene_hash", "clrt:mesh_hash", "clrt:settings", "clrt:device",
+         "clrt:driver", "clrt:pixel_hash", "clrt:complete"]
+
+
+def png_texts(path):
+    data, place, texts = path.read_bytes(), 8, {}
+    while place < len(data):
+        size, kind = struct.unpack_from(">I4s", data, place)
+        if kind == b"tEXt":
+            name, value = data[place + 8 : place + 8 + size].decode().split("\0")
+            texts[name] = value
+        place += size + 12
+    return texts
+
+
+def exr_texts(path):
+    return {name: value.decode(errors="replace") for name, value in read_header(path.read_bytes())[0].items()}
+
+
+class Provenance(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+
+    def clrt(self, *words, code=0, **environment):
+        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True,
+                              env=dict(os.environ, **environment), timeout=120)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def draw(self, *words, name="a.png", **environment):
+        self.clrt(*(words or SMALL), "-o", name, **environment)
+        return png_texts(self.work / name)
+
+    def test_every_name_is_there_and_says_something(self):
+        texts = self.draw()
+        self.assertEqual(list(texts), NAMES)
+        self.assertTrue(all(texts.values()), texts)
+        self.assertEqual(texts["clrt:complete"], "yes")
+        self.assertIn(texts["clrt:version"], texts["Software"])
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_exr_tells_the_same_as_png(self):
+        self.clrt(*SMALL, "-o", "a.exr", "--precision", "fp64")
+        texts, expected = exr_texts(self.work / "a.exr"), self.draw(*SMALL, "--precision", "fp64")
+        self.assertEqual({name: texts.get(name) for name in NAMES}, expected)
+        self.assertEqual(texts["capDate"], "")
+
+    def test_settings_are_json_of_what_the_picture_depends_on(self):
+        settings = json.loads(self.draw(*SMALL, "--aa=3", "--view", "2", "--tile", "8x8")["clrt:settings"])
+        self.assertEqual(settings, {"view": 2, "width": 24, "height": 16, "samples": 3, "max_level": 3,
+                                    "encode": "raw", "precision": "fp32"})
+        settings = json.loads(self.draw(*SMALL, "--aa-adaptive=0.1")["clrt:settings"])
+        self.assertEqual((settings["samples"], settings["contrast"]), ("adaptive", 0.1))
+
+    def test_what_changes_no_bit_changes_no_byte_of_the_file(self):
+        first = self.draw()
+        for words in (["--tile", "5x7"], ["-j", "1"], ["--bvh", "midpoint"], ["--kernel", "ray"]):
+            self.assertEqual(self.draw(*SMALL, *words, name="b.png"), first)
+            self.assertEqual((self.work / "a.png").read_bytes(), (self.work / "b.png").read_bytes())
+
+    def test_the_scene_hash_follows_every_file_and_the_mesh_hash_the_meshes(self):
+        shutil.copy(ROOT / "scenes/cube.ply", self.work / "cube.ply")
+        scene = self.work / "own.scn"
+        scene.write_text("light 0 0 9 1\nmaterial 1\nply_file cube.ply\n")
+        words = ["own.scn", "-s", "8x8"]
+        before = self.draw(*words)
+        scene.write_text("light 0 0 9 1\nmaterial 2\nply_file cube.ply\n")
+        other_scene = self.draw(*words)
+        self.assertNotEqual(before["clrt:scene_hash"], other_scene["clrt:scene_hash"])
+        self.assertEqual(before["clrt:mesh_hash"], other_scene["clrt:mesh_hash"])
+        shutil.copy(ROOT / "scenes/cone.ply", self.work / "cube.ply")
+        other_mesh = self.draw(*words)
+        self.assertNotEqual(other_scene["clrt:scene_hash"], other_mesh["clrt:scene_hash"])
+        self.assertNotEqual(other_scene["clrt:mesh_hash"], other_mesh["clrt:mesh_hash"])
+        scene.write_text("sphere 0 0 0 1\n")
+        self.assertEqual(self.draw(*words)["clrt:mesh_hash"], 32 * "0")
+
+    def test_pictures_are_dated_by_source_date_epoch_alone(self):
+        self.assertNotIn("DateTime", self.draw())
+        self.assertEqual(self.draw(SOURCE_DATE_EPOCH="86399")["DateTime"], "1970:01:01 23:59:59")
+        if HAS_EXR:
+            self.clrt(*SMALL, "-o", "a.exr", SOURCE_DATE_EPOCH="951782400")
+            self.assertIn("2000:02:29 00:00:00", exr_texts(self.work / "a.exr")["capDate"])
+        for wrong in "soon", "-1", "":
+            done = self.clrt(*SMALL, "-o", "b.png", code=2, SOURCE_DATE_EPOCH=wrong)
+            self.assertEqual(done.stderr,
+                             f"clrt: SOURCE_DATE_EPOCH wants seconds since 1970, not '{wrong}'\n")
+
+    def test_without_metadata_nothing_of_it_is_told(self):
+        environment = {"SOURCE_DATE_EPOCH": "0"}
+        self.assertEqual(self.draw(*SMALL, "--no-metadata", **environment), {})
+        if HAS_EXR:
+            self.clrt(*SMALL, "-o", "a.exr", "--no-metadata", **environment)
+            data = (self.work / "a.exr").read_bytes()
+            self.assertFalse([name for name in [*NAMES, "1970:01:01"] if name.encode() in data])
+
+    def test_the_hash_is_that_of_the_pixels_whatever_the_file(self):
+        texts = self.draw(*SMALL, "--stats=a.json")
+        found = {texts["clrt:pixel_hash"], json.loads((self.work / "a.json").read_text())["pixel_hash"]}
+        for words in (["-o", "b.pfm"], ["-o", "b.png", "--encode", "srgb"], ["-o", "b.png", "-j", "1"]):
+            done = self.clrt(*SMALL, *words, "--hash")
+            self.assertEqual(done.stderr, "")
+            found.add(done.stdout.removesuffix("\n"))
+        self.assertEqual(len(found), 1, found)
+        other = self.clrt(*SMALL, "-o", "b.pfm", "--hash", "--aa").stdout.removesuffix("\n")
+        self.assertNotIn(other, found)
+
+    def test_another_hash_than_expected_is_exit_1_and_the_picture_is_there(self):
+        right = self.clrt(*SMALL, "-o", "a.pfm", "--hash").stdout.removesuffix("\n")
+        for same in right, right.upper():
+            self.clrt(*SMALL, "-o", "a.pfm", "--expect-hash", same)
+        wrong = right[:-1] + ("1" if right[-1] == "0" else "0")
+        done = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", wrong, code=1)
+        self.assertEqual(done.stderr,
+                         f"clrt: the hash of the pixels is {right}, not the expected {wrong}\n")
+        self.assertEqual((self.work / "a.pfm").read_bytes(), (self.work / "b.pfm").read_bytes())
+        done = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", "abc", code=2)
+        self.assertEqual(done.stderr, "clrt: --expect-hash wants 32 hexadecimal digits, not 'abc'\n")
+
+    def test_one_thing_at_most_goes_to_standard_output(self):
+        for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--stats=-"], "statistics")):
+            done = self.clrt(*SMALL, *words, "--hash", code=2)
+            self.assertEqual(done.stderr,
+                             f"clrt: the {thing} and the hash cannot both go to standard output\n")
+
+    def test_json_replaces_a_file_whole_or_not_at_all(self):
+        (self.work / "a.json").write_text("what was there")
+        (self.work / "other.json").hardlink_to(self.work / "a.json")
+        self.clrt(*SMALL, "-o", "a.pfm", "--stats=a.json")
+        self.assertEqual((self.work / "other.json").read_text(), "what was there")
+        self.assertEqual(json.loads((self.work / "a.json").read_text())["schema"], 1)
+        self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "a.pfm", "other.json"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Pictures that were killed or stopped and go on: the same file in the end, whenever it was, and
+# never a half one under the final name.
+# Usage: test_resume.py CLRT FORMATS [--kills N] [TEST...]
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from read_exr import read_exr, read_header
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+HAS_EXR = "exr" in sys.argv[2]
+KILLS = int(sys.argv[sys.argv.index("--kills") + 1]) if "--kills" in sys.argv else 10
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+NAME = "a.exr" if HAS_EXR else "a.pfm"
+# Many small tiles, and some seconds; one tile that takes as long.
+WIDTH, HEIGHT, TILE = 400, 300, 20
+TILES = WIDTH // TILE * HEIGHT // TILE
+LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tile", f"{TILE}x{TILE}", "-j", "1"]
+ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tile", "2000x2000", "-j", "1"]
+SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
+OTHER = "is of another scene, other settings or another version of clrt: remove it to begin again"
+
+
+class Resume(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+        self.journal = self.work / f"{NAME}.part"
+
+    def start(self, *words):
+        process = subprocess.Popen([CLRT, *words], cwd=self.work, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        return process
+
+    def clrt(self, *words, code=0):
+        process = self.start(*words)
+        talk = process.communicate(timeout=600)[1]
+        self.assertEqual(process.returncode, code, talk)
+        return talk
+
+    def bytes_of(self, name):
+        return (self.work / name).read_bytes()
+
+    def whole(self, *words):
+        self.clrt(*words, "-o", f"whole-{NAME}")
+        return self.bytes_of(f"whole-{NAME}")
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 300
+        while not condition():
+            self.assertLess(time.monotonic(), end, "it never happens")
+            time.sleep(0.002)
+
+    def kill_in_the_middle(self, *words, tiles=40):
+        """Leaves a journal with that many tiles, and some more or not."""
+        process = self.start(*words, "-o", NAME, "--resume")
+        size = tiles * TILE * TILE * 12
+        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > size)
+                      or process.poll() is not None)
+        process.kill()
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+
+    def resumed_tiles(self, *words):
+        """Goes on to the end, and tells how many tiles it found."""
+        talk = self.clrt(*words, "-o", NAME, "--resume", "-v")
+        line = next(line for line in talk.splitlines() if line.startswith("resumed: "))
+        return int(line.split()[1])
+
+
+class Kills(Resume):
+    def test_killed_at_random_moments_it_ends_as_if_it_never_was(self):
+        begin = time.monotonic()
+        whole = self.whole(*LONG)
+        seconds, chance = time.monotonic() - begin, random.Random(1)
+        kills = midway = pictures = 0
+        while kills < KILLS:
+            process = self.start(*LONG, "-o", NAME, "--resume")
+            time.sleep(chance.uniform(0, seconds))
+            process.kill()
+            killed = process.wait() == -signal.SIGKILL
+            kills += killed
+            midway += killed and self.journal.exists() and self.journal.stat().st_size > 10000
+            if (self.work / NAME).exists():
+                self.assertTrue(self.bytes_of(NAME) == whole, f"after {kills} kills")
+                self.clrt(*LONG, "-o", NAME, "--resume")
+                self.assertTrue(self.bytes_of(NAME) == whole, f"after {kills} kills")
+                (self.work / NAME).unlink()
+                pictures += 1
+        print(f"{kills} kills, {midway} of them amid tiles, {pictures} pictures finished", file=sys.stderr)
+        self.clrt(*LONG, "-o", NAME, "--resume")
+        self.assertTrue(self.bytes_of(NAME) == whole)
+        self.assertFalse(self.journal.exists())
+        self.assertGreater(midway, 0)
+
+    def test_what_was_done_is_not_done_again(self):
+        whole = self.whole(*LONG)
+        self.kill_in_the_middle(*LONG)
+        self.assertGreaterEqual(self.resumed_tiles(*LONG), 40)
+        self.assertTrue(self.bytes_of(NAME) == whole)
+        self.assertFalse(self.journal.exists())
+
+    def test_a_torn_or_damaged_journal_costs_the_tiles_from_there_on(self):
+        whole = self.whole(*LONG)
+        self.kill_in_the_middle(*LONG)
+        journal, chance = self.journal.read_bytes(), random.Random(2)
+        record = 24 + TILE * TILE * 12
+        for _ in range(4):
+            place = chance.randrange(24, 40 * record)
+            torn = journal[:place]
+            damaged = journal[:place] + bytes([journal[place] ^ 1]) + journal[place + 1 :]
+            for bad in torn, damaged:
+                self.journal.write_bytes(bad)
+                self.assertEqual(self.resumed_tiles(*LONG), (place - 24) // record)
+                self.assertTrue(self.bytes_of(NAME) == whole)
+                (self.work / NAME).unlink()
+        for size in 0, 5, 23, 24:
+            self.journal.write_bytes(journal[:size])
+            self.assertEqual(self.resumed_tiles(*LONG), 0)
+            (self.work / NAME).unlink()
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_with_channels_parts_and_crops_too(self):
+        for more in (["--aov", "depth,primitive,certainty"], ["--part", "2/3"],
+                     ["--crop", "30,20,390,290"], ["--precision", "fp64"]):
+            whole = self.whole(*LONG, *more)
+            self.kill_in_the_middle(*LONG, *more)
+            self.assertGreaterEqual(self.resumed_tiles(*LONG, *more), 30)
+            self.assertTrue(self.bytes_of(NAME) == whole, more)
+            (self.work / NAME).unlink()
+
+    def test_any_format_goes_on(self):
+        for name in "b.png", "b.pfm":
+            self.clrt(*LONG, "-o", f"whole-{name}")
+            process = self.start(*LONG, "-o", name, "--resume")
+            self.wait_for(lambda: (self.work / f"{name}.part").exists())
+            process.kill()
+            process.wait()
+            self.assertFalse((self.work / name).exists())
+            self.clrt(*LONG, "-o", name, "--resume")
+            self.assertTrue(self.bytes_of(name) == self.bytes_of(f"whole-{name}"))
+
+
+class Stops(Resume):
+    def stop(self, *words, number=signal.SIGINT):
+        """Stops a picture on its way, by what its journal shows."""
+        process = self.start(*words, "-o", NAME, "--resume")
+        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 100000)
+                      or process.poll() is not None)
+        process.send_signal(number)
+        process.communicate(timeout=600)
+        self.assertEqual(process.returncode, 128 + number)
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_the_first_signal_writes_whole_tiles_marked_incomplete(self):
+        self.whole(*LONG)
+        whole = read_exr(self.work / f"whole-{NAME}")[1]
+        for number in signal.SIGINT, signal.SIGTERM:
+            self.stop(*LONG, number=number)
+            texts = read_header(self.bytes_of(NAME))[0]
+            self.assertEqual(texts["clrt:complete"], b"no")
+            done = json.loads(texts["clrt:settings"])["tiles_done"]
+            self.assertTrue(0 < done < TILES, done)
+            stopped = read_exr(self.work / NAME)[1]
+            for pixel in range(WIDTH * HEIGHT):
+                tile = pixel // WIDTH // TILE * (WIDTH // TILE) + pixel % WIDTH // TILE
+                expected = whole["G"][pixel] if tile < done else 0
+                self.assertEqual(stopped["G"][pixel], expected)
+            self.journal.unlink()
+            (self.work / NAME).unlink()
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_a_stopped_exr_is_gone_on_with_where_there_is_no_journal(self):
+        for more in [], ["--part", "1/2"], ["--crop", "30,20,390,290"], ["--aov", "depth,samples"]:
+            whole = self.whole(*LONG, *more)
+            self.stop(*LONG, *more)
+            self.journal.unlink()
+            done = json.loads(read_header(self.bytes_of(NAME))[0]["clrt:settings"])["tiles_done"]
+            self.assertEqual(self.resumed_tiles(*LONG, *more), done)
+            self.assertTrue(self.bytes_of(NAME) == whole, more)
+            (self.work / NAME).unlink()
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_a_whole_exr_is_all_there(self):
+        whole = self.whole(*SMALL)
+        shutil.copy(self.work / f"whole-{NAME}", self.work / NAME)
+        self.assertEqual(self.resumed_tiles(*SMALL), 24)
+        self.assertEqual(self.resumed_tiles(*SMALL, "--tile", "128x128"), 1)
+        self.assertTrue(self.bytes_of(NAME) == whole)
+
+    def test_the_second_signal_ends_it_at_once_and_writes_nothing(self):
+        process = self.start(*ONE_TILE, "-o", NAME, "-v")
+        while "kernels:" not in process.stderr.readline():
+            self.assertIsNone(process.poll())
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.2)
+        self.assertIsNone(process.poll(), "a tile takes longer")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertFalse((self.work / NAME).exists())
+
+
+class Refusals(Resume):
+    def test_what_was_drawn_otherwise_is_refused_and_left_as_it_is(self):
+        self.kill_in_the_middle(*LONG)
+        journal = self.journal.read_bytes()
+        (self.work / "own.scn").write_text("light 0 0 5 1\nsphere 0 0 0 1\n")
+        for words in (LONG + ["--aa=11"], LONG + ["--view", "2"], LONG + ["--tile", "40x20"],
+                      LONG + ["--max-level", "1"], LONG + ["--precision", "fp64"], ["own.scn", *LONG[1:]]):
+            self.assertEqual(self.clrt(*words, "-o", NAME, "--resume", code=3),
+                             f"clrt: {NAME}.part: {OTHER}\n")
+            self.assertTrue(self.journal.read_bytes() == journal)
+        self.journal.write_bytes(b"something else, of some length")
+        self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
+                         f"clrt: {NAME}.part: is no journal of clrt\n")
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_an_exr_that_was_drawn_otherwise_is_refused(self):
+        self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
+        self.clrt(*SMALL, "-o", "aa.exr", "--aa")
+        for name in "bare.exr", "aa.exr":
+            before = self.bytes_of(name)
+            self.assertEqual(self.clrt(*SMALL, "-o", name, "--resume", code=3),
+                             f"clrt: {name}: {OTHER}\n")
+            self.assertTrue(self.bytes_of(name) == before)
+            self.assertFalse((self.work / f"{name}.part").exists())
+
+    def test_two_processes_do_not_draw_one_picture(self):
+        process = self.start(*LONG, "-o", NAME, "--resume")
+        self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
+        self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
+                         f"clrt: {NAME}.part: another process draws this picture\n")
+        process.kill()
+        process.wait()
+
+    def test_a_journal_that_cannot_grow_is_exit_5(self):
+        words = f"ulimit -f 1200; exec '{CLRT}' {' '.join(LONG)} -o {NAME} -q --resume"
+        done = subprocess.run(["bash", "-c", f"trap '' XFSZ; {words}"], cwd=self.work,
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stderr),
+                         (5, f"clrt: {NAME}.part: cannot be written: File too large\n"))
+        self.assertFalse((self.work / NAME).exists())
+
+    def test_what_cannot_be_gone_on_with_is_refused(self):
+        for words, sentence in (
+            (["-o", "-"], "--resume goes on with a file: standard output is none"),
+            (["-o", "a.pfm", "--aa-adaptive"],
+             "--resume is of the samples of --aa: leave out --aa-adaptive, --error and --time"),
+            (["-o", "a.pfm", "--stats"], "--stats counts the rays of whole pictures: leave out --resume"),
+            (["-o", "a.pfm", "--repeat", "2"], "--repeat times whole pictures: leave out --resume"),
+        ):
+            self.assertEqual(self.clrt(*SMALL, "--resume", *words, code=2), f"clrt: {sentence}\n")
+        os.mkfifo(self.work / "pipe.pfm")
+        self.assertEqual(self.clrt(*SMALL, "--resume", "-o", "pipe.pfm", code=3),
+                         "clrt: pipe.pfm: is no file that can be gone on with\n")
+
+
+if __name__ == "__main__":
+    words = [word for word in sys.argv[3:] if word not in ("--kills", str(KILLS))]
+    unittest.main(argv=[sys.argv[0], *words], verbosity=2)
