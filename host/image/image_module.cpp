@@ -18,17 +18,6 @@
 namespace
 {
 
-// Some writers do not notice a full disk, and libjpeg ends the process at one.  Where the format
-// can be written to memory, it is, and the bytes then go to the file here.
-bool write_bytes(const std::vector<unsigned char> &bytes, const char *path)
-{
-    FILE *file = std::fopen(path, "wb");
-    if (file == nullptr)
-        return false;
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    return std::fclose(file) == 0 && written;
-}
-
 void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     spec.nchannels += static_cast<int>(picture.layer_count);
@@ -85,10 +74,49 @@ bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, 
                                    : output.write_image(type, picture.pixels);
 }
 
-bool write_picture(const ImageModulePicture &picture, std::string &message)
+// Closes the writer in any case, while what it writes to is there.
+bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
+               const ImageModulePicture &picture)
+{
+    const bool written =
+        output.open(picture.path, spec) && write_pixels(output, picture, spec.format);
+    return output.close() && written;
+}
+
+// Some writers do not notice a full disk, and libjpeg ends the process at one.  Where the format
+// can be written to memory, it is, and the bytes then go to the file here.
+bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
+                          const ImageModulePicture &picture)
 {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
+    const bool in_memory = output.supports("ioproxy") && output.set_ioproxy(&memory);
+    const bool ok = write_all(output, spec, picture);
+    if (!ok || !in_memory)
+        return ok;
+    FILE *file = std::fopen(picture.path, "wb");
+    if (file == nullptr)
+        return false;
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    return std::fclose(file) == 0 && written;
+}
+
+// EXR files may be as large as the picture: theirs is written at once, and looked at here, since
+// the last bytes are no matter to OpenEXR.
+bool write_to_file(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
+                   const ImageModulePicture &picture)
+{
+    FILE *file = std::fopen(picture.path, "wb");
+    if (file == nullptr)
+        return false;
+    OIIO::Filesystem::IOFile direct(file, OIIO::Filesystem::IOProxy::Write);
+    const bool ok = output.set_ioproxy(&direct) && write_all(output, spec, picture);
+    const bool written = std::ferror(file) == 0;
+    return std::fclose(file) == 0 && written && ok;
+}
+
+bool write_picture(const ImageModulePicture &picture, std::string &message)
+{
     auto output = OIIO::ImageOutput::create(picture.format);
     if (!output) {
         message = OIIO::geterror();
@@ -104,14 +132,13 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     spec.attribute("CompressionQuality", 95);
     for (size_t i = 0; i < picture.text_count; i++)
         spec.attribute(picture.texts[2 * i], picture.texts[2 * i + 1]);
-    const bool in_memory = output->supports("ioproxy") && output->set_ioproxy(&memory);
-    const bool ok =
-        output->open(picture.path, spec) && write_pixels(*output, picture, type) && output->close();
+    const bool is_exr = std::strcmp(picture.format, "openexr") == 0;
+    errno = 0;
+    const bool ok = is_exr ? write_to_file(*output, spec, picture)
+                           : write_through_memory(*output, spec, picture);
     if (!ok)
-        message = output->geterror();
-    else if (in_memory && !write_bytes(bytes, picture.path))
-        message = std::strerror(errno);
-    return message.empty() && ok;
+        message = errno != 0 ? std::strerror(errno) : output->geterror();
+    return ok;
 }
 
 bool check_head(const OIIO::ImageSpec &spec, uint64_t values_max, std::string &message)
