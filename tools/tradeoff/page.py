@@ -144,8 +144,8 @@ def goal_section(scenes):
         "<h2>What goals hold and cost</h2><p>Each error E that is asked for by "
         "<code>--error</code>: the true RMSE against the reference, in parts of E; under it the "
         "time, as a multiple of that of the fastest fixed setting that holds E, and of that of the "
-        "fewest N x N samples everywhere that do. Who uses a fixed setting must know it beforehand; "
-        "who asks for an error need not.</p>"
+        "fewest N x N samples everywhere that do. Who uses a fixed setting must know it "
+        "beforehand; who asks for an error need not.</p>"
         f"{goal_tables.of_all(scenes)}")
 
 
