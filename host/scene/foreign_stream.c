@@ -2,6 +2,8 @@
 // Goes from record to record; each kind has the function that takes it, behind its own checks.
 #include "scene/foreign_stream.h"
 
+#include "scene/limits.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,7 +91,7 @@ static bool take_material(Parser *parser)
         material.diffuse[channel] = within(material.diffuse[channel], 1);
         material.specular[channel] = within(material.specular[channel], 1);
     }
-    material.shininess = within(material.shininess, 1e9f);
+    material.shininess = within(material.shininess, (float)SHININESS_MOST);
     return array_push(&parser->model->materials, material, parser->error);
 }
 
