@@ -33,16 +33,17 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Some importers do not name what they invent, and give it a gray.
+// Some importers do not name what they invent, and make it gray or white.
 bool material_is_given(const struct aiMaterial *material)
 {
-    const float gray = 0.6f;
+    const float gray = 0.6f, white = 1;
     char name[sizeof((ForeignMaterial *)0)->name];
     float color[3] = {0, 0, 0};
     find_name(material, name, sizeof name);
     find_color(material, "$clr.diffuse", color);
-    const bool is_gray = color[0] == gray && color[1] == gray && color[2] == gray;
-    return strcmp(name, AI_DEFAULT_MATERIAL_NAME) != 0 && !(name[0] == '\0' && is_gray);
+    const bool is_even = color[0] == color[1] && color[1] == color[2];
+    const bool is_plain = is_even && (color[0] == gray || color[0] == white);
+    return strcmp(name, AI_DEFAULT_MATERIAL_NAME) != 0 && !(name[0] == '\0' && is_plain);
 }
 
 ForeignMaterial material_taken(const struct aiMaterial *material)

@@ -69,6 +69,7 @@ static bool complete(Scene *scene, bool ok, Error *error)
 {
     Vec3 center;
     const double radius = radius_of(scene, &center);
+    scene->is_mesh = true;
     ok =
         ok && add_cameras(scene, center, radius, error) && add_lights(scene, center, radius, error);
     if (!ok)

@@ -51,6 +51,7 @@ typedef struct {
     ARRAY(MaterialName) material_names; // of those defined
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
+    bool is_mesh;          // its file was a mesh alone; viewpoints and lights are clrt's own
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;

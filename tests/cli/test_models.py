@@ -4,16 +4,13 @@
 # are made to harm.
 # Usage: test_models.py CLRT 1|0, the latter for a build without Assimp
 import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 import models
+from work import ASSIMP, Work
 
-CLRT, ASSIMP = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2] == "1"
 CAMERA = "size 96 64\ncamera 3 -7 4 0 0 0 40\nlight 5 -7 8 1\n"
 POINTS, TRIANGLES = models.knot()
 COARSE = models.coarse(POINTS)
@@ -29,34 +26,6 @@ DEFINES = (
 COLORED = models.obj(
     COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0), ("usemtl shiny", HALF)]
 )
-
-
-class Work(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
-
-    def write(self, **files):
-        """Files by name, in which the last underscore stands for the point."""
-        for name, content in files.items():
-            content = content.encode() if isinstance(content, str) else content
-            path = self.work / ".".join(name.rsplit("_", 1))
-            path.write_bytes(content)
-
-    def clrt(self, *words):
-        return subprocess.run(
-            [CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=300
-        )
-
-    def picture(self, scene, *words, says=""):
-        done = self.clrt(scene, "-o", "picture.pfm", "-s", "96x64", *words)
-        self.assertEqual((done.stderr, done.returncode), (says, 0))
-        return (self.work / "picture.pfm").read_bytes()
-
-    def fails(self, sentence, *words):
-        done = self.clrt(*words, "-o", "picture.pfm")
-        self.assertEqual((done.stderr, done.returncode), (f"clrt: {sentence}\n", 3))
 
 
 @unittest.skipIf(ASSIMP, "this build has Assimp")
