@@ -48,6 +48,15 @@ def normals_of(points):
     return directions
 
 
+def axes_of(points):
+    """The same along the nearest axis, which every notation and every length keeps."""
+    nearest = [max(range(3), key=lambda axis: abs(point[axis])) for point in points]
+    return [
+        tuple(math.copysign(1.0, point[axis]) if axis == near else 0.0 for axis in range(3))
+        for point, near in zip(points, nearest)
+    ]
+
+
 def ply(points, triangles, normals=None):
     rows = [p + n for p, n in zip(points, normals)] if normals else points
     names = ["x", "y", "z", "nx", "ny", "nz"][: len(rows[0])]

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Meshes in other formats than PLY: the same picture, the materials of their files, and files that
 # are made to harm.
-# Usage: test_models.py CLRT 1|0, the latter for a build without Assimp
+# Usage: test_models.py CLRT 1|0 [EXPORT], 0 for a build without Assimp; EXPORT is of export_model.c
 import os
+import subprocess
 import sys
 import time
 import unittest
@@ -11,6 +12,7 @@ import unittest
 import models
 from work import ASSIMP, Work
 
+EXPORT = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
 CAMERA = "size 96 64\ncamera 3 -7 4 0 0 0 40\nlight 5 -7 8 1\n"
 POINTS, TRIANGLES = models.knot()
 COARSE = models.coarse(POINTS)
@@ -121,6 +123,32 @@ class Formats(Work):
         self.assertEqual(self.clrt("--warm", "a.stl").returncode, 0)
         self.picture("a.stl", "-q", "--stats=stats.json")
         self.assertIn(f'"triangles": {len(TRIANGLES)}', (self.work / "stats.json").read_text())
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Exported(Work):
+    """What Assimp itself writes of a PLY mesh."""
+
+    SCENE = CAMERA + "material 2\nmesh "
+
+    def expect_same_picture(self, mesh, formats):
+        self.write(a_ply=mesh, a_scn=self.SCENE + "a.ply\n")
+        expected = self.picture("a.scn")
+        for name, ending in formats.items():
+            subprocess.run([EXPORT, "a.ply", name, f"a.{ending}"], cwd=self.work, check=True)
+            self.write(b_scn=f"{self.SCENE}a.{ending}\n")
+            self.assertEqual(self.picture("b.scn"), expected, name)
+
+    def test_formats_of_floats_give_the_picture_of_ply(self):
+        mesh = models.ply(POINTS, TRIANGLES, models.axes_of(POINTS))
+        self.expect_same_picture(mesh, {"glb2": "glb", "gltf2": "gltf", "assbin": "assbin"})
+
+    def test_so_does_what_has_no_normals(self):
+        self.expect_same_picture(models.ply(POINTS, TRIANGLES), {"stlb": "stl"})
+
+    def test_formats_in_decimals_do_where_those_are_short(self):
+        mesh = models.ply(COARSE, TRIANGLES, models.axes_of(POINTS))
+        self.expect_same_picture(mesh, {"obj": "obj", "collada": "dae", "fbxa": "fbx"})
 
 
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
