@@ -139,6 +139,15 @@ class Exported(Work):
             self.write(b_scn=f"{self.SCENE}a.{ending}\n")
             self.assertEqual(self.picture("b.scn"), expected, name)
 
+    def test_every_ending_that_assimp_reads_is_a_model(self):
+        told = subprocess.run([EXPORT], capture_output=True, text=True, check=True).stdout
+        own = {"ply", "scn", "xml"}  # the last says nothing
+        for ending in set(told.split()) - own:
+            (self.work / f"a.{ending}").write_text("light\n")
+            done = self.clrt(f"a.{ending}", "-o", "a.pfm")
+            self.assertEqual(done.returncode, 3, ending)
+            self.assertNotIn("the statement is", done.stderr, ending)
+
     def test_formats_of_floats_give_the_picture_of_ply(self):
         mesh = models.ply(POINTS, TRIANGLES, models.axes_of(POINTS))
         self.expect_same_picture(mesh, {"glb2": "glb", "gltf2": "gltf", "assbin": "assbin"})
