@@ -3,6 +3,7 @@
 #include "cli/convert.h"
 
 #include "base/file.h"
+#include "base/output_file.h"
 #include "cli/check.h"
 #include "scene/mesh_join.h"
 #include "scene/ply_write.h"
@@ -15,7 +16,6 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #define COURSE_MATERIALS 4
 
@@ -49,41 +49,51 @@ static bool is_input(const Scene *scene, const char *path)
     return false;
 }
 
-static FILE *open_output(const Conversion *conversion, const char *path, Error *error)
+typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
+
+// Writes to the file's place for the unfinished, whose stream is buffered: its end tells faults.
+static bool write_stream(const Conversion *conversion, const OutputFile *file, WriteContent *write,
+                         const void *content)
 {
-    if (is_input(&conversion->scene, path)) {
-        error_set(error, "%s: is read from, and not written over", path);
-        return NULL;
-    }
-    FILE *stream = fopen(path, "wb");
+    FILE *stream = fopen(file->temporary, "wb");
     if (stream == NULL)
-        error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    return stream;
+        return false;
+    const bool ok = write(conversion, content, stream);
+    return fclose(stream) == 0 && ok;
 }
 
-// Nothing is left of a file that could not be written whole.
-static bool close_output(FILE *stream, bool ok, const char *path, Error *error)
+static bool write_file(const Conversion *conversion, const char *path, WriteContent *write,
+                       const void *content, Error *error)
 {
-    struct stat status;
-    const bool is_file = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
-    errno = ok ? 0 : errno;
-    ok = fclose(stream) == 0 && ok;
-    if (ok)
-        return true;
-    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    if (is_file)
-        unlink(path);
-    return false;
+    OutputFile file;
+    Error cause = {0};
+    if (is_input(&conversion->scene, path))
+        return error_set(error, "%s: is read from, and not written over", path);
+    if (!output_file_begin(&file, path, error))
+        return false;
+    const bool ok =
+        write_stream(conversion, &file, write, content) || error_set(&cause, "%s", strerror(errno));
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
+}
+
+static bool write_ply(const Conversion *conversion, const void *content, FILE *stream)
+{
+    (void)conversion;
+    return ply_write(content, stream);
+}
+
+static bool write_scn(const Conversion *conversion, const void *content, FILE *stream)
+{
+    (void)content;
+    Error unused = {0};
+    return scn_write(&conversion->scene, conversion->mesh_names, stream, &unused);
 }
 
 static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const char *path,
                        Error *error)
 {
-    FILE *stream = open_output(conversion, path, error);
-    if (stream == NULL)
-        return false;
-    const bool ok = ply_write(mesh, stream);
-    if (!close_output(stream, ok, path, error))
+    if (!write_file(conversion, path, write_ply, mesh, error))
         return false;
     if (conversion->options->verbose)
         fprintf(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
@@ -161,14 +171,9 @@ static bool write_meshes(const Conversion *conversion, Error *error)
 
 static ExitCode write_text(Conversion *conversion, Error *error)
 {
-    const char *path = conversion->options->other_path;
-    if (!name_meshes(conversion, error) || !write_meshes(conversion, error))
-        return EXIT_OUTPUT;
-    FILE *stream = open_output(conversion, path, error);
-    if (stream == NULL)
-        return EXIT_OUTPUT;
-    const bool ok = scn_write(&conversion->scene, conversion->mesh_names, stream, error);
-    return close_output(stream, ok, path, error) ? EXIT_DONE : EXIT_OUTPUT;
+    const bool ok = name_meshes(conversion, error) && write_meshes(conversion, error) &&
+                    write_file(conversion, conversion->options->other_path, write_scn, NULL, error);
+    return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 static ExitCode run(Conversion *conversion, Error *error)

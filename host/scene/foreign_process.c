@@ -27,7 +27,8 @@ const ForeignReader foreign_reader = {.seconds = 125, .bytes = (size_t)8 << 30};
 typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
-// Beside this program in a build tree, and in the folder for programs of programs once installed.
+// Beside this program in a build tree, and in the folder for programs of programs once installed,
+// as seen from clrt or, in a program that uses clrt's library, where it was to be installed.
 static bool find_program(char *path, size_t size, const char *model, Error *error)
 {
     char program[PATH_MAX];
@@ -37,6 +38,8 @@ static bool find_program(char *path, size_t size, const char *model, Error *erro
     snprintf(path, size, "%s/clrt-foreign", folder);
     if (access(path, X_OK) != 0)
         snprintf(path, size, "%s/%s/clrt-foreign", folder, CLRT_FOREIGN_FOLDER);
+    if (access(path, X_OK) != 0)
+        snprintf(path, size, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
     return access(path, X_OK) == 0 ||
            error_set(error, "%s: %s, which reads it, cannot be started: %s", model, path,
                      strerror(errno));
