@@ -14,6 +14,7 @@ BELOW = {
     "image": ["base"],
     "compare": ["base", "image"],
     "scene": ["base"],
+    "foreign": ["base", "scene"],
     "accel": ["base", "scene"],
     "device": ["base", "scene", "accel"],
     "render": ["base", "scene", "accel", "device", "image"],

@@ -46,9 +46,9 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
 
 static size_t byte_count(size_t count, size_t size)
 {
-    if (count > SIZE_MAX / size)
-        return SIZE_MAX;
-    return count == 0 ? size : count * size;
+    if (count == 0 || size == 0)
+        return size > 0 ? size : 1;
+    return count > SIZE_MAX / size ? SIZE_MAX : count * size;
 }
 
 void *memory_raw(size_t count, size_t size, Error *error)

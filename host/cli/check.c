@@ -108,6 +108,13 @@ static ExitCode report(const Check *check, double start, Error *error)
     return outcome;
 }
 
+// Nothing is left out in silence.
+static void tell_notes(const Options *options, const Scene *scene)
+{
+    for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)
+        fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
+}
+
 static ExitCode run(Check *check, const Cache *cache, Error *error)
 {
     const double start = clock_seconds();
@@ -117,6 +124,7 @@ static ExitCode run(Check *check, const Cache *cache, Error *error)
     normalization_check(&check->normalization, &check->scene, &check->frame_fault);
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
+    tell_notes(check->options, &check->scene);
     if (!look_for_leaks(check, cache, error))
         return EXIT_DEVICE;
     return report(check, start, error);
@@ -138,7 +146,7 @@ bool check_geometry(const Options *options, const Scene *scene, Error *error)
     Error note = {0};
     if (options->bad_geometry == BAD_GEOMETRY_FAIL)
         return bad_geometry_none(scene, error);
-    // Nothing is left out in silence.
+    tell_notes(options, scene);
     if (!options->quiet && !bad_geometry_none_dropped(scene, &note))
         fprintf(stderr, "clrt: %s\n", note.text);
     return true;

@@ -11,7 +11,8 @@
 
 static const char *mesh_path(const CheckReport *report, size_t object)
 {
-    return report->result->scene->inputs.data[object];
+    const Scene *scene = report->result->scene;
+    return scene->inputs.data[scene->objects.data[object].input];
 }
 
 static void write_findings(const CheckReport *report, size_t object, FILE *stream)

@@ -15,6 +15,8 @@ static const char *const compare_options[] = {"output", "format",  "fail", "json
 static const char *const merge_options[] = {"output", "format",      "no-metadata",
                                             "hash",   "expect-hash", NULL};
 
+static const char *const convert_options[] = {"bad-geometry", "quiet", "verbose", NULL};
+
 static const char *const explain_options[] = {
     "explain-pixel", "size",    "view",   "aa",      "max-level", "bvh",       "no-bvh",
     "device",        "threads", "kernel", "nodes",   "lanes",     "precision", "encode",
@@ -46,11 +48,15 @@ static const char *const command_options[] = {"fail", "json", NULL};
 
 const Command command_table[] = {
     {"check", ACTION_CHECK, check_options, "SCENE",
-     "look for what is wrong in the scene's geometry, and draw nothing", false},
+     "look for what is wrong in the scene's geometry, and draw nothing", NULL},
     {"compare", ACTION_COMPARE, compare_options, "PICTURE PICTURE",
-     "tell how much two pictures differ; -o draws a map of it", true},
+     "tell how much two pictures differ; -o draws a map of it", "the names of two pictures"},
     {"merge", ACTION_MERGE, merge_options, "PART...",
-     "join the EXR files of all parts that --part drew into the whole picture, -o", false},
+     "join the EXR files of all parts that --part drew into the whole picture, -o", NULL},
+    {"convert", ACTION_CONVERT, convert_options, "SCENE FILE",
+     "write a scene or mesh in any format as FILE: .scn, with a binary .ply for each mesh beside "
+     "it, or .ply, all meshes in one",
+     "the names of a scene or mesh and of the file to write"},
 };
 
 const size_t command_count = sizeof command_table / sizeof command_table[0];

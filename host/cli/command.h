@@ -10,7 +10,7 @@ typedef struct {
     const char *const *options; // that it takes, NULL behind the last
     const char *operands;       // what follows its name
     const char *help;
-    bool wants_two; // pictures, in place of a scene
+    const char *two_operands; // what two files they are, in words; NULL where it takes a scene
 } Command;
 
 extern const Command command_table[];

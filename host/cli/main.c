@@ -2,6 +2,7 @@
 // The program: does what the command line asks for, and words what went wrong.
 #include "cli/check.h"
 #include "cli/compare.h"
+#include "cli/convert.h"
 #include "cli/device_report.h"
 #include "cli/explain.h"
 #include "cli/explain_scene.h"
@@ -65,6 +66,8 @@ static ExitCode perform(int count, char **words, Error *error)
         return compare_files(&options, error);
     case ACTION_MERGE:
         return merge_parts(&options, error);
+    case ACTION_CONVERT:
+        return convert_scene(&options, error);
     case ACTION_EXPLAIN:
         return perform_run(&options, explain_pixel, error);
     case ACTION_EXPLAIN_SCENE:

@@ -4,6 +4,7 @@
 
 #include "base/word.h"
 #include "cli/command.h"
+#include "cli/convert.h"
 #include "cli/option_check.h"
 #include "cli/option_table.h"
 
@@ -69,13 +70,15 @@ static bool check_purposes(uint64_t given, const Command *command, Error *error)
     return true;
 }
 
-static bool read_pictures(Options *options, int count, char **words, Error *error)
+static bool read_two(Options *options, const Command *command, int count, char **words,
+                     Error *error)
 {
     if (optind + 2 != count)
-        return error_set(error, "clrt compare wants the names of two pictures");
+        return error_set(error, "clrt %s wants %s", command->name, command->two_operands);
     options->scene_path = words[optind];
     options->other_path = words[optind + 1];
-    return options_check_compare(options, error);
+    return options->action == ACTION_COMPARE ? options_check_compare(options, error)
+                                             : convert_takes(options->other_path, error);
 }
 
 static bool read_parts(Options *options, int count, char **words, Error *error)
@@ -147,6 +150,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         return false;
     if (options->action == ACTION_MERGE)
         return read_parts(options, count, words, error);
-    return command != NULL && command->wants_two ? read_pictures(options, count, words, error)
-                                                 : read_scene(options, count, words, error);
+    return command != NULL && command->two_operands != NULL
+               ? read_two(options, command, count, words, error)
+               : read_scene(options, count, words, error);
 }

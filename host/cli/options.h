@@ -20,6 +20,7 @@ typedef enum {
     ACTION_CHECK,
     ACTION_COMPARE,
     ACTION_MERGE,
+    ACTION_CONVERT,
     ACTION_EXPLAIN,
     ACTION_EXPLAIN_SCENE
 } Action;
@@ -51,9 +52,9 @@ typedef enum {
 typedef struct {
     Action action;
     const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
-    const char *other_path; // ACTION_COMPARE's second
     char **part_paths;      // of ACTION_MERGE: part_count of them
     int part_count;
+    const char *other_path;  // ACTION_COMPARE's second, what ACTION_CONVERT writes
     const char *output_path; // "-": standard output; NULL without -o, which opens the window
     const char *format;      // one of image_format_names; NULL without an output
     AovSet aovs;             // channels beside the colors

@@ -16,12 +16,14 @@ static MeshFault flat_triangles(const Mesh *mesh)
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)
 {
     for (size_t object = 0; object < scene->objects.count; object++) {
-        const MeshFault *equal = &scene->objects.data[object].mesh.equal_corners;
+        const MeshObject *owner = &scene->objects.data[object];
+        const MeshFault *equal = &owner->mesh.equal_corners;
         if (equal->count > 0)
             return error_set(error,
                              "%s: triangle %zu, the first of %zu such, has two equal corners and "
                              "is left out",
-                             scene->inputs.data[object], equal->first, equal->count);
+                             scene->inputs.data[owner->input], equal->first + owner->number_before,
+                             equal->count);
     }
     return true;
 }
@@ -29,17 +31,18 @@ bool bad_geometry_none_dropped(const Scene *scene, Error *error)
 bool bad_geometry_none(const Scene *scene, Error *error)
 {
     for (size_t object = 0; object < scene->objects.count; object++) {
-        const Mesh *mesh = &scene->objects.data[object].mesh;
-        const MeshFault *equal = &mesh->equal_corners;
+        const MeshObject *owner = &scene->objects.data[object];
+        const char *path = scene->inputs.data[owner->input];
+        const MeshFault *equal = &owner->mesh.equal_corners;
         if (equal->count > 0)
             return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has two equal corners",
-                             scene->inputs.data[object], equal->first, equal->count);
-        const MeshFault flat = flat_triangles(mesh);
+                             "%s: triangle %zu, the first of %zu such, has two equal corners", path,
+                             equal->first + owner->number_before, equal->count);
+        const MeshFault flat = flat_triangles(&owner->mesh);
         if (flat.count > 0)
             return error_set(error,
                              "%s: triangle %zu, the first of %zu such, has its corners on a line",
-                             scene->inputs.data[object], flat.first, flat.count);
+                             path, flat.first + owner->number_before, flat.count);
     }
     return true;
 }

@@ -155,8 +155,8 @@ bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material)
         return true;
     }
     const MaterialName *entry = find_name(scene, token);
-    if (entry == NULL)
+    if (entry == NULL && !token_is(token, "own"))
         return unknown_name(scene, tokens, token);
-    *material = entry->material;
+    *material = entry != NULL ? entry->material : MATERIAL_OWN;
     return true;
 }

@@ -3,6 +3,8 @@
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
+#include "scene/foreign_mesh.h"
+#include "scene/ply_mesh.h"
 
 #include <string.h>
 
@@ -14,11 +16,12 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
 }
 
 // Half the diagonal of the bounds; center is left in *center.
-static double radius_of(const Mesh *mesh, Vec3 *center)
+static double radius_of(const Scene *scene, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    mesh_add_bounds(mesh, &low, &high);
-    if (mesh->triangle_count == 0)
+    for (size_t object = 0; object < scene->objects.count; object++)
+        mesh_add_bounds(&scene->objects.data[object].mesh, &low, &high);
+    if (scene_triangle_count(scene) == 0)
         low = high = vec3(0, 0, 0);
     *center = vec3_scale(vec3_add(low, high), 0.5);
     const Vec3 half = vec3_scale(vec3_sub(high, low), 0.5);
@@ -53,22 +56,42 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
            array_push(&scene->lights, ((Light){fill, 0.3}), error);
 }
 
-bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
-                      Error *error)
+// A mesh in place of a scene is seen from both sides.
+static MeshOrder order_of(PlyParse *parse)
+{
+    return (MeshOrder){.object = {.material = 1, .two_sided = true, .smooth = true},
+                       .takes_own_materials = true,
+                       .parse = parse};
+}
+
+// What a scene of nothing but objects lacks; takes down the scene where it cannot be had.
+static bool complete(Scene *scene, bool ok, Error *error)
 {
     Vec3 center;
-    MeshObject object = {.material = 1, .two_sided = true, .smooth = true};
-    const double start = clock_seconds();
-    bool ok = scene_init(scene, error) && parse(&object.mesh, file->bytes, file->size, name, error);
-    scene->mesh_seconds = clock_seconds() - start;
-    scene_hash_mesh(scene, file->bytes, file->size);
-    const double radius = radius_of(&object.mesh, &center);
-    const bool kept = ok && array_push(&scene->objects, object, error);
-    if (!kept)
-        mesh_free(&object.mesh);
-    ok = kept && add_cameras(scene, center, radius, error) &&
-         add_lights(scene, center, radius, error);
+    const double radius = radius_of(scene, &center);
+    scene->is_mesh = true;
+    ok =
+        ok && add_cameras(scene, center, radius, error) && add_lights(scene, center, radius, error);
     if (!ok)
         scene_free(scene);
     return ok;
+}
+
+bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
+                      Error *error)
+{
+    const MeshOrder order = order_of(parse);
+    const double start = clock_seconds();
+    const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &order, error);
+    scene->mesh_seconds = clock_seconds() - start;
+    return complete(scene, ok, error);
+}
+
+bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error)
+{
+    const MeshOrder order = order_of(parse);
+    const double start = clock_seconds();
+    const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &order, error);
+    scene->mesh_seconds = clock_seconds() - start;
+    return complete(scene, ok, error);
 }

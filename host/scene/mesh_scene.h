@@ -9,7 +9,10 @@
 // Whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
-// Fills scene from a mesh file called name, as parse reads it.  Viewpoints: three-quarter, front,
+// Fills scene from a PLY file called name, as parse reads it.  Viewpoints: three-quarter, front,
 // right, back, left and top, with z up.
 bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
                       Error *error);
+
+// The same from a file at path in another format; it takes the materials of its own.
+bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Loads a mesh and applies its transforms in the order written, in fp64.
+// Adds a file's meshes and applies the transforms in the order written, in fp64.
 #include "scene/mesh_statement.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/trigonometry.h"
+#include "scene/foreign_format.h"
+#include "scene/foreign_mesh.h"
+#include "scene/ply_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +46,13 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
     }
 }
 
-static bool read_rotation(Tokens *tokens, Mesh *mesh)
+// The objects that the statement has added.
+typedef struct {
+    MeshObject *data;
+    size_t count;
+} Objects;
+
+static bool read_rotation(Tokens *tokens, Objects objects)
 {
     double axis[3], degrees;
     if (!tokens_numbers(tokens, 3, axis) || !tokens_number_within(tokens, &degrees, -1e6, 1e6))
@@ -52,33 +60,46 @@ static bool read_rotation(Tokens *tokens, Mesh *mesh)
     const Vec3 unit = vec3_normalize(vec3(axis[0], axis[1], axis[2]));
     if (!(vec3_extent(unit) > 0))
         return tokens_fail(tokens, tokens->last, "the axis of rotation must not be zero");
-    rotate_mesh(mesh, unit, degrees);
+    for (size_t object = 0; object < objects.count; object++)
+        rotate_mesh(&objects.data[object].mesh, unit, degrees);
     return true;
 }
 
-static bool read_scale(Tokens *tokens, Mesh *mesh)
+static void scale_mesh(Mesh *mesh, double scale)
+{
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            mesh->positions[i][axis] *= scale;
+}
+
+static bool read_scale(Tokens *tokens, Objects objects)
 {
     double scale;
     if (!tokens_number_within(tokens, &scale, 1e-30, 1e30))
         return false;
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            mesh->positions[i][axis] *= scale;
+    for (size_t object = 0; object < objects.count; object++)
+        scale_mesh(&objects.data[object].mesh, scale);
     return true;
 }
 
-static bool read_translation(Tokens *tokens, Mesh *mesh)
+static void translate_mesh(Mesh *mesh, const double offset[3])
+{
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            mesh->positions[i][axis] += offset[axis];
+}
+
+static bool read_translation(Tokens *tokens, Objects objects)
 {
     double offset[3];
     if (!tokens_numbers(tokens, 3, offset))
         return false;
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            mesh->positions[i][axis] += offset[axis];
+    for (size_t object = 0; object < objects.count; object++)
+        translate_mesh(&objects.data[object].mesh, offset);
     return true;
 }
 
-static bool read_transforms(Tokens *tokens, Mesh *mesh)
+static bool read_transforms(Tokens *tokens, Objects objects)
 {
     for (;;) {
         const Token token = tokens_next(tokens);
@@ -86,11 +107,11 @@ static bool read_transforms(Tokens *tokens, Mesh *mesh)
             return true;
         bool ok;
         if (token_is(token, "scale"))
-            ok = read_scale(tokens, mesh);
+            ok = read_scale(tokens, objects);
         else if (token_is(token, "rotate"))
-            ok = read_rotation(tokens, mesh);
+            ok = read_rotation(tokens, objects);
         else if (token_is(token, "translate"))
-            ok = read_translation(tokens, mesh);
+            ok = read_translation(tokens, objects);
         else
             ok = tokens_fail(tokens, token, "expected 'scale', 'rotate' or 'translate'");
         if (!ok)
@@ -109,7 +130,33 @@ static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
     return true;
 }
 
-static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path, PlyParse *parse)
+static bool positions_are_kept(const Tokens *tokens, Objects objects)
+{
+    for (size_t object = 0; object < objects.count; object++)
+        if (!positions_in_range(tokens, &objects.data[object].mesh))
+            return false;
+    return true;
+}
+
+static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Error *cause,
+                    Error *error)
+{
+    File file;
+    if (!file_read(&file, path, cause))
+        return false;
+    const bool ok = ply_mesh_add(scene, &file, path, order, error);
+    file_free(&file);
+    return ok;
+}
+
+// Whether the statement is `mesh`, which takes any format and moves it.
+static bool is_general(const Tokens *tokens)
+{
+    return strncmp(tokens->usage, "mesh", 4) == 0;
+}
+
+// The scene's own line is named where the file itself tells no place.
+static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
     Error *error = tokens->error;
     Error cause = {0};
@@ -118,37 +165,30 @@ static bool load_mesh(Scene *scene, Mesh *mesh, const Tokens *tokens, Token path
         return false;
     memcpy(relative, path.text, path.length);
     char *full = file_path_beside(tokens->name, relative, error);
-    File file = {0};
-    bool ok = full != NULL && file_read(&file, full, &cause);
-    if (full != NULL && !ok)
+    const bool ok = full != NULL && (is_general(tokens) && foreign_format_is(full)
+                                         ? foreign_mesh_add(scene, full, order, &cause)
+                                         : add_ply(scene, full, order, &cause, error));
+    if (cause.text[0] != '\0')
         error_set(error, "%s:%u:%u: %s", tokens->name, path.line, path.column, cause.text);
-    ok = ok && scene_add_input(scene, full, error);
-    if (ok) {
-        scene_hash_mesh(scene, file.bytes, file.size);
-        ok = parse(mesh, file.bytes, file.size, full, error);
-    }
-    file_free(&file);
     free(full);
     free(relative);
     return ok;
 }
 
-bool mesh_statement_read(Scene *scene, Tokens *tokens, MeshObject object, PlyParse *parse)
+bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order)
 {
-    const bool transformable = strncmp(tokens->usage, "mesh", 4) == 0;
+    const bool transformable = is_general(tokens);
+    const size_t count = scene->objects.count;
     const Token path = tokens_next(tokens);
     if (path.text == NULL || path.length == 0)
         return tokens_fail(tokens, path, "expected the path of a mesh");
     if (memchr(path.text, '\0', path.length) != NULL)
         return tokens_fail(tokens, path, "expected a path without a zero byte");
     const double start = clock_seconds();
-    const bool loaded = load_mesh(scene, &object.mesh, tokens, path, parse);
+    const bool loaded = add_objects(scene, tokens, path, order);
     scene->mesh_seconds += clock_seconds() - start;
-    const bool ok = loaded &&
-                    (!transformable || (read_transforms(tokens, &object.mesh) &&
-                                        positions_in_range(tokens, &object.mesh))) &&
-                    array_push(&scene->objects, object, tokens->error);
-    if (!ok)
-        mesh_free(&object.mesh);
-    return ok;
+    if (!loaded || !transformable)
+        return loaded;
+    const Objects added = {scene->objects.data + count, scene->objects.count - count};
+    return read_transforms(tokens, added) && positions_are_kept(tokens, added);
 }

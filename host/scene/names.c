@@ -13,7 +13,9 @@ PrimitiveName name_primitive(const Scene *scene, uint32_t id)
         number -= scene->objects.data[object++].mesh.triangle_count;
         assert(object < scene->objects.count);
     }
-    return (PrimitiveName){.number = number, .path = scene->inputs.data[object]};
+    const MeshObject *found = &scene->objects.data[object];
+    return (PrimitiveName){.number = number + found->number_before,
+                           .path = scene->inputs.data[found->input]};
 }
 
 const char *name_material(const Scene *scene, uint32_t material)

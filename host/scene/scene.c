@@ -112,6 +112,18 @@ bool scene_add_input(Scene *scene, const char *path, Error *error)
     return true;
 }
 
+bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error)
+{
+    const size_t size = strlen(path) + strlen(text) + sizeof ": ";
+    char *note = memory_raw(size, 1, error);
+    if (note == NULL || !array_push(&scene->notes, note, error)) {
+        free(note);
+        return false;
+    }
+    snprintf(note, size, "%s: %s", path, text);
+    return true;
+}
+
 size_t scene_triangle_count(const Scene *scene)
 {
     size_t count = 0;
@@ -126,7 +138,10 @@ void scene_free(Scene *scene)
         mesh_free(&scene->objects.data[object].mesh);
     for (size_t input = 0; input < scene->inputs.count; input++)
         free(scene->inputs.data[input]);
+    for (size_t note = 0; note < scene->notes.count; note++)
+        free(scene->notes.data[note]);
     free(scene->inputs.memory);
+    free(scene->notes.memory);
     free(scene->lights.memory);
     free(scene->spheres.memory);
     free(scene->objects.memory);

@@ -26,6 +26,8 @@ typedef struct {
 typedef struct {
     Mesh mesh;
     uint32_t material;
+    uint32_t input;         // of the scene's, its file
+    uint64_t number_before; // of triangles in other objects of that file, with those left out
     bool two_sided;
     bool smooth; // shade with the vertex normals where there are any
 } MeshObject;
@@ -49,11 +51,13 @@ typedef struct {
     ARRAY(MaterialName) material_names; // of those defined
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
+    bool is_mesh;          // its file was a mesh alone; viewpoints and lights are clrt's own
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;
     uint32_t max_level;
     ARRAY(char *) inputs; // paths of the files it was read from; owned
+    ARRAY(char *) notes;  // sentences on what was left out of them; owned
     double mesh_seconds;  // of the loading spent on reading meshes
     // XXH3 of the bytes of the scene file and its meshes in the order read, and of the meshes
     // alone, which is zero without any.
@@ -76,6 +80,9 @@ void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE]);
 
 // Notes that the scene was read from the file at path too.
 bool scene_add_input(Scene *scene, const char *path, Error *error);
+
+// Adds "PATH: TEXT" to the notes.
+bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error);
 
 size_t scene_triangle_count(const Scene *scene);
 void scene_free(Scene *scene);

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/word.h"
 #include "scene/define.h"
+#include "scene/foreign_format.h"
 #include "scene/limits.h"
 #include "scene/mesh_scene.h"
 #include "scene/mesh_statement.h"
@@ -18,7 +19,7 @@ typedef struct {
     Tokens tokens;
     Scene *scene;
     PlyParse *parse_mesh;
-    uint32_t material; // of the objects that follow
+    uint32_t material; // of the objects that follow, or MATERIAL_OWN
     MeshObject object; // the sides and normals of the objects that follow
     Vec3 up;           // of the cameras that follow
     Token waiting_up;  // the latest `up` while no camera has followed it
@@ -34,6 +35,11 @@ static bool read_light(Parser *parser)
                       ((Light){{position[0], position[1], position[2]}, intensity}), parser->error);
 }
 
+static uint32_t plain_material(const Parser *parser)
+{
+    return parser->material == MATERIAL_OWN ? 0 : parser->material;
+}
+
 static bool read_sphere(Parser *parser)
 {
     double center[3], radius;
@@ -42,7 +48,7 @@ static bool read_sphere(Parser *parser)
         return false;
     if (radius < RADIUS_LEAST)
         return tokens_fail(&parser->tokens, parser->tokens.last, "expected a radius above zero");
-    const Sphere sphere = {{center[0], center[1], center[2]}, radius, parser->material};
+    const Sphere sphere = {{center[0], center[1], center[2]}, radius, plain_material(parser)};
     return array_push(&parser->scene->spheres, sphere, parser->error);
 }
 
@@ -58,9 +64,11 @@ static bool read_define(Parser *parser)
 
 static bool read_mesh(Parser *parser)
 {
-    MeshObject object = parser->object;
-    object.material = parser->material;
-    return mesh_statement_read(parser->scene, &parser->tokens, object, parser->parse_mesh);
+    MeshOrder order = {.object = parser->object,
+                       .takes_own_materials = parser->material == MATERIAL_OWN,
+                       .parse = parser->parse_mesh};
+    order.object.material = plain_material(parser);
+    return mesh_statement_read(parser->scene, &parser->tokens, &order);
 }
 
 static bool read_camera(Parser *parser)
@@ -153,7 +161,7 @@ static const struct {
     {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES", read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
     {"light", "light X Y Z INTENSITY", read_light},
-    {"material", "material NUMBER|NAME", read_material},
+    {"material", "material NUMBER|NAME|own", read_material},
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},
     {"normals", "normals smooth|flat", read_normals},
@@ -206,6 +214,7 @@ static bool parse(Parser *parser, const char *text, size_t size, const char *nam
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
     parser->object.smooth = true;
+    parser->material = MATERIAL_OWN;
     parser->up = vec3(0, 0, 1);
     bool ok = scene_init(parser->scene, parser->error);
     scene_hash_input(parser->scene, text, size);
@@ -221,20 +230,29 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
+// Scene text; its file comes behind those of its meshes.
+static bool load_text(Parser *parser, const File *file, const char *path)
+{
+    if (!parse(parser, file->bytes, file->size, path))
+        return false;
+    if (scene_add_input(parser->scene, path, parser->error))
+        return true;
+    scene_free(parser->scene);
+    return false;
+}
+
 static bool load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
 {
     File file = {0};
     Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
+    if (foreign_format_is(path))
+        return mesh_scene_read_foreign(scene, path, parse_mesh, error);
     bool ok = file_read(&file, path, error);
     if (ok && mesh_scene_is_mesh(file.bytes, file.size))
         ok = mesh_scene_parse(scene, &file, path, parse_mesh, error);
     else
-        ok = ok && parse(&parser, file.bytes, file.size, path);
+        ok = ok && load_text(&parser, &file, path);
     file_free(&file);
-    if (ok && !scene_add_input(scene, path, error)) {
-        scene_free(scene);
-        ok = false;
-    }
     return ok;
 }
 

@@ -44,6 +44,8 @@ DEVELOPMENT = [
 LINTIAN = ["lintian", "--fail-on", "error,warning"]
 if "CMAKE_INSTALL_LIBDIR:PATH=lib\n" in CACHE:
     LINTIAN += ["--suppress-tags", "pkg-config-unavailable-for-cross-compilation"]
+if "CLRT_WITH_ASSIMP:BOOL=1" in CACHE.replace("=ON", "=1"):
+    INSTALLED.append("libexec/clrt/clrt-foreign")
 
 
 def run(*words, **settings):
@@ -140,10 +142,18 @@ class Package(unittest.TestCase):
                 package, build = (pathlib.Path(picture).read_bytes() for picture in pictures)
                 self.assertEqual(package, build, ending)
 
+    @unittest.skipUnless("libexec/clrt/clrt-foreign" in INSTALLED, "this build is without Assimp")
+    def test_it_reads_other_formats(self):
+        with tempfile.TemporaryDirectory() as work:
+            model = pathlib.Path(work, "a.obj")
+            model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            run(self.clrt, model, "-s", "8x8", "-o", f"{work}/a.pfm")
+
     @unittest.skipUnless(is_here("readelf"), "readelf is not installed")
     def test_its_programs_are_hardened(self):
         modules = (self.root / "usr/lib").rglob("*.so")
         programs = [self.clrt, *modules, *(self.library_root / "usr/lib").rglob("*.so.0")]
+        programs += (self.root / "usr/libexec").rglob("clrt-*")
         for program in programs:
             text = run("readelf", "-lWd", program)
             self.assertIn("GNU_RELRO", text)

@@ -84,6 +84,17 @@ static void the_last_line_needs_no_line_end(void **state)
     scene_free(&scene);
 }
 
+static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
+{
+    (void)state;
+    Scene scene = parsed("material 2\nsphere 0 0 0 1\nmaterial own\nsphere 0 0 0 1\n"
+                         "define own matte\nmaterial own\nsphere 0 0 0 1");
+    assert_int_equal(scene.spheres.data[0].material, 2);
+    assert_int_equal(scene.spheres.data[1].material, 0);
+    assert_int_equal(scene.spheres.data[2].material, 4); // a name that was given comes first
+    scene_free(&scene);
+}
+
 static void course_material_three_is_matte_and_a_quarter_mirror(void **state)
 {
     (void)state;
@@ -207,7 +218,7 @@ static void unknown_words_get_the_nearest_one(void **state)
     expect_error("??", "1:1: expected a statement: found '\?\?'");
     expect_error("define gold matte\nmaterial gild", "2:10: undefined material, perhaps 'gold': "
                                                      "found 'gild'; the statement is 'material "
-                                                     "NUMBER|NAME'");
+                                                     "NUMBER|NAME|own'");
     expect_error("define a matte difuse 1 1 1",
                  "1:16: unknown property, perhaps 'diffuse': found 'difuse'; the statement is "
                  "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
@@ -293,6 +304,7 @@ int main(void)
         cmocka_unit_test(the_six_viewpoints_are_the_courses),
         cmocka_unit_test(spheres_take_the_material_before_them),
         cmocka_unit_test(the_last_line_needs_no_line_end),
+        cmocka_unit_test(own_materials_are_the_silhouette_where_a_file_has_none),
         cmocka_unit_test(course_material_three_is_matte_and_a_quarter_mirror),
         cmocka_unit_test(a_definition_starts_from_its_kind),
         cmocka_unit_test(only_small_integer_shininess_goes_by_squaring),

@@ -75,6 +75,24 @@ def a_changed_mesh_is_shown(screen, folder):
 
 
 @in_folder
+def a_changed_material_library_is_shown(screen, folder):
+    if not (pathlib.Path(os.environ["CLRT"]).parent / "clrt-foreign").exists():
+        print("this build is without Assimp: the test of a model's materials is passed over")
+        return
+    (folder / "mesh.obj").write_text(
+        "mtllib mesh.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 1\nusemtl a\nf 1 2 3\n"
+    )
+    (folder / "mesh.mtl").write_text("newmtl a\nKd 1 0 0\n")
+    scene = folder / "one.scn"
+    scene.write_text("light 9 -4 10 0.7\nsides two\nmesh mesh.obj\n")
+    window = opened(screen, scene)
+    expect(window, scene, "shows the first color")
+    (folder / "mesh.mtl").write_text("newmtl a\nKd 0 0.5 1\n")
+    expect(window, scene, "shows the second color")
+    window.close()
+
+
+@in_folder
 def a_fault_is_told_over_the_last_good_picture(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
@@ -142,6 +160,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
 
 if __name__ == "__main__":
     run_tests([a_changed_scene_is_shown_in_both_views, a_scene_that_an_editor_replaces_is_shown,
-               a_changed_mesh_is_shown, a_fault_is_told_over_the_last_good_picture,
+               a_changed_mesh_is_shown, a_changed_material_library_is_shown,
+               a_fault_is_told_over_the_last_good_picture,
                a_mesh_that_was_missing_is_found_when_it_comes,
                changed_kernels_trace_the_next_picture], Screen())

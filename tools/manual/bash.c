@@ -86,7 +86,7 @@ static void write_commands(FILE *stream)
           "        return\n"
           "    fi\n"
           "    _clrt_files compgen -d -- \"$current\"\n"
-          "    for word in scn ply pfm png exr; do\n"
+          "    for word in scn ply obj stl glb gltf off dae fbx 3ds pfm png exr; do\n"
           "        _clrt_files compgen -f -X \"!*.$word\" -- \"$current\"\n"
           "    done\n"
           "    [[ -n $command ]] || COMPREPLY+=($(compgen -W '",

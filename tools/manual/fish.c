@@ -62,7 +62,8 @@ void fish_write(FILE *stream)
     fputs("# fish completion for clrt, made from its table of options.\n"
           "function __clrt_scenes\n"
           "    __fish_complete_path (commandline -ct) |\n"
-          "        string match -r '^[^\\t]*(?:/|\\.scn|\\.ply|\\.pfm|\\.png|\\.exr)(?:\\t.*)?$'\n"
+          "        string match -r '^[^\\t]*(?:/|\\.scn|\\.ply|\\.obj|\\.stl|\\.glb|\\.gltf|"
+          "\\.off|\\.dae|\\.fbx|\\.3ds|\\.pfm|\\.png|\\.exr)(?:\\t.*)?$'\n"
           "end\n"
           "complete -c clrt -f -a '(__clrt_scenes)'\n",
           stream);

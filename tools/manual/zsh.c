@@ -69,7 +69,7 @@ void zsh_write(FILE *stream)
     fputs("#compdef clrt\n"
           "# zsh completion for clrt, made from its table of options.\n"
           "_clrt_scene() {\n"
-          "    _files -g '*.(scn|ply|pfm|png|exr)(-.)'\n"
+          "    _files -g '*.(scn|ply|obj|stl|glb|gltf|off|dae|fbx|3ds|pfm|png|exr)(-.)'\n"
           "}\n"
           "\n"
           "_clrt_first() {\n"

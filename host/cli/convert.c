@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Reads everything before anything is written, and writes over nothing that was read.
+#include "cli/convert.h"
+
+#include "base/file.h"
+#include "base/output_file.h"
+#include "cli/check.h"
+#include "scene/mesh_join.h"
+#include "scene/ply_write.h"
+#include "scene/scn.h"
+#include "scene/scn_write.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#define COURSE_MATERIALS 4
+
+typedef struct {
+    const Options *options;
+    Scene scene;
+    char **mesh_names; // beside the scene text; NULL for a PLY mesh
+} Conversion;
+
+static bool has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+    return length > size && strcasecmp(path + length - size, ending) == 0;
+}
+
+bool convert_takes(const char *path, Error *error)
+{
+    return has_ending(path, ".scn") || has_ending(path, ".ply") ||
+           error_set(error, "clrt convert writes .scn and .ply, not '%s'", path);
+}
+
+static bool is_input(const Scene *scene, const char *path)
+{
+    struct stat own, input;
+    if (stat(path, &own) != 0)
+        return false;
+    for (size_t i = 0; i < scene->inputs.count; i++)
+        if (stat(scene->inputs.data[i], &input) == 0 && input.st_dev == own.st_dev &&
+            input.st_ino == own.st_ino)
+            return true;
+    return false;
+}
+
+typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
+
+// Writes to the file's place for the unfinished, whose stream is buffered: its end tells faults.
+static bool write_stream(const Conversion *conversion, const OutputFile *file, WriteContent *write,
+                         const void *content)
+{
+    FILE *stream = fopen(file->temporary, "wb");
+    if (stream == NULL)
+        return false;
+    const bool ok = write(conversion, content, stream);
+    return fclose(stream) == 0 && ok;
+}
+
+static bool write_file(const Conversion *conversion, const char *path, WriteContent *write,
+                       const void *content, Error *error)
+{
+    OutputFile file;
+    Error cause = {0};
+    if (is_input(&conversion->scene, path))
+        return error_set(error, "%s: is read from, and not written over", path);
+    if (!output_file_begin(&file, path, error))
+        return false;
+    const bool ok =
+        write_stream(conversion, &file, write, content) || error_set(&cause, "%s", strerror(errno));
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
+}
+
+static bool write_ply(const Conversion *conversion, const void *content, FILE *stream)
+{
+    (void)conversion;
+    return ply_write(content, stream);
+}
+
+static bool write_scn(const Conversion *conversion, const void *content, FILE *stream)
+{
+    (void)content;
+    Error unused = {0};
+    return scn_write(&conversion->scene, conversion->mesh_names, stream, &unused);
+}
+
+static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const char *path,
+                       Error *error)
+{
+    if (!write_file(conversion, path, write_ply, mesh, error))
+        return false;
+    if (conversion->options->verbose)
+        fprintf(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
+    return true;
+}
+
+// What PLY has no place for is told.
+static void tell_losses(const Conversion *conversion)
+{
+    const Scene *scene = &conversion->scene;
+    bool has_materials = false;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        has_materials |= scene->objects.data[i].material >= COURSE_MATERIALS;
+    if (conversion->options->quiet || (scene->is_mesh && !has_materials))
+        return;
+    fprintf(stderr, "clrt: %s: %s left out, which PLY has no place for\n",
+            conversion->options->other_path,
+            scene->is_mesh ? "materials are" : "materials, lights and cameras are");
+}
+
+static ExitCode write_joined(const Conversion *conversion, Error *error)
+{
+    Mesh mesh;
+    Error cause = {0};
+    const Scene *scene = &conversion->scene;
+    if (scene->spheres.count > 0) {
+        error_set(error, "%s: PLY has no place for its %zu spheres: convert it to .scn",
+                  conversion->options->scene_path, scene->spheres.count);
+        return EXIT_SCENE;
+    }
+    if (!mesh_join(&mesh, scene, &cause)) {
+        error_set(error, "%s: %s", conversion->options->scene_path, cause.text);
+        return EXIT_SCENE;
+    }
+    tell_losses(conversion);
+    const bool ok = write_mesh(conversion, &mesh, conversion->options->other_path, error);
+    mesh_free(&mesh);
+    return ok ? EXIT_DONE : EXIT_OUTPUT;
+}
+
+// STEM-1.ply and so on, for a text called STEM.scn.
+static bool name_meshes(Conversion *conversion, Error *error)
+{
+    const char *path = conversion->options->other_path;
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const int stem = (int)(strlen(name) - strlen(".scn"));
+    const size_t count = conversion->scene.objects.count, size = strlen(name) + 32;
+    conversion->mesh_names = memory_zeroed(count, sizeof *conversion->mesh_names, error);
+    if (conversion->mesh_names == NULL)
+        return false;
+    if (!scn_write_can_name(name))
+        return error_set(error, "%s: a scene cannot name meshes like that", path);
+    for (size_t i = 0; i < count; i++) {
+        conversion->mesh_names[i] = memory_raw(size, 1, error);
+        if (conversion->mesh_names[i] == NULL)
+            return false;
+        snprintf(conversion->mesh_names[i], size, "%.*s-%zu.ply", stem, name, i + 1);
+    }
+    return true;
+}
+
+static bool write_meshes(const Conversion *conversion, Error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < conversion->scene.objects.count; i++) {
+        char *path =
+            file_path_beside(conversion->options->other_path, conversion->mesh_names[i], error);
+        ok = path != NULL &&
+             write_mesh(conversion, &conversion->scene.objects.data[i].mesh, path, error);
+        free(path);
+    }
+    return ok;
+}
+
+static ExitCode write_text(Conversion *conversion, Error *error)
+{
+    const bool ok = name_meshes(conversion, error) && write_meshes(conversion, error) &&
+                    write_file(conversion, conversion->options->other_path, write_scn, NULL, error);
+    return ok ? EXIT_DONE : EXIT_OUTPUT;
+}
+
+static ExitCode run(Conversion *conversion, Error *error)
+{
+    const Options *options = conversion->options;
+    if (!scn_load(&conversion->scene, options->scene_path, error) ||
+        !check_geometry(options, &conversion->scene, error))
+        return EXIT_SCENE;
+    return has_ending(options->other_path, ".ply") ? write_joined(conversion, error)
+                                                   : write_text(conversion, error);
+}
+
+ExitCode convert_scene(const Options *options, Error *error)
+{
+    Conversion conversion = {.options = options};
+    const ExitCode outcome = run(&conversion, error);
+    for (size_t i = 0; conversion.mesh_names != NULL && i < conversion.scene.objects.count; i++)
+        free(conversion.mesh_names[i]);
+    free(conversion.mesh_names);
+    scene_free(&conversion.scene);
+    return outcome;
+}

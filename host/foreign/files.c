@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Files are read at once and kept: Assimp opens the same one several times, to guess its format.
+// What is outside of the model's folder is none of its business, whatever a model names.
+#include "foreign/files.h"
+
+#include "foreign/limits.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+// One opening of a file.
+typedef struct {
+    struct aiFile interface;
+    size_t opened; // which of the files
+    size_t place;
+    Files *files;
+} Reading;
+
+static size_t folder_length(const Files *files)
+{
+    return (size_t)(strrchr(files->model, '/') - files->model) + 1;
+}
+
+static bool is_inside(const Files *files, const char *path)
+{
+    const size_t folder = folder_length(files);
+    if (strncmp(path, files->model, folder) != 0)
+        return false;
+    for (const char *part = path + folder; part != NULL;) {
+        if (strncmp(part, "..", 2) == 0 && (part[2] == '/' || part[2] == '\0'))
+            return false;
+        part = strchr(part, '/');
+        part = part != NULL ? part + 1 : NULL;
+    }
+    return true;
+}
+
+static bool read_regular(File *file, const char *path, Error *error)
+{
+    struct stat status = {0};
+    // Neither a pipe nor a device: they may never end.
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return error_set(error, "cannot be read: it is not a file");
+    limits_allow_file((size_t)status.st_size);
+    Error cause = {0};
+    if (file_read(file, path, &cause))
+        return true;
+    // Whoever tells people names the file.
+    const size_t length = strlen(path);
+    const bool is_named = strncmp(cause.text, path, length) == 0;
+    return error_set(error, "%s", cause.text + (is_named ? length + strlen(": ") : 0));
+}
+
+static bool find_opened(const Files *files, const char *path, size_t *opened)
+{
+    for (*opened = 0; *opened < files->opened.count; ++*opened)
+        if (strcmp(files->opened.data[*opened].path, path) == 0)
+            return true;
+    return false;
+}
+
+static bool open_file(Files *files, const char *path, size_t *opened, Error *error)
+{
+    if (find_opened(files, path, opened))
+        return true;
+    OpenedFile file = {.path = strdup(path)};
+    if (file.path != NULL && read_regular(&file.file, path, error) &&
+        array_push(&files->opened, file, error))
+        return true;
+    free(file.path);
+    file_free(&file.file);
+    return error_set(error, "cannot be kept");
+}
+
+static Reading *reading_of(struct aiFile *interface)
+{
+    return (Reading *)(void *)interface->UserData;
+}
+
+static const File *file_of(const Reading *reading)
+{
+    return &reading->files->opened.data[reading->opened].file;
+}
+
+static size_t read_pieces(struct aiFile *interface, char *bytes, size_t size, size_t count)
+{
+    Reading *reading = reading_of(interface);
+    const File *file = file_of(reading);
+    const size_t left = size == 0 ? 0 : (file->size - reading->place) / size;
+    const size_t pieces = count < left ? count : left;
+    memcpy(bytes, file->bytes + reading->place, pieces * size);
+    reading->place += pieces * size;
+    return pieces;
+}
+
+static size_t write_nothing(struct aiFile *interface, const char *bytes, size_t size, size_t count)
+{
+    (void)interface, (void)bytes, (void)size, (void)count;
+    return 0;
+}
+
+static size_t tell_place(struct aiFile *interface)
+{
+    return reading_of(interface)->place;
+}
+
+static size_t tell_size(struct aiFile *interface)
+{
+    return file_of(reading_of(interface))->size;
+}
+
+// Offsets are taken as signed: callers go back from the end and from where they are.
+static enum aiReturn seek(struct aiFile *interface, size_t offset, enum aiOrigin origin)
+{
+    Reading *reading = reading_of(interface);
+    const size_t size = file_of(reading)->size;
+    const size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? reading->place : size;
+    const size_t place = from + offset;
+    if (place > size)
+        return aiReturn_FAILURE;
+    reading->place = place;
+    return aiReturn_SUCCESS;
+}
+
+static void flush_nothing(struct aiFile *interface)
+{
+    (void)interface;
+}
+
+static bool is_material_library(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 4 && strcasecmp(path + length - 4, ".mtl") == 0;
+}
+
+static struct aiFile *open_reading(struct aiFileIO *interface, const char *path, const char *mode)
+{
+    Files *files = (Files *)(void *)interface->UserData;
+    Error unused = {0};
+    size_t opened;
+    if (strpbrk(mode, "wa+") != NULL)
+        return NULL;
+    if (!is_inside(files, path)) {
+        files->outside_count++;
+        return NULL;
+    }
+    if (!open_file(files, path, &opened, &unused)) {
+        if (is_material_library(path) && files->missing[0] == '\0')
+            snprintf(files->missing, sizeof files->missing, "%s", path + folder_length(files));
+        return NULL;
+    }
+    Reading *reading = malloc(sizeof *reading);
+    if (reading == NULL)
+        return NULL;
+    *reading = (Reading){.interface = {.ReadProc = read_pieces,
+                                       .WriteProc = write_nothing,
+                                       .TellProc = tell_place,
+                                       .FileSizeProc = tell_size,
+                                       .SeekProc = seek,
+                                       .FlushProc = flush_nothing,
+                                       .UserData = (aiUserData)reading},
+                         .opened = opened,
+                         .files = files};
+    return &reading->interface;
+}
+
+static void close_reading(struct aiFileIO *interface, struct aiFile *file)
+{
+    (void)interface;
+    if (file != NULL)
+        free(reading_of(file));
+}
+
+void files_init(Files *files, const char *model)
+{
+    *files = (Files){.interface = {.OpenProc = open_reading,
+                                   .CloseProc = close_reading,
+                                   .UserData = (aiUserData)files},
+                     .model = model};
+}
+
+bool files_open_model(Files *files, Error *error)
+{
+    size_t opened;
+    return open_file(files, files->model, &opened, error);
+}

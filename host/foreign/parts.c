@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// Walks the tree of nodes with the product of their matrices in fp64.  Where that is the identity
+// coordinates pass unchanged; a mirroring one turns triangles, so that fronts stay fronts.
+#include "foreign/parts.h"
+
+#include "foreign/materials.h"
+#include "foreign/send.h"
+#include "scene/ply_header.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef uint32_t Triangle[3];
+
+typedef struct {
+    double rows[3][4];
+} Placement;
+
+typedef struct {
+    double columns[3][3]; // normals are multiplied from the left
+    bool is_identity, is_mirror;
+} Turn;
+
+typedef struct {
+    FILE *stream;
+    const struct aiScene *scene;
+    bool keeps_normals;
+    PartCounts *counts;
+    uint32_t *numbers; // of each material of the scene among those sent, 0 for not yet
+    uint32_t sent_count;
+    ForeignPart part; // under construction
+    ARRAY(Triangle) triangles;
+    size_t vertex_capacity, normal_capacity;
+    Error *error;
+} Sender;
+
+static const Placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+static Placement placement_below(const Placement *parent, const struct aiMatrix4x4 *matrix)
+{
+    const double own[4][4] = {
+        {(double)matrix->a1, (double)matrix->a2, (double)matrix->a3, (double)matrix->a4},
+        {(double)matrix->b1, (double)matrix->b2, (double)matrix->b3, (double)matrix->b4},
+        {(double)matrix->c1, (double)matrix->c2, (double)matrix->c3, (double)matrix->c4},
+        {0, 0, 0, 1}};
+    Placement product;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++) {
+            double sum = column == 3 ? parent->rows[row][3] : 0;
+            for (int i = 0; i < 3; i++)
+                sum += parent->rows[row][i] * own[i][column];
+            product.rows[row][column] = sum;
+        }
+    return product;
+}
+
+static Vec3 column_of(const Placement *placement, int column)
+{
+    return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
+}
+
+// Zeros of both signs are one number.
+static bool is_identity(const Placement *placement)
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            if (placement->rows[row][column] != identity.rows[row][column])
+                return false;
+    return true;
+}
+
+// Normals turn by the cofactors, which are the inverse's transpose but for a factor.
+static Turn turn_of(const Placement *placement)
+{
+    Turn turn = {.is_identity = is_identity(placement)};
+    const Vec3 x = column_of(placement, 0), y = column_of(placement, 1),
+               z = column_of(placement, 2);
+    const Vec3 cofactors[3] = {vec3_cross(y, z), vec3_cross(z, x), vec3_cross(x, y)};
+    const double determinant = vec3_dot(x, cofactors[0]);
+    turn.is_mirror = determinant < 0;
+    for (int column = 0; column < 3; column++) {
+        const Vec3 c = vec3_scale(cofactors[column], turn.is_mirror ? -1 : 1);
+        turn.columns[column][0] = c.x;
+        turn.columns[column][1] = c.y;
+        turn.columns[column][2] = c.z;
+    }
+    return turn;
+}
+
+static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
+                           const Placement *placement, bool stays)
+{
+    double(*positions)[3] = sender->part.mesh.positions + sender->part.mesh.vertex_count;
+    for (size_t i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D *v = &mesh->mVertices[i];
+        const double given[3] = {(double)v->x, (double)v->y, (double)v->z};
+        for (int row = 0; row < 3; row++) {
+            const double *r = placement->rows[row];
+            positions[i][row] =
+                stays ? given[row] : r[0] * given[0] + r[1] * given[1] + r[2] * given[2] + r[3];
+        }
+    }
+}
+
+// Shortened before they are turned, so that no product leaves the range of float.
+static void turn_normal(const struct aiVector3D *given, const Turn *turn, float normal[3])
+{
+    const Vec3 unit = vec3_normalize(vec3((double)given->x, (double)given->y, (double)given->z));
+    Vec3 turned = {0, 0, 0};
+    const double parts[3] = {unit.x, unit.y, unit.z};
+    for (int i = 0; i < 3; i++) {
+        const double *c = turn->columns[i];
+        turned = vec3_add(turned, vec3_scale(vec3(c[0], c[1], c[2]), parts[i]));
+    }
+    turned = vec3_normalize(turned);
+    normal[0] = (float)turned.x;
+    normal[1] = (float)turned.y;
+    normal[2] = (float)turned.z;
+}
+
+static void place_normals(const Sender *sender, const struct aiMesh *mesh, const Turn *turn)
+{
+    float(*normals)[3] = sender->part.mesh.normals + sender->part.mesh.vertex_count;
+    for (size_t i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D none = {0, 0, 0};
+        const struct aiVector3D *given = mesh->mNormals != NULL ? &mesh->mNormals[i] : &none;
+        if (turn->is_identity || (given->x == 0 && given->y == 0 && given->z == 0)) {
+            normals[i][0] = given->x;
+            normals[i][1] = given->y;
+            normals[i][2] = given->z;
+        } else {
+            turn_normal(given, turn, normals[i]);
+        }
+    }
+}
+
+static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mirror)
+{
+    const uint32_t base = (uint32_t)sender->part.mesh.vertex_count;
+    for (size_t i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+        if (face->mNumIndices != 3) {
+            sender->counts->others++;
+            continue;
+        }
+        if (!array_reserve(&sender->triangles.memory, &sender->triangles.capacity,
+                           sender->triangles.count + 1, sizeof(Triangle), sender->error))
+            return false;
+        uint32_t *triangle = sender->triangles.data[sender->triangles.count++];
+        triangle[0] = base + face->mIndices[0];
+        triangle[1] = base + face->mIndices[is_mirror ? 2 : 1];
+        triangle[2] = base + face->mIndices[is_mirror ? 1 : 2];
+    }
+    return true;
+}
+
+static bool send_part_so_far(Sender *sender)
+{
+    Mesh *mesh = &sender->part.mesh;
+    mesh->triangles = sender->triangles.data;
+    mesh->triangle_count = sender->triangles.count;
+    sender->counts->triangles += mesh->triangle_count;
+    if (mesh->triangle_count > 0)
+        send_part(sender->stream, &sender->part);
+    mesh_free(mesh);
+    sender->triangles.memory = NULL;
+    sender->triangles.count = sender->triangles.capacity = 0;
+    sender->vertex_capacity = sender->normal_capacity = 0;
+    return ferror(sender->stream) == 0 || error_set(sender->error, "nobody receives it");
+}
+
+static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
+{
+    if (mesh->mMaterialIndex >= sender->scene->mNumMaterials)
+        return FOREIGN_NO_MATERIAL;
+    const struct aiMaterial *material = sender->scene->mMaterials[mesh->mMaterialIndex];
+    uint32_t *number = &sender->numbers[mesh->mMaterialIndex];
+    if (!material_is_given(material))
+        return FOREIGN_NO_MATERIAL;
+    if (*number == 0) {
+        const ForeignMaterial taken = material_taken(material);
+        send_bytes(sender->stream, FOREIGN_MATERIAL, &taken, sizeof taken);
+        sender->counts->is_textured |= material_is_textured(material);
+        *number = ++sender->sent_count;
+    }
+    return *number - 1;
+}
+
+// Makes room in the part for count vertices more.  Normals are zero where a mesh before gave none.
+static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
+{
+    Mesh *mesh = &sender->part.mesh;
+    void *positions = mesh->positions, *normals = mesh->normals;
+    const size_t held = mesh->normals != NULL ? mesh->vertex_count : 0;
+    const size_t wanted = mesh->vertex_count + count;
+    bool ok = array_reserve(&positions, &sender->vertex_capacity, wanted, sizeof *mesh->positions,
+                            sender->error);
+    mesh->positions = positions;
+    if (ok && (has_normals || normals != NULL))
+        ok = array_reserve(&normals, &sender->normal_capacity, wanted, sizeof *mesh->normals,
+                           sender->error);
+    mesh->normals = normals;
+    if (ok && normals != NULL)
+        memset(mesh->normals + held, 0, (wanted - held) * sizeof *mesh->normals);
+    return ok;
+}
+
+static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement *placement)
+{
+    Mesh *part = &sender->part.mesh;
+    const uint32_t material = number_of_material(sender, mesh);
+    const Turn turn = turn_of(placement);
+    const bool has_normals = sender->keeps_normals && mesh->mNormals != NULL;
+    const bool fits = part->vertex_count + mesh->mNumVertices < (size_t)PLY_COUNT_LIMIT;
+    if ((material != sender->part.material || !fits) && !send_part_so_far(sender))
+        return false;
+    sender->part.material = material;
+    if (!reserve_vertices(sender, mesh->mNumVertices, has_normals))
+        return false;
+    place_vertices(sender, mesh, placement, turn.is_identity);
+    if (has_normals)
+        place_normals(sender, mesh, &turn);
+    if (!add_triangles(sender, mesh, turn.is_mirror))
+        return false;
+    part->vertex_count += mesh->mNumVertices;
+    return true;
+}
+
+static bool add_node(Sender *sender, const struct aiNode *node, const Placement *above)
+{
+    const Placement placement = placement_below(above, &node->mTransformation);
+    for (size_t i = 0; i < node->mNumMeshes; i++)
+        if (!add_mesh(sender, sender->scene->mMeshes[node->mMeshes[i]], &placement))
+            return false;
+    for (size_t i = 0; i < node->mNumChildren; i++)
+        if (!add_node(sender, node->mChildren[i], &placement))
+            return false;
+    return true;
+}
+
+bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
+                Error *error)
+{
+    Sender sender = {.stream = stream,
+                     .scene = scene,
+                     .keeps_normals = keeps_normals,
+                     .counts = counts,
+                     .part = {.material = FOREIGN_NO_MATERIAL},
+                     .error = error};
+    *counts = (PartCounts){0};
+    sender.numbers = memory_zeroed(scene->mNumMaterials, sizeof *sender.numbers, error);
+    const bool ok = sender.numbers != NULL && scene->mRootNode != NULL &&
+                    add_node(&sender, scene->mRootNode, &identity) && send_part_so_far(&sender);
+    mesh_free(&sender.part.mesh);
+    free(sender.triangles.memory);
+    free(sender.numbers);
+    return ok;
+}

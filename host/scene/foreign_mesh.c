@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Materials are named FILE:NAME, so that those of two files do not meet.
+#include "scene/foreign_mesh.h"
+
+#include "scene/define.h"
+#include "scene/foreign_process.h"
+#include "scene/foreign_stream.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// What has no highlights is matte.
+static Material material_of(const ForeignMaterial *given)
+{
+    const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
+                                                 given->specular[2] > 0);
+    Material material = material_of_shader(shines ? SHADER_BLINN_PHONG : SHADER_MATTE);
+    material.kd = 1;
+    memcpy(material.diffuse, given->diffuse, sizeof material.diffuse);
+    if (shines) {
+        material.ks = 1;
+        memcpy(material.specular, given->specular, sizeof material.specular);
+        material_set_shininess(&material, given->shininess);
+    }
+    return material;
+}
+
+static MaterialName name_of(const ForeignMaterial *given, const char *path, uint32_t material)
+{
+    MaterialName name = {.material = material};
+    const char *slash = strrchr(path, '/');
+    snprintf(name.name, sizeof name.name, "%.30s:%s", slash != NULL ? slash + 1 : path,
+             given->name);
+    return name;
+}
+
+static bool add_materials(Scene *scene, const ForeignModel *model, const char *path, Error *error)
+{
+    for (size_t i = 0; i < model->materials.count; i++) {
+        const ForeignMaterial *given = &model->materials.data[i];
+        const MaterialName name = name_of(given, path, (uint32_t)scene->materials.count);
+        if (!array_push(&scene->materials, material_of(given), error) ||
+            !array_push(&scene->material_names, name, error))
+            return false;
+    }
+    return true;
+}
+
+// The model's own path is told by whoever asked for it.
+static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
+{
+    if (!scene_add_input(scene, path, error))
+        return false;
+    for (size_t i = 0; i < model->files.count; i++) {
+        const ForeignHash *hash = &model->hashes.data[i];
+        scene_hash_mesh(scene, hash, sizeof *hash);
+        if (i > 0 && !scene_add_input(scene, model->files.data[i], error))
+            return false;
+    }
+    return true;
+}
+
+// Moves the parts' meshes into objects.
+static bool add_parts(Scene *scene, ForeignModel *model, const MeshOrder *order,
+                      uint32_t first_material, Error *error)
+{
+    MeshObject object = order->object;
+    object.number_before = 0;
+    for (size_t i = 0; i < model->parts.count; i++) {
+        ForeignPart *part = &model->parts.data[i];
+        object.mesh = part->mesh;
+        object.material = order->takes_own_materials && part->material != FOREIGN_NO_MATERIAL
+                              ? first_material + part->material
+                              : order->object.material;
+        if (!array_push(&scene->objects, object, error))
+            return false;
+        part->mesh = (Mesh){0};
+        object.number_before += object.mesh.triangle_count + object.mesh.dropped_count;
+    }
+    return true;
+}
+
+static bool add_model(Scene *scene, ForeignModel *model, const char *path, const MeshOrder *order,
+                      Error *error)
+{
+    MeshOrder here = *order;
+    here.object.input = (uint32_t)scene->inputs.count;
+    const uint32_t first_material = (uint32_t)scene->materials.count;
+    return (model->note == NULL || scene_add_note(scene, path, model->note, error)) &&
+           add_files(scene, model, path, error) &&
+           (!order->takes_own_materials || add_materials(scene, model, path, error)) &&
+           add_parts(scene, model, &here, first_material, error);
+}
+
+bool foreign_mesh_add(Scene *scene, const char *path, const MeshOrder *order, Error *error)
+{
+    File stream;
+    ForeignModel model = {0};
+    if (!foreign_process_run(&stream, &foreign_reader, path, error))
+        return false;
+    const ForeignStream bytes = {stream.bytes, stream.size};
+    const bool parsed = foreign_stream_parse(&model, bytes, path, order->parse, error);
+    file_free(&stream);
+    const bool ok = parsed && add_model(scene, &model, path, order, error);
+    foreign_model_free(&model);
+    return ok;
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// How a mesh file is to be taken into a scene.
+#pragma once
+
+#include "scene/ply.h"
+#include "scene/scene.h"
+
+typedef struct {
+    MeshObject object;        // what its objects are beside their meshes
+    bool takes_own_materials; // in place of the object's, where the file has any
+    PlyParse *parse;          // how meshes are read
+} MeshOrder;

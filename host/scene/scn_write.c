@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// A statement for everything that a scene's own text could have said; what is for objects that
+// follow stands before them where it changes.
+#include "scene/scn_write.h"
+
+#include "base/number.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define COURSE_MATERIALS 4
+
+static const char *const shaders[] = {[SHADER_SILHOUETTE] = "silhouette",
+                                      [SHADER_MATTE] = "matte",
+                                      [SHADER_BLINN_PHONG] = "blinn_phong"};
+
+typedef struct {
+    const Scene *scene;
+    FILE *stream;
+    MaterialName *names; // of the materials in this text, by index
+    MeshObject current;  // what the statements so far have set for objects
+} Writer;
+
+// The fewest digits that are read as the same number.
+static void write_number(FILE *stream, double value)
+{
+    char text[32];
+    for (int digits = 15; digits <= 17; digits++) {
+        double again = 0;
+        const int length = snprintf(text, sizeof text, "%.*g", digits, value);
+        if (number_parse(text, text + length, &again) != NULL && again == value)
+            break;
+    }
+    fprintf(stream, " %s", text);
+}
+
+// The same of a float, whose digits are fewer.
+static void write_float(FILE *stream, float value)
+{
+    char text[32];
+    for (int digits = 6; digits <= 9; digits++) {
+        double again = 0;
+        const int length = snprintf(text, sizeof text, "%.*g", digits, (double)value);
+        if (number_parse(text, text + length, &again) != NULL && (float)again == value)
+            break;
+    }
+    fprintf(stream, " %s", text);
+}
+
+static void write_vector(FILE *stream, Vec3 v)
+{
+    write_number(stream, v.x);
+    write_number(stream, v.y);
+    write_number(stream, v.z);
+}
+
+static void write_color(FILE *stream, const char *property, const float color[3])
+{
+    fprintf(stream, " %s", property);
+    for (int channel = 0; channel < 3; channel++)
+        write_float(stream, color[channel]);
+}
+
+static void write_factor(FILE *stream, const char *property, float factor)
+{
+    fprintf(stream, " %s", property);
+    write_float(stream, factor);
+}
+
+static void write_picture(const Writer *writer)
+{
+    const Scene *scene = writer->scene;
+    fprintf(writer->stream, "size %u %u\nbackground", scene->width, scene->height);
+    write_vector(writer->stream, scene->background);
+    fputs("\nambient", writer->stream);
+    write_number(writer->stream, scene->ambient);
+    fprintf(writer->stream, "\nmax_level %u\n", scene->max_level);
+}
+
+static bool is_same(Vec3 a, Vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static void write_cameras(const Writer *writer)
+{
+    const Scene *scene = writer->scene;
+    Vec3 up = {0, 0, 1};
+    for (size_t i = 0; !scene->has_course_views && i < scene->viewpoints.count; i++) {
+        const Viewpoint *viewpoint = &scene->viewpoints.data[i];
+        if (!is_same(up, viewpoint->up)) {
+            up = viewpoint->up;
+            fputs("up", writer->stream);
+            write_vector(writer->stream, up);
+            fputc('\n', writer->stream);
+        }
+        fputs("camera", writer->stream);
+        write_vector(writer->stream, viewpoint->eye);
+        write_vector(writer->stream, viewpoint->look_at);
+        write_number(writer->stream, viewpoint->fov_degrees);
+        fputc('\n', writer->stream);
+    }
+}
+
+bool scn_write_can_name(const char *name)
+{
+    for (const char *c = name; *c != '\0'; c++)
+        if (*c == '"' || *c == '\n' || *c == '\r')
+            return false;
+    return name[0] != '\0';
+}
+
+static bool is_taken(const Writer *writer, size_t before, const char *name)
+{
+    for (size_t i = COURSE_MATERIALS; i < before; i++)
+        if (strcmp(writer->names[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool is_definable(const char *name)
+{
+    double number;
+    return scn_write_can_name(name) && strcmp(name, "own") != 0 &&
+           number_parse(name, name + strlen(name), &number) == NULL;
+}
+
+// The names that materials have, but for those that a mesh file gave and no scene can define.
+static void choose_names(Writer *writer)
+{
+    const Scene *scene = writer->scene;
+    for (size_t i = 0; i < scene->material_names.count; i++)
+        writer->names[scene->material_names.data[i].material] = scene->material_names.data[i];
+    for (size_t i = COURSE_MATERIALS; i < scene->materials.count; i++) {
+        MaterialName *name = &writer->names[i];
+        if (is_definable(name->name) && !is_taken(writer, i, name->name))
+            continue;
+        snprintf(name->name, sizeof name->name, "material_%zu", i);
+        for (size_t length = strlen(name->name);
+             is_taken(writer, i, name->name) && length + 1 < sizeof name->name; length++)
+            strcpy(name->name + length, "_");
+    }
+}
+
+// What a kind of material makes no use of is left out.
+static void write_defines(const Writer *writer)
+{
+    FILE *stream = writer->stream;
+    for (size_t i = COURSE_MATERIALS; i < writer->scene->materials.count; i++) {
+        const Material *material = &writer->scene->materials.data[i];
+        fprintf(stream, "define \"%s\" %s", writer->names[i].name, shaders[material->shader]);
+        write_color(stream, "diffuse", material->diffuse);
+        write_factor(stream, "kd", material->kd);
+        if (material->shader == SHADER_BLINN_PHONG) {
+            write_color(stream, "specular", material->specular);
+            write_factor(stream, "ks", material->ks);
+            write_factor(stream, "shininess", material->shininess);
+        }
+        write_factor(stream, "reflectivity", material->reflectivity);
+        fputc('\n', stream);
+    }
+}
+
+static void write_lights(const Writer *writer)
+{
+    for (size_t i = 0; i < writer->scene->lights.count; i++) {
+        const Light *light = &writer->scene->lights.data[i];
+        fputs("light", writer->stream);
+        write_vector(writer->stream, light->position);
+        write_number(writer->stream, light->intensity);
+        fputc('\n', writer->stream);
+    }
+}
+
+static void select_material(Writer *writer, uint32_t material)
+{
+    if (material == writer->current.material)
+        return;
+    writer->current.material = material;
+    if (material < COURSE_MATERIALS)
+        fprintf(writer->stream, "material %u\n", material);
+    else
+        fprintf(writer->stream, "material \"%s\"\n", writer->names[material].name);
+}
+
+static void write_spheres(Writer *writer)
+{
+    for (size_t i = 0; i < writer->scene->spheres.count; i++) {
+        const Sphere *sphere = &writer->scene->spheres.data[i];
+        select_material(writer, sphere->material);
+        fputs("sphere", writer->stream);
+        write_vector(writer->stream, sphere->center);
+        write_number(writer->stream, sphere->radius);
+        fputc('\n', writer->stream);
+    }
+}
+
+static void write_objects(Writer *writer, char *const *mesh_names)
+{
+    for (size_t i = 0; i < writer->scene->objects.count; i++) {
+        const MeshObject *object = &writer->scene->objects.data[i];
+        select_material(writer, object->material);
+        if (object->two_sided != writer->current.two_sided)
+            fprintf(writer->stream, "sides %s\n", object->two_sided ? "two" : "one");
+        if (object->smooth != writer->current.smooth)
+            fprintf(writer->stream, "normals %s\n", object->smooth ? "smooth" : "flat");
+        writer->current.two_sided = object->two_sided;
+        writer->current.smooth = object->smooth;
+        fprintf(writer->stream, "mesh \"%s\"\n", mesh_names[i]);
+    }
+}
+
+bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error)
+{
+    Writer writer = {
+        .scene = scene, .stream = stream, .current = {.material = UINT32_MAX, .smooth = true}};
+    writer.names = memory_zeroed(scene->materials.count, sizeof *writer.names, error);
+    if (writer.names == NULL)
+        return false;
+    choose_names(&writer);
+    write_picture(&writer);
+    write_cameras(&writer);
+    write_lights(&writer);
+    write_defines(&writer);
+    write_spheres(&writer);
+    write_objects(&writer, mesh_names);
+    free(writer.names);
+    return ferror(stream) == 0;
+}

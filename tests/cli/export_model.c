@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// export_model MODEL FORMAT FILE: writes a model in one of the formats that Assimp writes, by its
+// name for it.  export_model alone: tells the endings of the formats that it reads.
+#include <assimp/cexport.h>
+#include <assimp/cimport.h>
+#include <assimp/importerdesc.h>
+#include <stdio.h>
+
+static int tell_endings(void)
+{
+    for (size_t i = 0; i < aiGetImportFormatCount(); i++)
+        puts(aiGetImportFormatDescription(i)->mFileExtensions);
+    return 0;
+}
+
+static int export_model(const char *model, const char *format, const char *path)
+{
+    const struct aiScene *scene = aiImportFile(model, 0);
+    if (scene == NULL || aiExportScene(scene, format, path, 0) != aiReturn_SUCCESS) {
+        fprintf(stderr, "export_model: %s\n", aiGetErrorString());
+        return 1;
+    }
+    aiReleaseImport(scene);
+    return 0;
+}
+
+int main(int count, char **words)
+{
+    if (count == 1)
+        return tell_endings();
+    return count == 4 ? export_model(words[1], words[2], words[3]) : 2;
+}

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: MIT
+# One mesh in several formats, written from Python's numbers: each function returns a file's bytes.
+import json
+import math
+import struct
+
+
+def rounded(value):
+    """The nearest float."""
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def knot(rings=24, sides=10):
+    """A closed tube around a trefoil, of floats that no short decimal is: points and triangles."""
+    points, triangles = [], []
+    for ring in range(rings):
+        turn = 2 * math.pi * ring / rings
+        wide = 2 + math.cos(3 * turn)
+        for side in range(sides):
+            around = 2 * math.pi * side / sides
+            far = wide + 0.4 * math.cos(around)
+            points.append(
+                (
+                    rounded(far * math.cos(2 * turn)),
+                    rounded(far * math.sin(2 * turn)),
+                    rounded(math.sin(3 * turn) + 0.4 * math.sin(around)),
+                )
+            )
+    for ring in range(rings):
+        for side in range(sides):
+            a, b = ring * sides + side, ring * sides + (side + 1) % sides
+            c, d = (a + sides) % len(points), (b + sides) % len(points)
+            triangles += [(a, c, b), (b, c, d)]
+    return points, triangles
+
+
+def coarse(points):
+    """The same on a grid of 1/64, which every decimal notation keeps."""
+    return [tuple(round(value * 64) / 64 for value in point) for point in points]
+
+
+def normals_of(points):
+    """A direction for each point, of floats."""
+    directions = []
+    for x, y, z in points:
+        length = math.sqrt(x * x + y * y + z * z) or 1
+        directions.append((rounded(x / length), rounded(y / length), rounded(z / length)))
+    return directions
+
+
+def axes_of(points):
+    """The same along the nearest axis, which every notation and every length keeps."""
+    nearest = [max(range(3), key=lambda axis: abs(point[axis])) for point in points]
+    return [
+        tuple(math.copysign(1.0, point[axis]) if axis == near else 0.0 for axis in range(3))
+        for point, near in zip(points, nearest)
+    ]
+
+
+def ply(points, triangles, normals=None):
+    rows = [p + n for p, n in zip(points, normals)] if normals else points
+    names = ["x", "y", "z", "nx", "ny", "nz"][: len(rows[0])]
+    header = (
+        "ply\nformat binary_little_endian 1.0\n"
+        + f"element vertex {len(rows)}\n"
+        + "".join(f"property float {name}\n" for name in names)
+        + f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    body = b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
+    return header.encode() + body + b"".join(struct.pack("<B3i", 3, *t) for t in triangles)
+
+
+def obj(points, triangles, head="", groups=None):
+    """Groups: pairs of the line before some triangles and the number of the first of them."""
+    lines = [head] + [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+    starts = {first: line for line, first in groups or []}
+    for number, triangle in enumerate(triangles):
+        if number in starts:
+            lines.append(starts[number])
+        lines.append("f " + " ".join(str(corner + 1) for corner in triangle))
+    return ("\n".join(lines) + "\n").encode()
+
+
+def stl(points, triangles):
+    """Binary, with normals that are wrong, as those of many programs are."""
+    facets = b"".join(
+        struct.pack("<12fH", 0, 0, 1, *points[a], *points[b], *points[c], 0)
+        for a, b, c in triangles
+    )
+    return b"\0" * 80 + struct.pack("<I", len(triangles)) + facets
+
+
+def off(points, triangles):
+    lines = ["OFF", f"{len(points)} {len(triangles)} 0"]
+    lines += [f"{x!r} {y!r} {z!r}" for x, y, z in points]
+    lines += [f"3 {a} {b} {c}" for a, b, c in triangles]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _low_high(points):
+    columns = list(zip(*points))
+    return [min(c) for c in columns], [max(c) for c in columns]
+
+
+def glb(points, triangles, normals=None, node=None, change=None):
+    """node: what the node has beside its mesh; change: a function of the document, before it is
+    packed."""
+    parts = [b"".join(struct.pack("<3I", *t) for t in triangles)]
+    parts += [b"".join(struct.pack("<3f", *p) for p in v) for v in (points, normals) if v]
+    low, high = _low_high(points)
+    accessors = [
+        {"bufferView": 0, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"},
+        {
+            "bufferView": 1,
+            "componentType": 5126,
+            "count": len(points),
+            "type": "VEC3",
+            "min": low,
+            "max": high,
+        },
+    ]
+    attributes = {"POSITION": 1}
+    if normals:
+        accessors.append(
+            {"bufferView": 2, "componentType": 5126, "count": len(normals), "type": "VEC3"}
+        )
+        attributes["NORMAL"] = 2
+    views, place = [], 0
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": place, "byteLength": len(part)})
+        place += len(part)
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, **(node or {})}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": 0}]}],
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": place}],
+    }
+    if change:
+        change(document)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    body = b"".join(parts)
+    total = 12 + 8 + len(text) + 8 + len(body)
+    return (
+        struct.pack("<4sII", b"glTF", 2, total)
+        + struct.pack("<I4s", len(text), b"JSON")
+        + text
+        + struct.pack("<I4s", len(body), b"BIN\0")
+        + body
+    )

@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# clrt convert: what it writes gives the same picture, bit for bit, and nothing is harmed on the way.
+# Usage: test_convert.py CLRT 1|0, the latter for a build without Assimp
+import os
+import pathlib
+import random
+import shutil
+import sys
+import unittest
+
+import models
+from work import ASSIMP, Work
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT.parent / "shared/course"))
+POINTS, TRIANGLES = models.knot()
+NORMALS = models.normals_of(POINTS)
+MUTANTS = 150
+
+
+class Convert(Work):
+    def converts(self, *words, says=""):
+        done = self.clrt("convert", *words)
+        self.assertEqual((done.stderr, done.returncode, done.stdout), (says, 0, ""))
+
+    def expect_same_pictures(self, before, after, views):
+        for view in range(1, views + 1):
+            words = ["--view", str(view), "-q"]
+            self.assertEqual(
+                self.picture(before, *words), self.picture(after, *words), f"{before} {view}"
+            )
+
+
+class Scenes(Convert):
+    def scenes(self):
+        """Those that are here whole, but for large models, which take minutes."""
+        for scene in sorted(ROOT.glob("scenes/*.scn")) + sorted(COURSE.glob("scenes/*.scn")):
+            statements = [line.split() for line in scene.read_text(errors="replace").splitlines()]
+            meshes = [
+                scene.parent / words[1].strip('"')
+                for words in statements
+                if words and words[0] in ("mesh", "ply_file")
+            ]
+            if all(mesh.is_file() and mesh.stat().st_size < 4e6 for mesh in meshes):
+                yield scene
+
+    def test_every_scene_gives_the_same_pictures(self):
+        scenes = list(self.scenes())
+        self.assertGreater(len(scenes), 5)
+        if not COURSE.is_dir():
+            print("the course's scenes are not here and passed over")
+        for scene in scenes:
+            self.converts(scene, "out.scn", "-q")
+            self.expect_same_pictures(scene, "out.scn", 1)
+
+    def test_a_scene_of_every_statement_does(self):
+        shutil.copy(ROOT / "scenes/cube.ply", self.work)
+        self.write(
+            a_scn="size 96 64\nbackground 0.1 0.2 0.3\nambient 0.07\nmax_level 5\n"
+            "camera 3 -7 4 0 0 0 40\nup 0 1 0.1\ncamera 5 1 2 0 0 0.1 33.3\nlight 5 -7 8 0.7\n"
+            "define gold blinn_phong diffuse 1 .8 .2 shininess 200.5 reflectivity .3 ks 3.3\n"
+            'define "my wax" matte diffuse 0.1 0.2 0.3 kd 0.9\nsphere 1 0.2 0.3 0.4\n'
+            "material gold\nsphere -1 0.2 0.3 0.4\nmesh cube.ply scale 0.3 rotate 1 2 3 17.3\n"
+            'material "my wax"\nsides two\nnormals flat\nply_file cube.ply\n'
+        )
+        self.converts("a.scn", "b.scn")
+        self.expect_same_pictures("a.scn", "b.scn", 2)
+        self.converts("b.scn", "c.scn")
+        texts = [(self.work / name).read_text() for name in ("b.scn", "c.scn")]
+        self.assertEqual(texts[0].replace("b-", "c-"), texts[1])
+
+    def test_verbose_names_the_meshes(self):
+        self.converts(
+            ROOT / "scenes/cube.ply", "b.scn", "-v", says="b-1.ply: 10 triangles\n"
+        )
+
+    def test_a_mesh_is_one_mesh_again(self):
+        self.write(a_ply=models.ply(POINTS, TRIANGLES, NORMALS))
+        self.converts("a.ply", "b.ply")
+        self.assertEqual(
+            (self.work / "a.ply").read_bytes(), (self.work / "b.ply").read_bytes()
+        )
+
+    def test_the_meshes_of_a_scene_become_one_where_they_are(self):
+        self.write(
+            a_ply=models.ply(POINTS, TRIANGLES),
+            a_scn="mesh a.ply scale 0.1\nmesh a.ply rotate 1 1 1 30\n",
+        )
+        losses = "materials, lights and cameras are left out, which PLY has no place for"
+        self.converts("a.scn", "b.ply", says=f"clrt: b.ply: {losses}\n")
+        self.write(b_scn="mesh b.ply\n")
+        self.expect_same_pictures("a.scn", "b.scn", 2)
+
+    def test_spheres_do_not_become_a_mesh(self):
+        self.write(a_scn="sphere 0 0 0 1\n")
+        done = self.clrt("convert", "a.scn", "b.ply")
+        sentence = "clrt: a.scn: PLY has no place for its 1 spheres: convert it to .scn\n"
+        self.assertEqual((done.stderr, done.returncode), (sentence, 3))
+        self.assertFalse((self.work / "b.ply").exists())
+
+
+class Refusals(Convert):
+    def refuses(self, code, sentence, *words):
+        done = self.clrt("convert", *words)
+        self.assertEqual((done.stderr, done.returncode), (f"clrt: {sentence}\n", code))
+
+    def test_other_endings_and_counts_of_files_are_usage(self):
+        self.refuses(2, "clrt convert writes .scn and .ply, not 'b.obj'", "a.ply", "b.obj")
+        self.refuses(
+            2, "clrt convert wants the names of a scene or mesh and of the file to write", "a.ply"
+        )
+        self.refuses(2, "clrt convert takes no --aa", "a.ply", "b.ply", "--aa")
+
+    def test_what_is_read_is_not_written_over(self):
+        content = models.ply(POINTS, TRIANGLES)
+        self.write(a_ply=content, a_scn="mesh a.ply\n")
+        self.refuses(5, "a.ply: is read from, and not written over", "a.ply", "a.ply")
+        self.refuses(5, "a.scn: is read from, and not written over", "a.scn", "a.scn")
+        os.link(self.work / "a.ply", self.work / "b-1.ply")
+        self.refuses(5, "b-1.ply: is read from, and not written over", "a.scn", "b.scn")
+        self.assertEqual((self.work / "a.ply").read_bytes(), content)
+
+    def test_a_full_disk_is_one_sentence(self):
+        self.write(a_ply=models.ply(POINTS, TRIANGLES))
+        (self.work / "b.ply").symlink_to("/dev/full")
+        (self.work / "c.scn").symlink_to("/dev/full")
+        for name in ("b.ply", "c.scn"):
+            sentence = f"{name}: cannot be written: No space left on device"
+            self.refuses(5, sentence, "a.ply", name)
+        self.refuses(
+            5, "none/b.ply: cannot be written: No such file or directory", "a.ply", "none/b.ply"
+        )
+
+    def test_a_scene_that_is_wrong_is_exit_3_and_writes_nothing(self):
+        self.write(a_scn="mesh none.ply\n")
+        self.assertEqual(self.clrt("convert", "a.scn", "b.scn").returncode, 3)
+        self.assertEqual(sorted(file.name for file in self.work.iterdir()), ["a.scn"])
+
+    def test_bad_geometry_is_refused_where_that_is_asked_for(self):
+        self.write(a_ply=models.ply([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
+        self.refuses(
+            3,
+            "a.ply: triangle 0, the first of 1 such, has its corners on a line",
+            *("a.ply", "b.ply", "--bad-geometry", "fail"),
+        )
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Models(Convert):
+    def test_models_in_any_format_give_the_same_pictures(self):
+        coarse = models.coarse(POINTS)
+        node = {"translation": [0.1, 0.2, 0.3], "rotation": [0.5, 0.5, 0.5, 0.5]}
+        self.write(
+            a_stl=models.stl(POINTS, TRIANGLES),
+            b_glb=models.glb(POINTS, TRIANGLES, NORMALS, node),
+            c_obj=models.obj(coarse, TRIANGLES),
+        )
+        for name in ("a.stl", "b.glb", "c.obj"):
+            self.converts(name, "out.ply")
+            self.converts(name, "out.scn")
+            self.expect_same_pictures(name, "out.ply", 2)
+            self.expect_same_pictures(name, "out.scn", 2)
+
+    def test_materials_are_kept_in_scenes_and_told_to_be_lost_in_ply(self):
+        groups = [("usemtl red", 0), ("usemtl dull blue", 200)]
+        self.write(
+            a_obj=models.obj(models.coarse(POINTS), TRIANGLES, "mtllib a.mtl", groups),
+            a_mtl="newmtl red\nKd 0.7 0.1 0.3\nKs .3 .3 .3\nNs 33.3\nnewmtl dull blue\nKd 0 0 .7\n",
+        )
+        self.converts("a.obj", "b.scn")
+        self.expect_same_pictures("a.obj", "b.scn", 2)
+        losses = "materials are left out, which PLY has no place for"
+        self.converts("a.obj", "b.ply", says=f"clrt: b.ply: {losses}\n")
+
+    def test_changed_files_are_converted_or_refused_in_one_sentence(self):
+        points, triangles = models.knot(6, 4)
+        coarse = models.coarse(points)
+        whole = {
+            "obj": models.obj(coarse, triangles, "mtllib a.mtl", [("usemtl red", 0)]),
+            "stl": models.stl(points, triangles),
+            "glb": models.glb(points, triangles, models.normals_of(points)),
+            "off": models.off(coarse, triangles),
+        }
+        chance = random.Random(1)
+        inserts = [b"-1", b"99999999999", b"nan", b"\xff" * 4, b"{", b"f 1 2 3\n", b"1e39"]
+        outcomes = set()
+        for number in range(MUTANTS):
+            ending = chance.choice(sorted(whole))
+            content = bytearray(whole[ending])
+            for _ in range(chance.choice([1, 2, 5, 20])):
+                place = chance.randrange(len(content))
+                kind = chance.randrange(3)
+                if kind == 0:
+                    content[place] = chance.randrange(256)
+                elif kind == 1:
+                    del content[place : place + chance.randrange(1, 40)]
+                else:
+                    content[place:place] = chance.choice(inserts)
+                content = content or bytearray(b"x")
+            (self.work / f"m.{ending}").write_bytes(content)
+            done = self.clrt("convert", f"m.{ending}", "out.ply", "-q")
+            outcomes.add(done.returncode)
+            self.assertIn(done.returncode, (0, 3), (number, ending, done.stderr))
+            if done.returncode == 3:
+                self.assertRegex(done.stderr, rf"^clrt: m\.{ending}: [ -~]+\n$", (number, ending))
+        self.assertEqual(outcomes, {0, 3})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Meshes in other formats than PLY: the same picture, the materials of their files, and files that
+# are made to harm.
+# Usage: test_models.py CLRT 1|0 [EXPORT], 0 for a build without Assimp; EXPORT is of export_model.c
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+import models
+from work import ASSIMP, Work
+
+EXPORT = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
+CAMERA = "size 96 64\ncamera 3 -7 4 0 0 0 40\nlight 5 -7 8 1\n"
+POINTS, TRIANGLES = models.knot()
+COARSE = models.coarse(POINTS)
+HALF = len(TRIANGLES) // 2
+LIBRARY = (
+    "newmtl red\nKd 0.5 0.25 0.125\nKs 0 0 0\nNs 10\n"
+    "newmtl shiny\nKd 0.125 0.5 0.25\nKs 0.5 0.5 0.25\nNs 40\n"
+)
+DEFINES = (
+    "define red matte diffuse 0.5 0.25 0.125\n"
+    "define shiny blinn_phong diffuse 0.125 0.5 0.25 specular 0.5 0.5 0.25 kd 1 ks 1 shininess 40\n"
+)
+COLORED = models.obj(
+    COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0), ("usemtl shiny", HALF)]
+)
+
+
+@unittest.skipIf(ASSIMP, "this build has Assimp")
+class WithoutAssimp(Work):
+    def test_a_format_that_needs_it_is_refused_in_one_sentence(self):
+        self.write(a_obj="", a_scn="mesh a.obj\n")
+        sentence = "a.obj: this build reads no meshes but PLY: it is without Assimp"
+        self.fails(sentence, "a.obj")
+        self.fails("a.scn:1:6: " + sentence, "a.scn")
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Formats(Work):
+    def test_formats_that_keep_floats_give_the_picture_of_ply(self):
+        self.write(
+            a_ply=models.ply(POINTS, TRIANGLES),
+            a_stl=models.stl(POINTS, TRIANGLES),
+            a_glb=models.glb(POINTS, TRIANGLES),
+        )
+        expected = self.picture("a.ply")
+        for name in ("a.stl", "a.glb"):
+            self.assertEqual(self.picture(name), expected, name)
+
+    def test_formats_in_decimals_give_it_where_those_are_short(self):
+        self.write(
+            a_ply=models.ply(COARSE, TRIANGLES),
+            a_obj=models.obj(COARSE, TRIANGLES),
+            a_OFF=models.off(COARSE, TRIANGLES),
+        )
+        expected = self.picture("a.ply")
+        for name in ("a.obj", "a.OFF"):
+            self.assertEqual(self.picture(name), expected, name)
+
+    def test_normals_are_those_of_the_file(self):
+        normals = models.normals_of(POINTS)
+        self.write(
+            a_ply=models.ply(POINTS, TRIANGLES, normals),
+            a_glb=models.glb(POINTS, TRIANGLES, normals),
+            flat_glb=models.glb(POINTS, TRIANGLES),
+        )
+        self.assertEqual(self.picture("a.glb"), self.picture("a.ply"))
+        self.assertNotEqual(self.picture("a.glb"), self.picture("flat.glb"))
+
+    def test_faces_of_four_corners_are_split(self):
+        square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        self.write(
+            a_ply=models.ply(square, [(0, 1, 2), (0, 2, 3)]),
+            a_obj=models.obj(square, [(0, 1, 2, 3)]),
+        )
+        self.assertEqual(self.picture("a.obj"), self.picture("a.ply"))
+
+    def test_a_statement_moves_every_part(self):
+        moves = "scale 0.5 rotate 0 1 0 30 translate 0.25 0 0\n"
+        self.write(
+            a_ply=models.ply(COARSE, TRIANGLES),
+            colors_obj=COLORED,
+            colors_mtl=LIBRARY,
+            a_scn=CAMERA + "material 2\nmesh colors.obj " + moves,
+            b_scn=CAMERA + "material 2\nmesh a.ply " + moves,
+        )
+        self.assertEqual(self.picture("a.scn"), self.picture("b.scn"))
+
+    def test_a_node_places_and_a_mirroring_one_keeps_fronts_in_front(self):
+        turn = {"translation": [1, 2, 3], "scale": [-2, 1, 1]}
+        moved = [(1 - 2 * x, 2 + y, 3 + z) for x, y, z in COARSE]
+        turned = [(a, c, b) for a, b, c in TRIANGLES]
+        self.write(
+            a_glb=models.glb(COARSE, TRIANGLES, node=turn),
+            a_ply=models.ply(moved, turned),
+            a_scn=CAMERA + "material 2\nmesh a.glb\n",
+            b_scn=CAMERA + "material 2\nmesh a.ply\n",
+        )
+        self.assertEqual(self.picture("a.scn"), self.picture("b.scn"))
+
+    def test_lines_and_points_are_left_out_and_told(self):
+        self.write(a_obj=models.obj(COARSE, TRIANGLES) + b"l 1 2\np 3\n")
+        self.picture("a.obj", says="clrt: a.obj: 2 lines and points are left out\n")
+        self.assertIn("2 lines and points", self.clrt("check", "a.obj").stderr)
+
+    def test_ply_file_stays_for_ply(self):
+        self.write(a_obj=COLORED, a_scn="ply_file a.obj\n")
+        self.fails("a.obj:1: the file does not begin with 'ply'", "a.scn")
+
+    def test_check_reads_them(self):
+        self.write(a_stl=models.stl(POINTS, TRIANGLES))
+        done = self.clrt("check", "a.stl")
+        self.assertIn(f"a.stl: {len(TRIANGLES)} triangles", done.stdout)
+        self.assertIn("closed\n", done.stdout)
+        self.assertEqual(done.returncode, 0)
+
+    def test_warm_and_statistics_read_them(self):
+        self.write(a_stl=models.stl(POINTS, TRIANGLES))
+        self.assertEqual(self.clrt("--warm", "a.stl").returncode, 0)
+        self.picture("a.stl", "-q", "--stats=stats.json")
+        self.assertIn(f'"triangles": {len(TRIANGLES)}', (self.work / "stats.json").read_text())
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Exported(Work):
+    """What Assimp itself writes of a PLY mesh."""
+
+    SCENE = CAMERA + "material 2\nmesh "
+
+    def expect_same_picture(self, mesh, formats):
+        self.write(a_ply=mesh, a_scn=self.SCENE + "a.ply\n")
+        expected = self.picture("a.scn")
+        for name, ending in formats.items():
+            subprocess.run([EXPORT, "a.ply", name, f"a.{ending}"], cwd=self.work, check=True)
+            self.write(b_scn=f"{self.SCENE}a.{ending}\n")
+            self.assertEqual(self.picture("b.scn"), expected, name)
+
+    def test_every_ending_that_assimp_reads_is_a_model(self):
+        told = subprocess.run([EXPORT], capture_output=True, text=True, check=True).stdout
+        own = {"ply", "scn", "xml"}  # the last says nothing
+        for ending in set(told.split()) - own:
+            (self.work / f"a.{ending}").write_text("light\n")
+            done = self.clrt(f"a.{ending}", "-o", "a.pfm")
+            self.assertEqual(done.returncode, 3, ending)
+            self.assertNotIn("the statement is", done.stderr, ending)
+
+    def test_formats_of_floats_give_the_picture_of_ply(self):
+        mesh = models.ply(POINTS, TRIANGLES, models.axes_of(POINTS))
+        self.expect_same_picture(mesh, {"glb2": "glb", "gltf2": "gltf", "assbin": "assbin"})
+
+    def test_so_does_what_has_no_normals(self):
+        self.expect_same_picture(models.ply(POINTS, TRIANGLES), {"stlb": "stl"})
+
+    def test_formats_in_decimals_do_where_those_are_short(self):
+        mesh = models.ply(COARSE, TRIANGLES, models.axes_of(POINTS))
+        self.expect_same_picture(mesh, {"obj": "obj", "collada": "dae", "fbxa": "fbx"})
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Materials(Work):
+    def setUp(self):
+        super().setUp()
+        self.write(
+            colors_obj=COLORED,
+            colors_mtl=LIBRARY,
+            red_ply=models.ply(COARSE, TRIANGLES[:HALF]),
+            shiny_ply=models.ply(COARSE, TRIANGLES[HALF:]),
+            whole_ply=models.ply(COARSE, TRIANGLES),
+            own_scn=CAMERA + "mesh colors.obj\n",
+        )
+
+    def test_those_of_the_file_are_used_before_a_material_is_selected(self):
+        self.write(
+            defined_scn=CAMERA + DEFINES + "material red\nmesh red.ply\nmaterial shiny\nmesh shiny.ply\n"
+        )
+        self.assertEqual(self.picture("own.scn"), self.picture("defined.scn"))
+
+    def test_a_selected_material_takes_their_place(self):
+        self.write(
+            a_scn=CAMERA + "material 2\nmesh colors.obj\n",
+            b_scn=CAMERA + "material 2\nmesh whole.ply\n",
+        )
+        self.assertEqual(self.picture("a.scn"), self.picture("b.scn"))
+
+    def test_material_own_brings_them_back(self):
+        self.write(a_scn=CAMERA + "material 2\nmaterial own\nmesh colors.obj\n")
+        self.assertEqual(self.picture("a.scn"), self.picture("own.scn"))
+
+    def test_a_model_alone_has_them(self):
+        plain = self.picture("whole.ply")
+        self.assertNotEqual(self.picture("colors.obj"), plain)
+        self.write(plain_obj=models.obj(COARSE, TRIANGLES))
+        self.assertEqual(self.picture("plain.obj"), plain)
+
+    def test_pixels_tell_the_materials_name_and_the_triangles_number(self):
+        text = self.clrt("own.scn", "--explain-pixel", "48,32", "--view", "1").stdout
+        self.assertRegex(text, r"triangle \d+ of colors.obj, material colors.obj:(red|shiny)")
+
+    def test_a_library_that_is_not_there_is_told(self):
+        (self.work / "colors.mtl").unlink()
+        self.picture("colors.obj", says="clrt: colors.obj: its materials, colors.mtl, cannot be opened\n")
+
+    def test_the_pictures_hash_is_of_the_library_too(self):
+        def hash_in_picture():
+            self.assertEqual(self.clrt("colors.obj", "-s", "8x8", "-o", "a.png").returncode, 0)
+            return (self.work / "a.png").read_bytes().split(b"clrt:scene_hash\0")[1][:32]
+
+        before = hash_in_picture()
+        self.assertEqual(hash_in_picture(), before)
+        self.write(colors_mtl=LIBRARY + "# a comment\n")
+        self.assertNotEqual(hash_in_picture(), before)
+
+
+@unittest.skipUnless(ASSIMP, "this build is without Assimp")
+class Hostile(Work):
+    def test_a_crash_is_one_sentence_that_names_the_line(self):
+        self.write(
+            a_off="OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n3 0 1 2\n",
+            a_scn="light 0 0 1 1\n\nmesh a.off\n",
+        )
+        done = self.clrt("a.scn", "-o", "a.pfm")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"^clrt: a\.scn:3:6: a\.off: Assimp .*\n$")
+
+    def test_a_tree_of_endless_depth_is_one_sentence(self):
+        def deepen(document):
+            document["nodes"] = [{"children": [i + 1]} for i in range(200000)] + [{"mesh": 0}]
+
+        self.write(a_glb=models.glb(POINTS, TRIANGLES, change=deepen))
+        done = self.clrt("a.glb", "-o", "a.pfm")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"^clrt: a\.glb: Assimp .*\n$")
+
+    def test_huge_counts_are_refused_at_once(self):
+        def enlarge(document):
+            document["accessors"][1]["count"] = 4000000000
+
+        self.write(
+            a_off="OFF\n4000000000 1 0\n0 0 0\n",
+            a_glb=models.glb(POINTS, TRIANGLES, change=enlarge),
+            a_stl=b"\0" * 80 + b"\xff\xff\xff\x7f" + b"\0" * 50,
+        )
+        for name in ("a.off", "a.glb", "a.stl"):
+            start = time.monotonic()
+            done = self.clrt(name, "-o", "a.pfm")
+            self.assertEqual(done.returncode, 3, name)
+            self.assertRegex(done.stderr, rf"^clrt: {name}: .*\n$")
+            self.assertLess(time.monotonic() - start, 20)
+
+    def test_what_ends_early_or_is_noise_is_one_sentence(self):
+        whole = models.glb(POINTS, TRIANGLES)
+        self.write(a_glb=whole[: len(whole) // 2], a_stl="noise", a_obj="", a_fbx=bytes(range(256)))
+        for name in ("a.glb", "a.stl", "a.obj", "a.fbx"):
+            done = self.clrt(name, "-o", "a.pfm")
+            self.assertEqual(done.returncode, 3, name)
+            self.assertRegex(done.stderr, rf"^clrt: {name}: Assimp cannot read it: .*\n$")
+
+    def test_a_model_reads_no_file_outside_of_its_folder(self):
+        (self.work / "inner").mkdir()
+        self.write(secret_mtl=LIBRARY)
+        (self.work / "inner/a.obj").write_bytes(COLORED.replace(b"colors.mtl", b"../secret.mtl"))
+        (self.work / "inner/b.obj").write_bytes(
+            COLORED.replace(b"colors.mtl", str(self.work / "secret.mtl").encode())
+        )
+        (self.work / "inner/none.obj").write_bytes(COLORED.replace(b"colors.mtl", b"none.mtl"))
+        expected = self.picture("inner/none.obj", "-q")
+        for name in ("inner/a.obj", "inner/b.obj"):
+            self.assertEqual(self.picture(name, "-q"), expected)
+        self.assertIn(
+            "it names files outside of its folder, which are not read",
+            self.clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr,
+        )
+
+    def test_pipes_and_folders_are_no_models(self):
+        os.mkfifo(self.work / "pipe.obj")
+        os.mkfifo(self.work / "colors.mtl")
+        (self.work / "folder.obj").mkdir()
+        for name in ("pipe.obj", "folder.obj"):
+            self.fails(f"{name}: cannot be read: it is not a file", name)
+        self.write(colors_obj=COLORED)
+        self.picture("colors.obj", says="clrt: colors.obj: its materials, colors.mtl, cannot be opened\n")
+
+    def test_coordinates_that_are_no_numbers_are_refused_as_in_ply(self):
+        bad = [(float("nan"), 0, 0)] + POINTS[1:]
+        self.write(a_stl=models.stl(bad, TRIANGLES))
+        done = self.clrt("a.stl", "-o", "a.pfm")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"^clrt: a\.stl: part 0: .* x is -?nan, not a finite number")
+        self.assertEqual(self.clrt("check", "a.stl").returncode, 1)
+
+    def test_a_model_without_triangles_is_refused(self):
+        self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n")
+        self.fails("a.obj: there are no triangles in it", "a.obj")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

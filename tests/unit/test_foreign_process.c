@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A program that crashes, hangs, writes without end or is not there is one sentence.  Shell scripts
+// stand for the program.
+#include "scene/foreign_process.h"
+
+#include "base/clock.h"
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char script[] = "/tmp/clrt_reader_XXXXXX";
+
+static void write_script(const char *text)
+{
+    FILE *stream = fopen(script, "w");
+    assert_non_null(stream);
+    fprintf(stream, "#!/bin/sh\n%s\n", text);
+    assert_int_equal(fclose(stream), 0);
+    assert_int_equal(chmod(script, 0700), 0);
+}
+
+static bool run(const char *text, File *stream, Error *error)
+{
+    const ForeignReader reader = {.program = script, .seconds = 1, .bytes = 100000};
+    write_script(text);
+    *error = (Error){0};
+    return foreign_process_run(stream, &reader, "m.obj", error);
+}
+
+static void expect_failure(const char *text, const char *sentence)
+{
+    File stream;
+    Error error;
+    const double start = clock_seconds();
+    assert_false(run(text, &stream, &error));
+    assert_string_equal(error.text, sentence);
+    assert_null(stream.bytes);
+    assert_true(clock_seconds() - start < 10);
+}
+
+static void what_the_program_writes_about_the_file_is_the_stream(void **state)
+{
+    (void)state;
+    File stream;
+    Error error;
+    assert_true(run("echo about $1; sleep 0.1; echo more", &stream, &error));
+    assert_int_equal(stream.size, strlen("about m.obj\nmore\n"));
+    assert_memory_equal(stream.bytes, "about m.obj\nmore\n", stream.size);
+    file_free(&stream);
+}
+
+static void a_crash_is_told_with_its_signal(void **state)
+{
+    (void)state;
+    expect_failure("echo part of it; kill -SEGV $$",
+                   "m.obj: Assimp crashed while reading it (signal 11)");
+}
+
+static void a_limit_of_time_is_told(void **state)
+{
+    (void)state;
+    const char *late = "m.obj: Assimp took too long to read it and was stopped";
+    expect_failure("kill -XCPU $$", late);
+    expect_failure("kill -ALRM $$", late);
+    expect_failure("exec sleep 60", late);
+    expect_failure("while :; do echo; sleep 0.05; done", late);
+}
+
+static void a_stream_without_an_end_is_stopped(void **state)
+{
+    (void)state;
+    expect_failure("exec yes", "m.obj: Assimp makes more of it than can be drawn, and was stopped");
+}
+
+static void a_program_that_stays_when_its_stream_has_ended_is_ended(void **state)
+{
+    (void)state;
+    expect_failure("exec sleep 60 >/dev/null", "m.obj: Assimp crashed while reading it (signal 9)");
+}
+
+static void a_program_that_gives_up_is_told(void **state)
+{
+    (void)state;
+    expect_failure("exit 1", "m.obj: the program that reads it ended too early");
+}
+
+static void a_program_that_is_not_there_is_told(void **state)
+{
+    (void)state;
+    const ForeignReader reader = {.program = "/nonexistent", .seconds = 1, .bytes = 1};
+    File stream;
+    Error error = {0};
+    assert_false(foreign_process_run(&stream, &reader, "m.obj", &error));
+    assert_string_equal(error.text, "m.obj: /nonexistent, which reads it, cannot be started: No "
+                                    "such file or directory");
+}
+
+static int make_script(void **state)
+{
+    (void)state;
+    const int file = mkstemp(script);
+    return file < 0 ? -1 : close(file);
+}
+
+static int remove_script(void **state)
+{
+    (void)state;
+    return unlink(script);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_the_program_writes_about_the_file_is_the_stream),
+        cmocka_unit_test(a_crash_is_told_with_its_signal),
+        cmocka_unit_test(a_limit_of_time_is_told),
+        cmocka_unit_test(a_stream_without_an_end_is_stopped),
+        cmocka_unit_test(a_program_that_stays_when_its_stream_has_ended_is_ended),
+        cmocka_unit_test(a_program_that_gives_up_is_told),
+        cmocka_unit_test(a_program_that_is_not_there_is_told),
+    };
+    return cmocka_run_group_tests(tests, make_script, remove_script);
+}

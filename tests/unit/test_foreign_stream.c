@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// What the program with Assimp writes -> a model: every record, and no stream that does harm.
+#include "unit/stream_builder.h"
+
+#include <math.h>
+
+#define DAMAGED "m.obj: what the program that reads it has written is damaged"
+
+static Builder whole_stream(void)
+{
+    Builder builder = {0};
+    const ForeignMaterial red = {.name = "red", .diffuse = {1, 0.25f, 0}, .shininess = 8};
+    put_file(&builder, "./m.obj");
+    put_file(&builder, "./m.mtl");
+    put_record(&builder, FOREIGN_MATERIAL, 0, &red, sizeof red);
+    put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
+    put_part(&builder, 0, TRIANGLE);
+    put_text(&builder, FOREIGN_NOTE, "3 lines are left out");
+    put_text(&builder, FOREIGN_END, "");
+    return builder;
+}
+
+static void expect_failure(const Builder *builder, const char *sentence)
+{
+    ForeignModel model;
+    Error error;
+    assert_false(parse(&model, builder->bytes, builder->size, &error));
+    assert_string_equal(error.text, sentence);
+}
+
+static void a_stream_becomes_files_materials_parts_and_a_note(void **state)
+{
+    (void)state;
+    const Builder builder = whole_stream();
+    ForeignModel model;
+    Error error;
+    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    assert_int_equal(model.files.count, 2);
+    assert_string_equal(model.files.data[1], "./m.mtl");
+    assert_memory_equal(&model.hashes.data[1], "0123456789abcdef", 16);
+    assert_int_equal(model.materials.count, 1);
+    assert_string_equal(model.materials.data[0].name, "red");
+    assert_true(model.materials.data[0].diffuse[1] == 0.25f);
+    assert_int_equal(model.parts.count, 2);
+    assert_true(model.parts.data[0].material == FOREIGN_NO_MATERIAL);
+    assert_int_equal(model.parts.data[1].material, 0);
+    assert_int_equal(model.parts.data[1].mesh.triangle_count, 1);
+    assert_string_equal(model.note, "3 lines are left out");
+    foreign_model_free(&model);
+}
+
+static void a_part_goes_through_the_checks_of_ply(void **state)
+{
+    (void)state;
+    Builder builder = {0};
+    put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
+    put_part(&builder, FOREIGN_NO_MATERIAL,
+             "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n");
+    put_text(&builder, FOREIGN_END, "");
+    expect_failure(&builder, "m.obj: part 1:3: element vertex lacks x, y or z");
+}
+
+static void a_reason_is_told_in_plain_letters(void **state)
+{
+    (void)state;
+    Builder builder = {0};
+    put_text(&builder, FOREIGN_FAILURE, "bad\x1b[31m\nthing \xc3\xa9");
+    expect_failure(&builder, "m.obj: bad?[31m?thing ??");
+}
+
+static void colors_come_into_range_and_names_into_one_word(void **state)
+{
+    (void)state;
+    const ForeignMaterial wild = {.name = "a b\"#\n\xff/c",
+                                  .diffuse = {-1, 2, NAN},
+                                  .specular = {INFINITY, 0.5f, -0.0f},
+                                  .shininess = INFINITY};
+    Builder builder = {0};
+    put_record(&builder, FOREIGN_MATERIAL, 0, &wild, sizeof wild);
+    put_text(&builder, FOREIGN_END, "");
+    ForeignModel model;
+    Error error;
+    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    const ForeignMaterial *tame = &model.materials.data[0];
+    assert_string_equal(tame->name, "a_b_____c");
+    assert_true(tame->diffuse[0] == 0 && tame->diffuse[1] == 1 && tame->diffuse[2] == 0);
+    assert_true(tame->specular[0] == 1 && tame->specular[1] == 0.5f && tame->specular[2] == 0);
+    assert_true(tame->shininess == 1e9f);
+    foreign_model_free(&model);
+}
+
+static void a_name_without_an_end_gets_one(void **state)
+{
+    (void)state;
+    ForeignMaterial endless = {0};
+    memset(endless.name, 'x', sizeof endless.name);
+    Builder builder = {0};
+    put_record(&builder, FOREIGN_MATERIAL, 0, &endless, sizeof endless);
+    put_text(&builder, FOREIGN_END, "");
+    ForeignModel model;
+    Error error;
+    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    assert_int_equal(strlen(model.materials.data[0].name), sizeof endless.name - 1);
+    foreign_model_free(&model);
+}
+
+static void every_stream_that_ends_early_is_damaged(void **state)
+{
+    (void)state;
+    const Builder builder = whole_stream();
+    for (size_t size = 0; size < builder.size; size++) {
+        ForeignModel model;
+        Error error;
+        assert_false(parse(&model, builder.bytes, size, &error));
+        assert_string_equal(error.text, DAMAGED);
+    }
+}
+
+static void what_follows_the_end_is_damage(void **state)
+{
+    (void)state;
+    Builder builder = whole_stream();
+    put_bytes(&builder, "x", 1);
+    expect_failure(&builder, DAMAGED);
+}
+
+static void a_part_of_a_material_that_was_not_sent_is_damage(void **state)
+{
+    (void)state;
+    Builder builder = {0};
+    put_part(&builder, 0, TRIANGLE);
+    put_text(&builder, FOREIGN_END, "");
+    expect_failure(&builder, DAMAGED);
+}
+
+static void records_of_a_wrong_size_or_kind_are_damage(void **state)
+{
+    (void)state;
+    const struct {
+        uint32_t kind;
+        size_t size;
+    } wrong[] = {{FOREIGN_FILE, 3},
+                 {FOREIGN_FILE, 16},
+                 {FOREIGN_MATERIAL, 7},
+                 {FOREIGN_NOTE, 0},
+                 {FOREIGN_NOTE, 1025},
+                 {FOREIGN_END, 1},
+                 {0, 0},
+                 {FOREIGN_END + 1, 0},
+                 {UINT32_MAX, 4},
+                 {FOREIGN_FILE, 2000}};
+    const char filler[2048] = "filler without a zero byte would be text";
+    char text[2048];
+    memset(text, 't', sizeof text);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        Builder builder = {0};
+        put_record(&builder, wrong[i].kind, 0, text, wrong[i].size);
+        put_text(&builder, FOREIGN_END, "");
+        expect_failure(&builder, DAMAGED);
+    }
+    Builder builder = {0};
+    put_record(&builder, FOREIGN_NOTE, 0, filler, 100); // zero bytes within a text
+    put_text(&builder, FOREIGN_END, "");
+    expect_failure(&builder, DAMAGED);
+}
+
+static void demand_sound(const Mesh *mesh)
+{
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(fabs(mesh->positions[vertex][axis]) < 1e30);
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++)
+            assert_true(mesh->triangles[triangle][corner] < mesh->vertex_count);
+}
+
+static void a_changed_stream_gives_a_sound_model_or_a_sentence(void **state)
+{
+    (void)state;
+    const Builder whole = whole_stream();
+    uint32_t random = 1;
+    size_t survivors = 0;
+    for (int run = 0; run < 20000; run++) {
+        Builder changed = whole;
+        for (int i = 0; i <= run % 3; i++) {
+            random = random * 1664525 + 1013904223;
+            changed.bytes[(random >> 8) % whole.size] = (char)(random >> 24);
+        }
+        ForeignModel model;
+        Error error;
+        if (!parse(&model, changed.bytes, changed.size, &error))
+            continue;
+        survivors++;
+        for (size_t part = 0; part < model.parts.count; part++)
+            demand_sound(&model.parts.data[part].mesh);
+        foreign_model_free(&model);
+    }
+    assert_in_range(survivors, 1, 19999);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stream_becomes_files_materials_parts_and_a_note),
+        cmocka_unit_test(a_part_goes_through_the_checks_of_ply),
+        cmocka_unit_test(a_reason_is_told_in_plain_letters),
+        cmocka_unit_test(colors_come_into_range_and_names_into_one_word),
+        cmocka_unit_test(a_name_without_an_end_gets_one),
+        cmocka_unit_test(every_stream_that_ends_early_is_damaged),
+        cmocka_unit_test(what_follows_the_end_is_damage),
+        cmocka_unit_test(a_part_of_a_material_that_was_not_sent_is_damage),
+        cmocka_unit_test(records_of_a_wrong_size_or_kind_are_damage),
+        cmocka_unit_test(a_changed_stream_gives_a_sound_model_or_a_sentence),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// A mesh that is written and read again is the same, bit for bit, and is as long as announced.
+#include "scene/ply.h"
+#include "scene/ply_write.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double floats[4][3] = {
+    {0, -0.0, 1}, {0x1.fffffep10, 0x1p-149, -3}, {0x1p99, 0, 0}, {0, 1, 0}};
+static double doubles[4][3] = {{0.1, 0, 1}, {1, 0x1p-1000, -3}, {9e29, 0, 0}, {0, 1, 0}};
+static float normals[4][3] = {{0, 0, 0}, {1, -0.0f, 0}, {0, 3e38f, 0x1p-149f}, {0, 0, 1}};
+static uint32_t triangles[2][3] = {{0, 1, 2}, {2, 1, 3}};
+
+static void expect_same(Mesh mesh, size_t vertex_size)
+{
+    char *bytes;
+    size_t size;
+    FILE *stream = open_memstream(&bytes, &size);
+    assert_non_null(stream);
+    assert_true(ply_write(&mesh, stream));
+    assert_int_equal(fclose(stream), 0);
+    assert_int_equal(size, ply_write_size(&mesh));
+    const char *body = (const char *)memmem(bytes, size, "end_header\n", 11) + 11;
+    assert_int_equal(size - (size_t)(body - bytes), 4 * vertex_size + 2 * 13);
+
+    Mesh again;
+    Error error = {0};
+    if (!ply_parse(&again, bytes, size, "t.ply", &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(again.vertex_count, mesh.vertex_count);
+    assert_int_equal(again.triangle_count, mesh.triangle_count);
+    assert_memory_equal(again.positions, mesh.positions, 4 * sizeof *mesh.positions);
+    assert_memory_equal(again.triangles, mesh.triangles, 2 * sizeof *mesh.triangles);
+    assert_int_equal(again.normals != NULL, mesh.normals != NULL);
+    if (mesh.normals != NULL)
+        assert_memory_equal(again.normals, mesh.normals, 4 * sizeof *mesh.normals);
+    mesh_free(&again);
+    free(bytes);
+}
+
+static void floats_are_written_as_floats_and_come_back(void **state)
+{
+    (void)state;
+    expect_same(
+        (Mesh){.positions = floats, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
+        12);
+}
+
+static void doubles_are_written_as_doubles_and_come_back(void **state)
+{
+    (void)state;
+    expect_same(
+        (Mesh){
+            .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
+        24);
+}
+
+static void normals_come_back_whatever_their_length(void **state)
+{
+    (void)state;
+    expect_same((Mesh){.positions = doubles,
+                       .normals = normals,
+                       .triangles = triangles,
+                       .vertex_count = 4,
+                       .triangle_count = 2},
+                36);
+}
+
+static void an_empty_mesh_comes_back(void **state)
+{
+    (void)state;
+    char *bytes;
+    size_t size;
+    const Mesh empty = {0};
+    FILE *stream = open_memstream(&bytes, &size);
+    assert_true(ply_write(&empty, stream));
+    fclose(stream);
+    Mesh again;
+    Error error = {0};
+    assert_true(ply_parse(&again, bytes, size, "t.ply", &error));
+    assert_int_equal(again.vertex_count + again.triangle_count, 0);
+    mesh_free(&again);
+    free(bytes);
+}
+
+static void a_full_disk_is_told(void **state)
+{
+    (void)state;
+    const Mesh mesh = {
+        .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2};
+    FILE *full = fopen("/dev/full", "wb");
+    setvbuf(full, NULL, _IONBF, 0);
+    assert_false(ply_write(&mesh, full));
+    fclose(full);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floats_are_written_as_floats_and_come_back),
+        cmocka_unit_test(doubles_are_written_as_doubles_and_come_back),
+        cmocka_unit_test(normals_come_back_whatever_their_length),
+        cmocka_unit_test(an_empty_mesh_comes_back),
+        cmocka_unit_test(a_full_disk_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

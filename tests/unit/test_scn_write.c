@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// A scene that is written as text and read again is the same, to the last bit of every number.
+#include "scene/define.h"
+#include "scene/scn.h"
+#include "scene/scn_write.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static Scene parsed(const char *text, size_t size)
+{
+    Scene scene;
+    Error error = {0};
+    if (!scn_parse(&scene, text, size, CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error))
+        fail_msg("%s\n%s", error.text, text);
+    return scene;
+}
+
+static Scene written_and_read(const Scene *scene, char *const *mesh_names, char **text)
+{
+    size_t size;
+    Error error = {0};
+    FILE *stream = open_memstream(text, &size);
+    assert_non_null(stream);
+    assert_true(scn_write(scene, mesh_names, stream, &error));
+    assert_int_equal(fclose(stream), 0);
+    return parsed(*text, size);
+}
+
+static void expect_same_materials(const Scene *a, uint32_t left, const Scene *b, uint32_t right)
+{
+    assert_memory_equal(&a->materials.data[left], &b->materials.data[right], sizeof(Material));
+}
+
+static void expect_same(const Scene *a, const Scene *b)
+{
+    assert_int_equal(a->lights.count, b->lights.count);
+    assert_memory_equal(a->lights.data, b->lights.data, a->lights.count * sizeof *a->lights.data);
+    assert_int_equal(a->viewpoints.count, b->viewpoints.count);
+    assert_memory_equal(a->viewpoints.data, b->viewpoints.data,
+                        a->viewpoints.count * sizeof *a->viewpoints.data);
+    assert_true(a->has_course_views == b->has_course_views && a->ambient == b->ambient);
+    assert_memory_equal(&a->background, &b->background, sizeof a->background);
+    assert_true(a->width == b->width && a->height == b->height && a->max_level == b->max_level);
+    assert_int_equal(a->spheres.count, b->spheres.count);
+    for (size_t i = 0; i < a->spheres.count; i++) {
+        const Sphere *left = &a->spheres.data[i], *right = &b->spheres.data[i];
+        assert_memory_equal(&left->center, &right->center, sizeof left->center);
+        assert_true(left->radius == right->radius);
+        expect_same_materials(a, left->material, b, right->material);
+    }
+    assert_int_equal(a->objects.count, b->objects.count);
+    for (size_t i = 0; i < a->objects.count; i++) {
+        const MeshObject *left = &a->objects.data[i], *right = &b->objects.data[i];
+        assert_true(left->two_sided == right->two_sided && left->smooth == right->smooth);
+        expect_same_materials(a, left->material, b, right->material);
+    }
+}
+
+static void every_statement_comes_back(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "size 640 480\nbackground 0.1 0.2 0.3\nambient 0.07\nmax_level 9\n"
+        "camera 1 2 3.3333333333333335 0 0 0 33.3\nup 0 1 0.1\ncamera 9 9 9 0 0 0 60\n"
+        "light 0.1 1e29 -1e-29 0.3\nlight 0 0 0 1\n"
+        "define gold blinn_phong diffuse 1 .8 .2 shininess 200.5 reflectivity .3 ks 3.3 kd 0.7\n"
+        "define \"my wax\" matte diffuse 0.1 0.2 0.3 kd 0.9\ndefine \"#a\" silhouette\n"
+        "sphere 0.1 0.2 0.3 1e-7\nmaterial gold\nsphere 1 2 3 4\nmaterial 3\nsphere 5 6 7 8\n"
+        "material \"my wax\"\nply_file cube.ply\nsides two\nnormals flat\nply_file cube.ply\n"
+        "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n";
+    static char *const names[] = {"cube.ply", "cube.ply", "cube.ply"};
+    char *again;
+    Scene scene = parsed(text, strlen(text));
+    Scene copy = written_and_read(&scene, names, &again);
+    expect_same(&scene, &copy);
+    scene_free(&copy);
+    scene_free(&scene);
+    free(again);
+}
+
+static void a_scene_without_cameras_keeps_the_courses(void **state)
+{
+    (void)state;
+    char *again;
+    Scene scene = parsed("light 1 2 3 1", 13);
+    Scene copy = written_and_read(&scene, NULL, &again);
+    assert_true(copy.has_course_views);
+    assert_null(strstr(again, "camera"));
+    expect_same(&scene, &copy);
+    scene_free(&copy);
+    scene_free(&scene);
+    free(again);
+}
+
+// As mesh files name them.
+static void names_that_no_scene_can_define_are_replaced(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"3d.obj:red", "a\"b",  "",          "own",
+                                        "twice",      "twice", "material_4"};
+    Error error = {0};
+    char *again;
+    Scene scene = parsed("", 0);
+    for (uint32_t i = 0; i < 7; i++) {
+        MaterialName name = {.material = (uint32_t)scene.materials.count};
+        Material material = material_of_shader(SHADER_MATTE);
+        strcpy(name.name, names[i]);
+        material.diffuse[0] = (float)i / 8;
+        assert_true(array_push(&scene.materials, material, &error));
+        assert_true(array_push(&scene.material_names, name, &error));
+        assert_true(array_push(&scene.spheres, ((Sphere){{0, 0, i}, 1, name.material}), &error));
+    }
+    Scene copy = written_and_read(&scene, NULL, &again);
+    expect_same(&scene, &copy);
+    assert_non_null(strstr(again, "define \"twice\" "));
+    scene_free(&copy);
+    scene_free(&scene);
+    free(again);
+}
+
+static void numbers_have_no_more_digits_than_they_need(void **state)
+{
+    (void)state;
+    char *again;
+    static const char text[] = "ambient 0.05\nlight 0.1 0.2 0.30000000000000004 1";
+    Scene scene = parsed(text, strlen(text));
+    Scene copy = written_and_read(&scene, NULL, &again);
+    assert_non_null(strstr(again, "ambient 0.05\n"));
+    assert_non_null(strstr(again, "light 0.1 0.2 0.30000000000000004 1\n"));
+    scene_free(&copy);
+    scene_free(&scene);
+    free(again);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_statement_comes_back),
+        cmocka_unit_test(a_scene_without_cameras_keeps_the_courses),
+        cmocka_unit_test(names_that_no_scene_can_define_are_replaced),
+        cmocka_unit_test(numbers_have_no_more_digits_than_they_need),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
