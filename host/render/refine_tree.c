@@ -11,10 +11,11 @@ bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *
     *tree = (RefineTree){
         .width = width, .height = height, .columns = (width + PACKET_SIDE - 1) / PACKET_SIDE};
     const CellGroup none = {0};
+    const Seam no_seam = {0};
     tree->pixels = memory_raw(refine_tree_places(tree), sizeof *tree->pixels, error);
     tree->pixel_groups = memory_zeroed((size_t)width * height, sizeof *tree->pixel_groups, error);
     if (tree->pixels != NULL && tree->pixel_groups != NULL &&
-        array_push(&tree->groups, none, error))
+        array_push(&tree->groups, none, error) && array_push(&tree->seams, no_seam, error))
         return true;
     refine_tree_free(tree);
     return false;
@@ -25,6 +26,7 @@ void refine_tree_free(RefineTree *tree)
     free(tree->pixels);
     free(tree->pixel_groups);
     free(tree->groups.data);
+    free(tree->seams.data);
     *tree = (RefineTree){0};
 }
 
@@ -116,6 +118,13 @@ const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *nam
                                            name->cell / tree->width)];
 }
 
+const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t place[2])
+{
+    CellName name;
+    descend(tree, place, REFINE_LEVELS, tree->traced, &name);
+    return refine_tree_sample(tree, &name);
+}
+
 // What was seen beyond a side of the cell that a group cuts, from the nearest cell no smaller than
 // that; its own where the picture ends.
 static SampleData sample_beyond(const RefineTree *tree, const CellGroup *group, CellSide side)
@@ -162,23 +171,37 @@ bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Erro
     return true;
 }
 
-static void add_group(const RefineTree *tree, uint32_t number, uint64_t sum[3])
+void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS])
+{
+    const uint32_t side = refine_tree_cell_side(group->level);
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        for (int channel = 0; channel < 3; channel++)
+            sums[cell][channel] =
+                2 * side * side * seam_color_steps(group->cells[cell].color[channel]);
+    for (uint32_t number = group->seams; number != 0; number = tree->seams.data[number].next)
+        seam_correct(&tree->seams.data[number], group->cells, group->stride, sums);
+}
+
+static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];
-    const uint64_t side = refine_tree_cell_side(group->level);
+    ColorSum sums[GROUP_CELLS];
+    refine_tree_cells(tree, group, sums);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
         if (group->groups[cell] != 0)
             add_group(tree, group->groups[cell], sum);
         for (int channel = 0; channel < 3 && group->groups[cell] == 0; channel++)
-            sum[channel] += side * side * (uint64_t)(group->cells[cell].color[channel] * 0x1p32f);
+            sum[channel] += sums[cell][channel];
     }
 }
 
 // Those that a group added to the one of the cell it cuts.
 static uint32_t count_added(const RefineTree *tree, uint32_t number)
 {
-    uint32_t count = GROUP_CELLS - 1;
     const CellGroup *group = &tree->groups.data[number];
+    uint32_t count = GROUP_CELLS - 1;
+    for (uint32_t seam = group->seams; seam != 0; seam = tree->seams.data[seam].next)
+        count += tree->seams.data[seam].samples;
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
         if (group->groups[cell] != 0)
             count += count_added(tree, group->groups[cell]);
@@ -194,10 +217,10 @@ uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
 void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
 {
     const uint64_t side = refine_tree_cell_side(tree->groups.data[group].level - 1);
-    uint64_t sum[3] = {0};
+    ColorSum sum = {0};
     add_group(tree, group, sum);
     for (int channel = 0; channel < 3; channel++)
-        mean[channel] = (float)((sum[channel] + side * side / 2) / (side * side)) * 0x1p-32f;
+        mean[channel] = (float)((sum[channel] + side * side) / (2 * side * side)) * 0x1p-32f;
 }
 
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3])

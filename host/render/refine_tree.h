@@ -5,12 +5,10 @@
 #pragma once
 
 #include "image/framebuffer.h"
-#include "scene/scene.h"
+#include "render/seam.h"
 
 #define REFINE_LEVELS 4  // how often a cell of a pixel's size can be cut
 #define REFINE_GRID   81 // cells of the last level along a pixel's side
-#define GROUP_SIDE    3
-#define GROUP_CELLS   9
 #define GROUP_MIDDLE  4
 
 typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellSide;
@@ -22,6 +20,8 @@ typedef struct {
     SampleData beyond[SIDE_COUNT]; // from the next cells of the size that was cut, or larger ones
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
+    uint32_t seams;               // the first, 0 for none
+    uint32_t stride;              // of cells along the lines that they lie across: 1 or GROUP_SIDE
 } CellGroup;
 
 typedef struct {
@@ -29,6 +29,7 @@ typedef struct {
     SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
     uint32_t *pixel_groups;          // in rows; 0 where the pixel is not cut
     ARRAY(CellGroup) groups;         // from 1
+    ARRAY(Seam) seams;               // from 1
     uint32_t traced;                 // groups below have all their samples
 } RefineTree;
 
@@ -61,6 +62,9 @@ bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSi
                           CellName *name);
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
 
+// The sample of the smallest cell at a place of the picture.
+const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t place[2]);
+
 // Cuts a pixel, or a cell of a group: appends the group, of which the middle alone is known.
 bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 bool refine_tree_cut_cell(RefineTree *tree, uint32_t group, uint32_t cell, Error *error);
@@ -71,11 +75,20 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first);
 // Cells of the last level along the side of a level's.
 uint32_t refine_tree_cell_side(uint32_t level);
 
+// From a line of a group to the next, in cells.
+static inline uint32_t refine_tree_line(const CellGroup *group)
+{
+    return group->stride == 1 ? GROUP_SIDE : 1;
+}
+
 // Where the sample of a group's cell lies, in cells of the last level.
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);
 
 // How many samples a pixel has.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
+
+// What each of a group's cells is known to hold, seams included, but for what they are cut into.
+void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS]);
 
 // The mean over the samples of what a group cuts, weighted by their cells.
 void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);

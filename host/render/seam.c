@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The step is taken to lie in the middle of what is left, in halves of a place.  Sums wrap where
+// corrections are negative, and come out right.
+#include "render/seam.h"
+
+#include <math.h>
+
+#define PIXEL_AREA (81.0f * 81)
+#define LEAST_STEP (1 / 256.0f)
+
+float seam_difference(const SampleData *one, const SampleData *other)
+{
+    float most = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const float difference = fabsf(one->color[channel] - other->color[channel]);
+        most = difference > most ? difference : most;
+    }
+    return most;
+}
+
+bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap)
+{
+    const SampleData *first = line[gap], *last = line[gap + 1];
+    if (first->signature != last->signature)
+        return true;
+    const float half = seam_difference(first, last) / 2;
+    return half > LEAST_STEP / 2 && (gap == 0 || seam_difference(line[gap - 1], first) < half) &&
+           (gap + 1 == LINE_GAPS || seam_difference(last, line[gap + 2]) < half);
+}
+
+float seam_contrast(const Seam *seam)
+{
+    const int area = (seam->high - seam->low) * seam->side;
+    return seam_difference(&seam->ends[0], &seam->ends[1]) * (float)area / PIXEL_AREA;
+}
+
+bool seam_asks(const Seam *seam, uint32_t *place)
+{
+    const uint32_t between = (seam->low + seam->high) / 2u;
+    *place = seam->assumed == SEAM_END_FIRST  ? seam->from
+             : seam->assumed == SEAM_END_LAST ? seam->to
+                                              : between;
+    return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
+}
+
+// Whether a sample belongs to one end rather than to the other.
+static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
+{
+    if (end->signature != other->signature)
+        return sample->signature == end->signature;
+    return sample->signature == end->signature &&
+           2 * seam_difference(sample, end) < seam_difference(sample, other);
+}
+
+// There is no step where the border sees what the cell does.
+static void take_border(Seam *seam, const SampleData *sample)
+{
+    const SampleData *cell = &seam->ends[SEAM_END_LAST - seam->assumed];
+    if (is_like(sample, cell, &seam->ends[seam->assumed]))
+        seam->low = seam->high = seam->assumed == SEAM_END_FIRST ? seam->from : seam->to;
+    seam->ends[seam->assumed] = *sample;
+    seam->assumed = SEAM_ENDS;
+}
+
+bool seam_take(Seam *seam, const SampleData *sample, Seam *rest)
+{
+    const uint8_t middle = (uint8_t)((seam->low + seam->high) / 2u);
+    seam->samples++;
+    if (seam->assumed != SEAM_ENDS) {
+        take_border(seam, sample);
+        return false;
+    }
+    if (is_like(sample, &seam->ends[0], &seam->ends[1])) {
+        seam->low = middle;
+        return false;
+    }
+    if (is_like(sample, &seam->ends[1], &seam->ends[0])) {
+        seam->high = middle;
+        return false;
+    }
+    *rest = *seam;
+    rest->ends[0] = seam->ends[1] = *sample;
+    rest->from = rest->low = seam->to = seam->high = middle;
+    rest->samples = 0;
+    return true;
+}
+
+// Between two places in halves, along the line.
+typedef struct {
+    uint32_t begin, end;
+    const SampleData *seen;
+} Stretch;
+
+static uint32_t overlap(const Stretch *stretch, uint32_t begin, uint32_t end)
+{
+    const uint32_t first = stretch->begin > begin ? stretch->begin : begin;
+    const uint32_t last = stretch->end < end ? stretch->end : end;
+    return first < last ? last - first : 0;
+}
+
+static void correct_cell(const Stretch *stretch, const SampleData *cell, uint32_t weight,
+                         ColorSum sum)
+{
+    for (int channel = 0; channel < 3; channel++)
+        sum[channel] += weight * (seam_color_steps(stretch->seen->color[channel]) -
+                                  seam_color_steps(cell->color[channel]));
+}
+
+void seam_correct(const Seam *seam, const SampleData cells[GROUP_CELLS], uint32_t stride,
+                  ColorSum sums[GROUP_CELLS])
+{
+    const uint32_t side = seam->side;
+    if (seam->assumed != SEAM_ENDS || seam->low == seam->high)
+        return;
+    const uint32_t step = seam->low + seam->high + 1u;
+    const uint32_t begin = seam->from == 0 ? 0 : 2u * seam->from + 1;
+    const uint32_t end =
+        seam->to + 1u == GROUP_SIDE * side ? 2 * GROUP_SIDE * side : 2u * seam->to + 1;
+    const Stretch parts[2] = {{begin, step, &seam->ends[0]}, {step, end, &seam->ends[1]}};
+    const uint32_t first = seam->line * (stride == 1 ? GROUP_SIDE : 1u);
+    for (uint32_t i = 0; i < GROUP_SIDE; i++)
+        for (int part = 0; part < 2; part++) {
+            const uint32_t cell = first + i * stride;
+            const uint32_t length = overlap(&parts[part], 2 * side * i, 2 * side * (i + 1));
+            if (length > 0)
+                correct_cell(&parts[part], &cells[cell], length * side, sums[cell]);
+        }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// A line of samples crosses from one surface to another somewhere between two of them.  Halving
+// the stretch between tells where, with a sample a bit, where cutting cells takes eight for 1.6.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+#define GROUP_SIDE  3
+#define GROUP_CELLS 9
+
+typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
+
+// Places are in cells of the last level, along the line, from the border of the group.
+typedef struct {
+    SampleData ends[SEAM_ENDS]; // what is seen at `from` and at `to`
+    uint32_t group, next;       // the group's next, 0 at the end
+    uint8_t side;               // of the group's cells
+    uint8_t line;               // across which it lies: 0 to 2
+    uint8_t from, to;           // the stretch that it tells of
+    uint8_t low, high;          // samples that it lies between
+    uint8_t assumed;            // the end, at the border, that was seen beyond it; or SEAM_ENDS
+    uint8_t samples;            // that were taken to place it
+} Seam;
+
+// The samples of a line: its cells between what lies beyond its ends.
+#define LINE_SAMPLES (GROUP_SIDE + 2)
+#define LINE_GAPS    (LINE_SAMPLES - 1)
+
+// Whether colors step in a gap of a line, rather than slope.
+bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap);
+
+// The largest difference of two samples' colors.
+float seam_difference(const SampleData *one, const SampleData *other);
+
+// The error, as contrast times the part of a pixel, that the place leaves.
+float seam_contrast(const Seam *seam);
+
+// Whether a sample can tell more; then its place.
+bool seam_asks(const Seam *seam, uint32_t *place);
+
+// Takes that sample up.  Returns whether it saw a third surface: then `rest` is the next seam of
+// the group, and has its next.
+bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
+
+// Colors in steps of 2^-32, times twice a cell's area.
+typedef uint64_t ColorSum[3];
+
+// Corrects the sums of a group's cells, `stride` apart along the line, each of which was taken to
+// be of one color.
+void seam_correct(const Seam *seam, const SampleData cells[GROUP_CELLS], uint32_t stride,
+                  ColorSum sums[GROUP_CELLS]);
+
+static inline uint64_t seam_color_steps(float color)
+{
+    return (uint64_t)(color * 0x1p32f);
+}
