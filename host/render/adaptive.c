@@ -31,18 +31,32 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
+// What to do with a pixel.
+typedef enum { PIXEL_LEAVE, PIXEL_CUT, PIXEL_OPEN } PixelMark;
+
+static PixelMark mark_of_pixel(const Marking *marking, uint32_t x, uint32_t y)
+{
+    const RefineTree *tree = marking->tree;
+    const float threshold = marking->threshold;
+    const size_t pixel = (size_t)y * tree->width + x;
+    if (tree->pixel_groups[pixel] != 0 || !contrast_may_exceed(tree, x, y, threshold))
+        return PIXEL_LEAVE;
+    const CellContrast contrast = contrast_of_pixel(tree, x, y);
+    if (contrast.value <= threshold)
+        return PIXEL_LEAVE;
+    if (!contrast.is_step || contrast_past_seams(contrast.value) > threshold)
+        return PIXEL_CUT;
+    return tree->pixel_seams[pixel] == 0 ? PIXEL_OPEN : PIXEL_LEAVE;
+}
+
 static void mark_rows(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
     const Marking *marking = context;
     const RefineTree *tree = marking->tree;
     for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
-        for (uint32_t x = 0; x < tree->width; x++) {
-            const size_t pixel = (size_t)y * tree->width + x;
-            marking->marks[pixel] = tree->pixel_groups[pixel] == 0 &&
-                                    contrast_may_exceed(tree, x, y, marking->threshold) &&
-                                    contrast_of_pixel(tree, x, y).value > marking->threshold;
-        }
+        for (uint32_t x = 0; x < tree->width; x++)
+            marking->marks[(size_t)y * tree->width + x] = (uint16_t)mark_of_pixel(marking, x, y);
 }
 
 // The cells to be cut for the sake of small spheres.
@@ -108,9 +122,12 @@ static bool cut_pixels_of_block(RefineTree *tree, const uint16_t *marks, uint32_
     const uint32_t right = end_of(left / PACKET_SIDE, PACKET_SIDE, tree->width);
     const uint32_t bottom = end_of(top / PACKET_SIDE, PACKET_SIDE, tree->height);
     for (uint32_t y = top; y < bottom; y++)
-        for (uint32_t x = left; x < right; x++)
-            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+        for (uint32_t x = left; x < right; x++) {
+            const PixelMark mark = marks[(size_t)y * tree->width + x];
+            if ((mark == PIXEL_CUT && !refine_tree_cut_pixel(tree, x, y, error)) ||
+                (mark == PIXEL_OPEN && !refine_tree_open_pixel(tree, x, y, error)))
                 return false;
+        }
     return true;
 }
 
@@ -174,7 +191,8 @@ static void mark_footprints(const Marking *marking)
 {
     for (size_t i = 0; i < marking->footprints->list.count; i++) {
         const uint32_t pixel = marking->footprints->list.data[i].pixel;
-        marking->marks[pixel] = marking->tree->pixel_groups[pixel] == 0;
+        if (marking->tree->pixel_groups[pixel] == 0)
+            marking->marks[pixel] = PIXEL_CUT;
     }
 }
 

@@ -76,7 +76,7 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
         crew_run(adaptive->crew, tasks, list_places, &exchange);
         for (size_t i = 0; i < search->asked.count; i++) {
             uint32_t place[2];
-            seam_search_place(tree, search->asked.data[i], place);
+            seam_asks(&tree->seams.data[search->asked.data[i]], place);
             places[cut + i] = (SamplePlace){place[0], place[1]};
         }
         ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);

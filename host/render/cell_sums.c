@@ -79,6 +79,24 @@ static void add_part(const RefineTree *tree, const Part *part, CellSums *sums)
         add_cut(tree, part, &kinds[part->level]);
 }
 
+static void add_seam(const Seam *seam, CellSums *sums)
+{
+    uint32_t place[2];
+    const double contrast = (double)seam_contrast(seam);
+    sums->seams +=
+        SEAMS_ALIKE * contrast * contrast * (seam->assumed == SEAM_ENDS ? 1 / 12.0 : 1 / 6.0);
+    if (seam_asks(seam, place))
+        sums->counts[bin_of((float)contrast / ADAPTIVE_SEAM_PART)]++;
+}
+
+static void add_pixel_seams(const RefineTree *tree, uint32_t seam, CellContrast *contrast,
+                            CellSums *sums)
+{
+    contrast->value = contrast_past_seams(contrast->value);
+    for (; seam != 0; seam = tree->seams.data[seam].next)
+        add_seam(&tree->seams.data[seam], sums);
+}
+
 static void sum_rows(const RefineTree *tree, uint32_t task, CellSums *sums)
 {
     const uint32_t end = (uint32_t)end_of(task, ROWS_OF_TASK, tree->height);
@@ -86,6 +104,9 @@ static void sum_rows(const RefineTree *tree, uint32_t task, CellSums *sums)
         for (uint32_t x = 0; x < tree->width; x++) {
             Part pixel = {.contrast = contrast_of_pixel(tree, x, y),
                           .group = tree->pixel_groups[(size_t)y * tree->width + x]};
+            if (tree->pixel_seams[(size_t)y * tree->width + x] != 0 && pixel.group == 0)
+                add_pixel_seams(tree, tree->pixel_seams[(size_t)y * tree->width + x],
+                                &pixel.contrast, sums);
             memcpy(pixel.color, tree->pixels[refine_tree_place(tree, x, y)].color,
                    sizeof pixel.color);
             add_part(tree, &pixel, sums);
@@ -105,16 +126,6 @@ static void add_cells(const RefineTree *tree, const CellGroup *group, CellSums *
             cell.color[channel] = (float)known[i][channel] / (float)(2 * side * side) * 0x1p-32f;
         add_part(tree, &cell, sums);
     }
-}
-
-static void add_seam(const Seam *seam, CellSums *sums)
-{
-    uint32_t place;
-    const double contrast = (double)seam_contrast(seam);
-    sums->seams +=
-        SEAMS_ALIKE * contrast * contrast * (seam->assumed == SEAM_ENDS ? 1 / 12.0 : 1 / 6.0);
-    if (seam_asks(seam, &place))
-        sums->counts[bin_of((float)contrast / ADAPTIVE_SEAM_PART)]++;
 }
 
 static void sum_groups(const RefineTree *tree, uint32_t task, CellSums *sums)

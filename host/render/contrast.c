@@ -10,9 +10,10 @@
 // Two pixels may agree in color by chance where an outline runs between them.
 #define OUTLINE_WEIGHT 2
 
-// Beside a seam.
-#define STEP_WEIGHT 0.5f
-#define BEND_WEIGHT 0.25f
+// Beside a seam, and in a pixel that has one.
+#define STEP_WEIGHT  0.5f
+#define BEND_WEIGHT  0.25f
+#define PIXEL_WEIGHT 0.5f
 
 static float larger(float a, float b)
 {
@@ -84,6 +85,11 @@ static inline bool saw_another(const SampleData *at, const SampleData *other)
     return at->signature != other->signature;
 }
 
+float contrast_past_seams(float contrast)
+{
+    return PIXEL_WEIGHT * contrast;
+}
+
 bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold)
 {
     if (x == 0 || y == 0 || x + 1 == tree->width || y + 1 == tree->height)
@@ -147,7 +153,7 @@ float contrast_across(const CellGroup *group, CellSide side, const SampleData *o
         const SampleData *cell = &group->cells[first[side] + i * stride[side]];
         most = larger(most, step(cell, other));
     }
-    return (level == 0 ? OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] * most;
+    return (level == 0 ? PIXEL_WEIGHT * OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] * most;
 }
 
 void contrast_of_group(const CellGroup *group, CellContrast contrast[GROUP_CELLS])

@@ -14,6 +14,9 @@ typedef struct {
 // Of a pixel; what differs from a neighbor that met another surface or light counts twice.
 CellContrast contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
 
+// What is left of a pixel's steps once its seams are placed.
+float contrast_past_seams(float contrast);
+
 // Whether that may be above a threshold: false for most pixels, at a fraction of the cost.
 bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold);
 

@@ -21,13 +21,13 @@ typedef struct {
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
     uint32_t seams;               // the first, 0 for none
-    uint32_t stride;              // of cells along the lines that they lie across: 1 or GROUP_SIDE
 } CellGroup;
 
 typedef struct {
     uint32_t width, height, columns; // the last of blocks
     SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
     uint32_t *pixel_groups;          // in rows; 0 where the pixel is not cut
+    uint32_t *pixel_seams;           // in rows; the first of a pixel that is not, 0 for none
     ARRAY(CellGroup) groups;         // from 1
     ARRAY(Seam) seams;               // from 1
     uint32_t traced;                 // groups below have all their samples
@@ -69,17 +69,15 @@ const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t p
 bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 bool refine_tree_cut_cell(RefineTree *tree, uint32_t group, uint32_t cell, Error *error);
 
+// Opens the seams of a pixel between what it and its neighbors saw, along the axis on which more
+// differs.
+bool refine_tree_open_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
+
 // Forgets the groups from `first` on, none of which has been cut.
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
 // Cells of the last level along the side of a level's.
 uint32_t refine_tree_cell_side(uint32_t level);
-
-// From a line of a group to the next, in cells.
-static inline uint32_t refine_tree_line(const CellGroup *group)
-{
-    return group->stride == 1 ? GROUP_SIDE : 1;
-}
 
 // Where the sample of a group's cell lies, in cells of the last level.
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);

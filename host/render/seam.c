@@ -34,12 +34,14 @@ float seam_contrast(const Seam *seam)
     return seam_difference(&seam->ends[0], &seam->ends[1]) * (float)area / PIXEL_AREA;
 }
 
-bool seam_asks(const Seam *seam, uint32_t *place)
+bool seam_asks(const Seam *seam, uint32_t place[2])
 {
     const uint32_t between = (seam->low + seam->high) / 2u;
-    *place = seam->assumed == SEAM_END_FIRST  ? seam->from
-             : seam->assumed == SEAM_END_LAST ? seam->to
-                                              : between;
+    const uint32_t along = seam->assumed == SEAM_END_FIRST  ? seam->from
+                           : seam->assumed == SEAM_END_LAST ? seam->to
+                                                            : between;
+    place[0] = seam->x + (seam->stride == 1 ? along : 0);
+    place[1] = seam->y + (seam->stride == 1 ? 0 : along);
     return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
 }
 
@@ -52,12 +54,18 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
            2 * seam_difference(sample, end) < seam_difference(sample, other);
 }
 
+void seam_close(Seam *seam)
+{
+    seam->low = seam->high = seam->from;
+    seam->assumed = SEAM_ENDS;
+}
+
 // There is no step where the border sees what the cell does.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     const SampleData *cell = &seam->ends[SEAM_END_LAST - seam->assumed];
     if (is_like(sample, cell, &seam->ends[seam->assumed]))
-        seam->low = seam->high = seam->assumed == SEAM_END_FIRST ? seam->from : seam->to;
+        seam->low = seam->high = seam->from;
     seam->ends[seam->assumed] = *sample;
     seam->assumed = SEAM_ENDS;
 }
@@ -106,23 +114,21 @@ static void correct_cell(const Stretch *stretch, const SampleData *cell, uint32_
                                   seam_color_steps(cell->color[channel]));
 }
 
-void seam_correct(const Seam *seam, const SampleData cells[GROUP_CELLS], uint32_t stride,
-                  ColorSum sums[GROUP_CELLS])
+void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[])
 {
-    const uint32_t side = seam->side;
+    const uint32_t side = seam->side, length = seam->cells * side;
     if (seam->assumed != SEAM_ENDS || seam->low == seam->high)
         return;
     const uint32_t step = seam->low + seam->high + 1u;
     const uint32_t begin = seam->from == 0 ? 0 : 2u * seam->from + 1;
-    const uint32_t end =
-        seam->to + 1u == GROUP_SIDE * side ? 2 * GROUP_SIDE * side : 2u * seam->to + 1;
+    const uint32_t end = seam->to + 1u == length ? 2 * length : 2u * seam->to + 1;
     const Stretch parts[2] = {{begin, step, &seam->ends[0]}, {step, end, &seam->ends[1]}};
-    const uint32_t first = seam->line * (stride == 1 ? GROUP_SIDE : 1u);
-    for (uint32_t i = 0; i < GROUP_SIDE; i++)
+    const uint32_t first = seam->line * (seam->stride == 1 ? GROUP_SIDE : 1u);
+    for (uint32_t i = 0; i < seam->cells; i++)
         for (int part = 0; part < 2; part++) {
-            const uint32_t cell = first + i * stride;
-            const uint32_t length = overlap(&parts[part], 2 * side * i, 2 * side * (i + 1));
-            if (length > 0)
-                correct_cell(&parts[part], &cells[cell], length * side, sums[cell]);
+            const uint32_t cell = first + i * seam->stride;
+            const uint32_t held = overlap(&parts[part], 2 * side * i, 2 * side * (i + 1));
+            if (held > 0)
+                correct_cell(&parts[part], &cells[cell], held * side, sums[cell]);
         }
 }

@@ -12,12 +12,15 @@
 
 typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
 
-// Places are in cells of the last level, along the line, from the border of the group.
+// Lines lie in a group, or are of one cell where they lie in a pixel.  Places are in cells of the
+// last level, along the line.
 typedef struct {
     SampleData ends[SEAM_ENDS]; // what is seen at `from` and at `to`
-    uint32_t group, next;       // the group's next, 0 at the end
-    uint8_t side;               // of the group's cells
-    uint8_t line;               // across which it lies: 0 to 2
+    uint32_t x, y;              // where the line begins
+    uint32_t group, next;       // the group's next, or the pixel's; 0 at the end
+    uint8_t stride;             // from cell to cell: 1 along a row, GROUP_SIDE along a column
+    uint8_t cells, side;        // of the line, and of each
+    uint8_t line;               // of the group: 0 to 2
     uint8_t from, to;           // the stretch that it tells of
     uint8_t low, high;          // samples that it lies between
     uint8_t assumed;            // the end, at the border, that was seen beyond it; or SEAM_ENDS
@@ -37,20 +40,21 @@ float seam_difference(const SampleData *one, const SampleData *other);
 // The error, as contrast times the part of a pixel, that the place leaves.
 float seam_contrast(const Seam *seam);
 
-// Whether a sample can tell more; then its place.
-bool seam_asks(const Seam *seam, uint32_t *place);
+// Whether a sample can tell more; then where in the picture.
+bool seam_asks(const Seam *seam, uint32_t place[2]);
 
 // Takes that sample up.  Returns whether it saw a third surface: then `rest` is the next seam of
 // the group, and has its next.
 bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 
+// Ends the search.
+void seam_close(Seam *seam);
+
 // Colors in steps of 2^-32, times twice a cell's area.
 typedef uint64_t ColorSum[3];
 
-// Corrects the sums of a group's cells, `stride` apart along the line, each of which was taken to
-// be of one color.
-void seam_correct(const Seam *seam, const SampleData cells[GROUP_CELLS], uint32_t stride,
-                  ColorSum sums[GROUP_CELLS]);
+// Corrects the sums of a group's cells, or of a pixel, each of which was taken to be of one color.
+void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
 
 static inline uint64_t seam_color_steps(float color)
 {

@@ -7,11 +7,9 @@
 
 #define GROUPS_OF_TASK 512
 
-typedef ARRAY(Seam) SeamArray;
-
 // What a task finds.
 typedef struct {
-    SeamArray seams;
+    ARRAY(Seam) seams;
     uint32_t base; // their first number
     Error error;
 } OpeningPart;
@@ -20,7 +18,6 @@ typedef struct {
     RefineTree *tree;
     uint32_t first, end;
     OpeningPart *parts; // of each task
-    Error *error;       // of the task at work
 } Opening;
 
 static uint32_t tasks_of(size_t whole, uint32_t part)
@@ -49,76 +46,92 @@ static float changes_along(const CellGroup *group, uint32_t stride)
     return changes;
 }
 
-// Where a line's place lies in the picture, from one before its border to one behind; false
-// outside.
-static bool place_of(const RefineTree *tree, const CellGroup *group, uint32_t line, int32_t along,
-                     uint32_t place[2])
+// A line of a group.
+typedef struct {
+    const CellGroup *group;
+    uint32_t number;         // of the group
+    uint32_t line, stride;   // the line's number, and from cell to cell
+    uint32_t start[2];       // of its places in the picture
+    const SampleData *cells; // the first
+} GroupLine;
+
+static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t stride, uint32_t line)
 {
+    const CellGroup *group = &tree->groups.data[number];
     const uint32_t side = refine_tree_cell_side(group->level), half = GROUP_SIDE * side / 2;
-    const uint32_t across = line * side + side / 2;
-    const uint32_t lengthwise = (uint32_t)along; // one before the first wraps
-    place[0] = group->x - half + (group->stride == 1 ? lengthwise : across);
-    place[1] = group->y - half + (group->stride == 1 ? across : lengthwise);
-    return place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID;
+    const uint32_t across = line * side + side / 2, is_row = stride == 1;
+    return (GroupLine){
+        .group = group,
+        .number = number,
+        .line = line,
+        .stride = stride,
+        .start = {group->x - half + (is_row ? 0 : across), group->y - half + (is_row ? across : 0)},
+        .cells = &group->cells[line * (is_row ? GROUP_SIDE : 1)]};
 }
 
 // What is seen beyond an end of a line: by the smallest cell there, or by the line's own where the
 // picture ends.
-static const SampleData *beyond(const RefineTree *tree, const CellGroup *group, uint32_t line,
-                                SeamEnd end)
+static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
 {
-    const int32_t length = (int32_t)(GROUP_SIDE * refine_tree_cell_side(group->level));
-    const uint32_t cell = end == SEAM_END_FIRST ? 0 : GROUP_SIDE - 1;
-    uint32_t place[2];
-    if (place_of(tree, group, line, end == SEAM_END_FIRST ? -1 : length, place))
+    const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);
+    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // one back wraps
+    uint32_t place[2] = {line->start[0], line->start[1]};
+    place[line->stride == 1 ? 0 : 1] += step;
+    if (place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID)
         return refine_tree_sample_at(tree, place);
-    return &group->cells[line * refine_tree_line(group) + cell * group->stride];
+    return &line->cells[end == SEAM_END_FIRST ? 0 : 2 * (size_t)line->stride];
 }
 
-// The seam in a gap, with a line that has its samples.
-static Seam seam_in_gap(const CellGroup *group, const SampleData *const line[LINE_SAMPLES],
+// The seam in a gap of a line that saw these samples.
+static Seam seam_in_gap(const GroupLine *line, const SampleData *const seen[LINE_SAMPLES],
                         uint32_t gap)
 {
-    const uint32_t side = refine_tree_cell_side(group->level), middle = side / 2;
+    const uint32_t side = refine_tree_cell_side(line->group->level), middle = side / 2;
     const uint32_t places[LINE_SAMPLES] = {0, middle, middle + side, middle + 2 * side,
                                            GROUP_SIDE * side - 1};
-    const uint8_t from = (uint8_t)places[gap], to = (uint8_t)places[gap + 1];
-    Seam seam = {.ends = {*line[gap], *line[gap + 1]}, .side = (uint8_t)side};
-    seam.from = seam.low = from;
-    seam.to = seam.high = to;
-    seam.assumed = gap == 0 ? SEAM_END_FIRST : gap == LINE_GAPS - 1 ? SEAM_END_LAST : SEAM_ENDS;
+    Seam seam = {.ends = {*seen[gap], *seen[gap + 1]},
+                 .x = line->start[0],
+                 .y = line->start[1],
+                 .group = line->number,
+                 .stride = (uint8_t)line->stride,
+                 .cells = GROUP_SIDE,
+                 .side = (uint8_t)side,
+                 .line = (uint8_t)line->line,
+                 .assumed = SEAM_ENDS};
+    seam.from = seam.low = (uint8_t)places[gap];
+    seam.to = seam.high = (uint8_t)places[gap + 1];
+    if (gap == 0 || gap == LINE_GAPS - 1)
+        seam.assumed = gap == 0 ? SEAM_END_FIRST : SEAM_END_LAST;
     return seam;
 }
 
-static bool open_line(const Opening *opening, uint32_t number, uint32_t line, SeamArray *part)
+static bool open_line(const RefineTree *tree, const GroupLine *line, OpeningPart *part)
 {
-    const CellGroup *group = &opening->tree->groups.data[number];
-    const SampleData *cells = &group->cells[line * refine_tree_line(group)];
+    const SampleData *cells = line->cells;
     const SampleData *const seen[LINE_SAMPLES] = {
-        beyond(opening->tree, group, line, SEAM_END_FIRST), cells, cells + group->stride,
-        cells + 2 * (size_t)group->stride, beyond(opening->tree, group, line, SEAM_END_LAST)};
+        beyond(tree, line, SEAM_END_FIRST), cells, cells + line->stride,
+        cells + 2 * (size_t)line->stride, beyond(tree, line, SEAM_END_LAST)};
     for (uint32_t gap = 0; gap < LINE_GAPS; gap++) {
         if (!seam_steps(seen, gap))
             continue;
-        Seam seam = seam_in_gap(group, seen, gap);
-        seam.group = number;
-        seam.line = (uint8_t)line;
-        if (!array_push(part, seam, opening->error))
+        const Seam seam = seam_in_gap(line, seen, gap);
+        if (!array_push(&part->seams, seam, &part->error))
             return false;
     }
     return true;
 }
 
-static bool open_group(const Opening *opening, uint32_t number, SeamArray *part)
+static bool open_group(const RefineTree *tree, uint32_t number, OpeningPart *part)
 {
-    CellGroup *group = &opening->tree->groups.data[number];
+    const CellGroup *group = &tree->groups.data[number];
     const float rows = changes_along(group, 1), columns = changes_along(group, GROUP_SIDE);
-    group->stride = rows >= columns ? 1 : GROUP_SIDE;
     if (group->level == REFINE_LEVELS || rows + columns <= 0)
         return true;
-    for (uint32_t line = 0; line < GROUP_SIDE; line++)
-        if (!open_line(opening, number, line, part))
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        const GroupLine line = line_of(tree, number, rows >= columns ? 1 : GROUP_SIDE, i);
+        if (!open_line(tree, &line, part))
             return false;
+    }
     return true;
 }
 
@@ -126,12 +139,9 @@ static void open_groups(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
     const Opening *opening = context;
-    OpeningPart *part = &opening->parts[task];
     const size_t count = opening->end - opening->first;
-    Opening own = *opening;
-    own.error = &part->error;
     for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
-        if (!open_group(&own, opening->first + i, &part->seams))
+        if (!open_group(opening->tree, opening->first + i, &opening->parts[task]))
             return;
 }
 
@@ -179,7 +189,7 @@ static bool all_opened(const Opening *opening, uint32_t tasks, Error *error)
 bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error)
 {
     const uint32_t tasks = tasks_of(end - first, GROUPS_OF_TASK);
-    Opening opening = {tree, first, end, NULL, NULL};
+    Opening opening = {tree, first, end, NULL};
     opening.parts = memory_zeroed(tasks, sizeof *opening.parts, error);
     if (opening.parts == NULL)
         return false;
@@ -194,8 +204,8 @@ bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew
 
 static bool wants(const Seam *seam, float threshold)
 {
-    uint32_t place;
-    return seam_asks(seam, &place) && seam_contrast(seam) > threshold;
+    uint32_t place[2];
+    return seam_asks(seam, place) && seam_contrast(seam) > threshold;
 }
 
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error)
@@ -210,14 +220,6 @@ bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold
             !array_push(&search->asked, search->seen, error))
             return false;
     return true;
-}
-
-void seam_search_place(const RefineTree *tree, uint32_t number, uint32_t place[2])
-{
-    const Seam *seam = &tree->seams.data[number];
-    uint32_t along;
-    seam_asks(seam, &along);
-    place_of(tree, &tree->groups.data[seam->group], seam->line, (int32_t)along, place);
 }
 
 bool seam_search_take(const SeamSearch *search, RefineTree *tree, const SampleData *samples,

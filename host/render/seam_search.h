@@ -17,9 +17,6 @@ bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew
 // Asks for the seams with a contrast above the threshold, of those asked before and of new ones.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
-// The place of an asked seam's sample.
-void seam_search_place(const RefineTree *tree, uint32_t number, uint32_t place[2]);
-
 // Takes up the samples of the asked seams.
 bool seam_search_take(const SeamSearch *search, RefineTree *tree, const SampleData *samples,
                       Error *error);

@@ -180,6 +180,39 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
     remove(request.scene_path);
 }
 
+// Of a sphere 80 pixels wide that hardly stands out.
+static const char *write_faint_sphere(void)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "%s", "/tmp/clrt-adaptive-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
+                    "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
+    assert_int_equal(fclose(stream), 0);
+    return path;
+}
+
+static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
+{
+    (void)state;
+    uint64_t samples;
+    PictureRequest plain = square(write_faint_sphere(), 100), many = plain;
+    many.samples = 32;
+    PictureRequest request = adaptive(plain, 0.08f);
+    request.sample_count = &samples;
+    Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
+    const double left = error_between(&picture, &exact) / error_between(&first, &exact);
+    if (samples < 10100 || samples > 11300 || left > 0.45)
+        fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
+    framebuffer_free(&picture);
+    framebuffer_free(&first);
+    framebuffer_free(&exact);
+    remove(request.scene_path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +221,7 @@ int main(void)
         cmocka_unit_test(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them),
         cmocka_unit_test(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them),
         cmocka_unit_test(a_picture_of_one_color_takes_a_sample_a_pixel),
+        cmocka_unit_test(a_faint_outline_is_placed_with_two_samples_a_pixel),
         cmocka_unit_test(thousands_of_spheres_smaller_than_pixels_are_all_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
