@@ -5,9 +5,8 @@
 
 #include "render/adaptive.h"
 
-// Contrasts are counted by powers of 2^(1/4) below CONTRAST_MOST.
+// Contrasts are counted by quarters of powers of two.
 #define CONTRAST_BINS 128
-#define CONTRAST_MOST 8
 
 // Sums of squares over the cells of a level and kind: contrast of those that are cut, of those that
 // are not, and what cutting changed, as the part of a pixel.

@@ -56,12 +56,6 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
     tree->groups.count = first;
 }
 
-uint32_t refine_tree_cell_side(uint32_t level)
-{
-    static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};
-    return sides[level];
-}
-
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2])
 {
     const uint32_t side = refine_tree_cell_side(group->level);

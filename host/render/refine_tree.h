@@ -77,7 +77,11 @@ bool refine_tree_open_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *err
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
 // Cells of the last level along the side of a level's.
-uint32_t refine_tree_cell_side(uint32_t level);
+static inline uint32_t refine_tree_cell_side(uint32_t level)
+{
+    static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};
+    return sides[level];
+}
 
 // Where the sample of a group's cell lies, in cells of the last level.
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);

@@ -3,20 +3,8 @@
 // corrections are negative, and come out right.
 #include "render/seam.h"
 
-#include <math.h>
-
 #define PIXEL_AREA (81.0f * 81)
 #define LEAST_STEP (1 / 256.0f)
-
-float seam_difference(const SampleData *one, const SampleData *other)
-{
-    float most = 0;
-    for (int channel = 0; channel < 3; channel++) {
-        const float difference = fabsf(one->color[channel] - other->color[channel]);
-        most = difference > most ? difference : most;
-    }
-    return most;
-}
 
 bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap)
 {

@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 #define GROUP_SIDE  3
@@ -35,7 +36,15 @@ typedef struct {
 bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap);
 
 // The largest difference of two samples' colors.
-float seam_difference(const SampleData *one, const SampleData *other);
+static inline float seam_difference(const SampleData *one, const SampleData *other)
+{
+    float most = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const float difference = fabsf(one->color[channel] - other->color[channel]);
+        most = difference > most ? difference : most;
+    }
+    return most;
+}
 
 // The error, as contrast times the part of a pixel, that the place leaves.
 float seam_contrast(const Seam *seam);
