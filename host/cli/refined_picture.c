@@ -27,12 +27,13 @@ static bool refine(Run *run, Adaptive *adaptive, double start, const RenderObser
 {
     const Options *options = run->options;
     Report *report = &run->report;
+    const GoalTime time = {start, options->time_goal};
     GoalOutcome outcome = {.threshold = (float)options->contrast, .reached = true};
     bool ok = true;
     if (options->contrast > 0)
         ok = adaptive_refine(adaptive, outcome.threshold, observer, error);
     else if (options->time_goal > 0)
-        ok = goal_spend_time(adaptive, start, options->time_goal, observer, &outcome, error);
+        ok = goal_spend_time(adaptive, &time, observer, &outcome, error);
     else if (error_left(run) > 0)
         ok = goal_reach_error(adaptive, error_left(run), observer, &outcome, error);
     else

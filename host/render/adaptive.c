@@ -3,8 +3,8 @@
 // all their samples as one list.  The groups it makes are what the next pass looks at.
 #include "render/adaptive.h"
 
+#include "render/adaptive_pass.h"
 #include "render/contrast.h"
-#include "render/sampler.h"
 
 #include <stdlib.h>
 
@@ -31,18 +31,32 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
+// What to do with a pixel.
+typedef enum { PIXEL_LEAVE, PIXEL_CUT, PIXEL_OPEN } PixelMark;
+
+static PixelMark mark_of_pixel(const Marking *marking, uint32_t x, uint32_t y)
+{
+    const RefineTree *tree = marking->tree;
+    const float threshold = marking->threshold;
+    const size_t pixel = (size_t)y * tree->width + x;
+    if (tree->pixel_groups[pixel] != 0 || !contrast_may_exceed(tree, x, y, threshold))
+        return PIXEL_LEAVE;
+    const CellContrast contrast = contrast_of_pixel(tree, x, y);
+    if (contrast.value <= threshold)
+        return PIXEL_LEAVE;
+    if (!contrast.is_step || contrast_past_seams(contrast.value) > threshold)
+        return PIXEL_CUT;
+    return tree->pixel_seams[pixel] == 0 ? PIXEL_OPEN : PIXEL_LEAVE;
+}
+
 static void mark_rows(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
     const Marking *marking = context;
     const RefineTree *tree = marking->tree;
     for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
-        for (uint32_t x = 0; x < tree->width; x++) {
-            const size_t pixel = (size_t)y * tree->width + x;
-            marking->marks[pixel] = tree->pixel_groups[pixel] == 0 &&
-                                    contrast_may_exceed(tree, x, y, marking->threshold) &&
-                                    contrast_of_pixel(tree, x, y) > marking->threshold;
-        }
+        for (uint32_t x = 0; x < tree->width; x++)
+            marking->marks[(size_t)y * tree->width + x] = (uint16_t)mark_of_pixel(marking, x, y);
 }
 
 // The cells to be cut for the sake of small spheres.
@@ -80,14 +94,14 @@ static unsigned marks_around(const Marking *marking, const CellGroup *group)
 static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
 {
     const float threshold = marking->threshold;
-    float contrast[GROUP_CELLS];
+    CellContrast contrast[GROUP_CELLS];
     unsigned marks = marks_around(marking, group) << GROUP_CELLS;
     if (group->level == REFINE_LEVELS)
         return (uint16_t)marks;
     marks |= footprint_marks(marking, group);
     contrast_of_group(group, contrast);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-        if (group->groups[cell] == 0 && contrast[cell] > threshold)
+        if (group->groups[cell] == 0 && contrast[cell].value > threshold)
             marks |= 1u << cell;
     return (uint16_t)marks;
 }
@@ -108,9 +122,12 @@ static bool cut_pixels_of_block(RefineTree *tree, const uint16_t *marks, uint32_
     const uint32_t right = end_of(left / PACKET_SIDE, PACKET_SIDE, tree->width);
     const uint32_t bottom = end_of(top / PACKET_SIDE, PACKET_SIDE, tree->height);
     for (uint32_t y = top; y < bottom; y++)
-        for (uint32_t x = left; x < right; x++)
-            if (marks[(size_t)y * tree->width + x] && !refine_tree_cut_pixel(tree, x, y, error))
+        for (uint32_t x = left; x < right; x++) {
+            const PixelMark mark = marks[(size_t)y * tree->width + x];
+            if ((mark == PIXEL_CUT && !refine_tree_cut_pixel(tree, x, y, error)) ||
+                (mark == PIXEL_OPEN && !refine_tree_open_pixel(tree, x, y, error)))
                 return false;
+        }
     return true;
 }
 
@@ -174,7 +191,8 @@ static void mark_footprints(const Marking *marking)
 {
     for (size_t i = 0; i < marking->footprints->list.count; i++) {
         const uint32_t pixel = marking->footprints->list.data[i].pixel;
-        marking->marks[pixel] = marking->tree->pixel_groups[pixel] == 0;
+        if (marking->tree->pixel_groups[pixel] == 0)
+            marking->marks[pixel] = PIXEL_CUT;
     }
 }
 
@@ -209,74 +227,6 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
     return ok;
 }
 
-// What is handed to the device and taken back, group by group from `first` on.
-typedef struct {
-    RefineTree *tree;
-    uint32_t first;
-    SamplePlace *places;
-    SampleData *samples;
-} Exchange;
-
-static void list_places(void *context, uint32_t task, uint32_t worker)
-{
-    (void)worker;
-    const Exchange *exchange = context;
-    const RefineTree *tree = exchange->tree;
-    const size_t count = tree->groups.count - exchange->first;
-    SamplePlace *places = exchange->places + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
-    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
-            uint32_t place[2];
-            if (cell == GROUP_MIDDLE)
-                continue;
-            refine_tree_cell_place(&tree->groups.data[exchange->first + i], cell, place);
-            *places++ = (SamplePlace){place[0], place[1]};
-        }
-}
-
-static void take_samples(void *context, uint32_t task, uint32_t worker)
-{
-    (void)worker;
-    const Exchange *exchange = context;
-    RefineTree *tree = exchange->tree;
-    const size_t count = tree->groups.count - exchange->first;
-    const SampleData *samples = exchange->samples + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
-    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-            if (cell != GROUP_MIDDLE)
-                tree->groups.data[exchange->first + i].cells[cell] = *samples++;
-}
-
-// Traces the groups from `first` on; where the observer stops it, forgets them.
-static bool trace_groups(Adaptive *adaptive, uint32_t first, const RenderObserver *observer,
-                         Error *error)
-{
-    RefineTree *tree = &adaptive->tree;
-    if (first == tree->groups.count)
-        return true;
-    const uint32_t groups = (uint32_t)tree->groups.count - first, count = ADAPTIVE_CUT * groups;
-    const uint32_t tasks = tasks_of(groups, GROUPS_OF_TASK);
-    SamplePlace *places = memory_raw(count, sizeof *places, error);
-    SampleData *samples = memory_raw(count, sizeof *samples, error);
-    const SampleList list = {places, samples, count};
-    Exchange exchange = {tree, first, places, samples};
-    bool ok = places != NULL && samples != NULL;
-    if (ok) {
-        crew_run(adaptive->crew, tasks, list_places, &exchange);
-        ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
-    }
-    if (ok && adaptive_is_whole(adaptive)) {
-        crew_run(adaptive->crew, tasks, take_samples, &exchange);
-        tree->traced = (uint32_t)tree->groups.count;
-        adaptive->samples += count;
-    } else {
-        refine_tree_uncut(tree, first);
-    }
-    free(places);
-    free(samples);
-    return ok;
-}
-
 static bool cut_all(Adaptive *adaptive, float threshold, Error *error)
 {
     const uint32_t end = (uint32_t)adaptive->tree.groups.count;
@@ -289,54 +239,32 @@ bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObser
                           Error *error)
 {
     const uint32_t first = (uint32_t)adaptive->tree.groups.count;
-    return cut_all(adaptive, threshold, error) && trace_groups(adaptive, first, observer, error);
+    SeamSearch search = {.seen = 1};
+    const bool ok =
+        cut_all(adaptive, threshold, error) &&
+        seam_search_ask(&search, &adaptive->tree, ADAPTIVE_SEAM_PART * threshold, error) &&
+        adaptive_pass_trace(adaptive, first, &search, observer, error);
+    seam_search_free(&search);
+    return ok;
 }
 
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error)
 {
-    const RefineTree *tree = &adaptive->tree;
+    RefineTree *tree = &adaptive->tree;
+    SeamSearch search = {.seen = 1};
     uint32_t first = (uint32_t)tree->groups.count;
     bool ok = cut_all(adaptive, threshold, error);
-    while (ok && first < tree->groups.count) {
+    for (;;) {
+        ok = ok && seam_search_ask(&search, tree, ADAPTIVE_SEAM_PART * threshold, error);
         const uint32_t end = (uint32_t)tree->groups.count;
-        ok = trace_groups(adaptive, first, observer, error) &&
+        if (!ok || !adaptive_is_whole(adaptive) || (first == end && search.asked.count == 0))
+            break;
+        ok = adaptive_pass_trace(adaptive, first, &search, observer, error) &&
              mark_and_cut_groups(adaptive, threshold, first, end, error);
         first = end;
     }
-    return ok;
-}
-
-// A task is a row of blocks.
-static void list_pixels(void *context, uint32_t task, uint32_t worker)
-{
-    (void)worker;
-    const Exchange *exchange = context;
-    const RefineTree *tree = exchange->tree;
-    const uint32_t half = REFINE_GRID / 2, top = task * PACKET_SIDE;
-    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, top);
-    for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
-        for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
-            const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
-            const bool is_there = x < tree->width && y < tree->height;
-            *places++ =
-                (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
-        }
-}
-
-static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Error *error)
-{
-    RefineTree *tree = &adaptive->tree;
-    const uint32_t count = refine_tree_places(tree);
-    SamplePlace *places = memory_raw(count, sizeof *places, error);
-    const SampleList list = {places, tree->pixels, count};
-    if (places == NULL)
-        return false;
-    Exchange exchange = {.tree = tree, .places = places};
-    crew_run(adaptive->crew, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
-    const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
-    adaptive->samples = (uint64_t)tree->width * tree->height;
-    free(places);
+    seam_search_free(&search);
     return ok;
 }
 
@@ -351,7 +279,7 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
     renderer->progress = (RenderProgress){0};
     const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
                     footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
-                    trace_pixels(adaptive, observer, error);
+                    adaptive_pass_begin(adaptive, observer, error);
     if (!ok)
         adaptive_close(adaptive);
     return ok;

@@ -10,6 +10,9 @@
 // Samples that cutting a cell takes.
 #define ADAPTIVE_CUT (GROUP_CELLS - 1)
 
+// Of a threshold, where seams are placed: a sample halves one, where cutting a cell takes eight.
+#define ADAPTIVE_SEAM_PART 0.15f
+
 typedef struct {
     Renderer *renderer; // of KERNEL_SAMPLES; borrowed
     Crew *crew;         // borrowed

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Cutting a cell changed its color by so much for its contrast; cutting those that are left would
-// change theirs by as much for theirs.  That ratio is the scene's own, level by level, and errors
-// of cells are as good as independent of each other.
+// change theirs by as much for theirs.  That ratio is the scene's own, level by level, for steps
+// and for bends, and errors of cells are as good as independent of each other.  A step lies
+// anywhere between the two samples of its seam.
 #include "render/cell_sums.h"
 
 #include "render/contrast.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ROWS_OF_TASK   16
 #define GROUPS_OF_TASK 512
 
-// The squared ratio where fewer cells were cut than tell it: somewhat above what scenes have, which
-// is 0.035 to 0.06 for pixels, where contrast counts four times at outlines, and 0.1 to 0.17 below.
+// The squared ratios where fewer cells were cut than tell them: somewhat above what scenes have,
+// which is 0.07 to 0.1 for steps in pixels, 0.02 to 0.06 in cells, where seams tell most of them,
+// and 0.04 to 0.2 for bends.
 #define FEW_CUTS     64
-#define PIXEL_SQUARE (0.07 * 0.07)
-#define CELL_SQUARE  (0.2 * 0.2)
+#define PIXEL_SQUARE (0.1 * 0.1)
+#define CELL_SQUARE  (0.06 * 0.06)
+#define BEND_SQUARE  (0.1 * 0.1)
 
 typedef struct {
     const RefineTree *tree;
@@ -35,50 +39,115 @@ static size_t end_of(uint32_t task, uint32_t part, size_t whole)
     return end < whole ? end : whole;
 }
 
+// The bin of contrasts from 8 on is the first.  A float's exponent and two bits of its fraction
+// tell the quarter.
+#define FIRST_BIN     (0x41000000u >> QUARTER_SHIFT)
+#define QUARTER_SHIFT 21
+
 static uint32_t bin_of(float contrast)
 {
-    const double place = contrast > 0 ? 4 * log2((double)CONTRAST_MOST / (double)contrast) : 1e9;
-    return place <= 0 ? 0 : place < CONTRAST_BINS - 1 ? (uint32_t)place : CONTRAST_BINS - 1;
+    uint32_t bits;
+    memcpy(&bits, &contrast, sizeof bits);
+    const uint32_t quarter = bits >> QUARTER_SHIFT;
+    const uint32_t bin = quarter < FIRST_BIN ? FIRST_BIN - quarter : 0;
+    return bin < CONTRAST_BINS ? bin : CONTRAST_BINS - 1;
 }
 
-static void add_left(CellSums *sums, float contrast, uint32_t level)
+// What no contrast of the bin exceeds.
+static float top_of_bin(uint32_t bin)
 {
-    sums->left[level] += (double)contrast * (double)contrast;
-    if (level < REFINE_LEVELS)
-        sums->counts[bin_of(contrast)]++;
+    const uint32_t bits = (FIRST_BIN - bin + 1) << QUARTER_SHIFT;
+    float top;
+    memcpy(&top, &bits, sizeof top);
+    return top;
 }
 
-static void add_cut(CellSums *sums, float contrast, uint32_t level, const float change[3])
+static double square(double value)
 {
-    const double part = pow(9, -(double)level);
-    sums->cut[level] += (double)contrast * (double)contrast;
-    sums->cuts[level]++;
+    return value * value;
+}
+
+// What may be cut: a pixel or a cell.
+typedef struct {
+    CellContrast contrast;
+    uint32_t level, group; // into which it is cut
+    float color[3];        // known of it before that
+} Part;
+
+static void add_left(CellSums *sums, const Part *part, KindSums *kind)
+{
+    kind->left += square((double)part->contrast.value);
+    if (part->level < REFINE_LEVELS)
+        sums->counts[bin_of(part->contrast.value)] += ADAPTIVE_CUT;
+}
+
+static void add_cut(const RefineTree *tree, const Part *part, KindSums *kind)
+{
+    static const double areas[REFINE_LEVELS + 1] = {1, 1 / 9.0, 1 / 81.0, 1 / 729.0, 1 / 6561.0};
+    const double area = areas[part->level];
+    float mean[3];
+    refine_tree_mean(tree, part->group, mean);
+    kind->cut += square((double)part->contrast.value);
+    kind->cuts++;
     for (int channel = 0; channel < 3; channel++)
-        sums->changed[level] += pow(part * (double)change[channel], 2) / 3;
+        kind->changed += square(area * ((double)mean[channel] - (double)part->color[channel])) / 3;
 }
 
-static void add_cell(const RefineTree *tree, const SampleData *sample, float contrast,
-                     uint32_t group, uint32_t level, CellSums *sums)
+static void add_part(const RefineTree *tree, const Part *part, CellSums *sums)
 {
-    float change[3];
-    if (group == 0) {
-        add_left(sums, contrast, level);
-        return;
-    }
-    refine_tree_mean(tree, group, change);
-    for (int channel = 0; channel < 3; channel++)
-        change[channel] -= sample->color[channel];
-    add_cut(sums, contrast, level, change);
+    KindSums *kinds = part->contrast.is_step ? sums->steps : sums->bends;
+    if (part->group == 0)
+        add_left(sums, part, &kinds[part->level]);
+    else
+        add_cut(tree, part, &kinds[part->level]);
+}
+
+static void add_seam(const Seam *seam, CellSums *sums)
+{
+    uint32_t place[2];
+    const double contrast = (double)seam_contrast(seam);
+    sums->seams += contrast * contrast * (seam->assumed == SEAM_ENDS ? 1 / 12.0 : 1 / 6.0);
+    if (seam_asks(seam, place))
+        sums->counts[bin_of((float)contrast / ADAPTIVE_SEAM_PART)]++;
+}
+
+static void add_pixel_seams(const RefineTree *tree, uint32_t seam, CellContrast *contrast,
+                            CellSums *sums)
+{
+    contrast->value = contrast_past_seams(contrast->value);
+    for (; seam != 0; seam = tree->seams.data[seam].next)
+        add_seam(&tree->seams.data[seam], sums);
 }
 
 static void sum_rows(const RefineTree *tree, uint32_t task, CellSums *sums)
 {
     const uint32_t end = (uint32_t)end_of(task, ROWS_OF_TASK, tree->height);
     for (uint32_t y = task * ROWS_OF_TASK; y < end; y++)
-        for (uint32_t x = 0; x < tree->width; x++)
-            add_cell(tree, &tree->pixels[refine_tree_place(tree, x, y)],
-                     contrast_of_pixel(tree, x, y), tree->pixel_groups[(size_t)y * tree->width + x],
-                     0, sums);
+        for (uint32_t x = 0; x < tree->width; x++) {
+            Part pixel = {.contrast = contrast_of_pixel(tree, x, y),
+                          .group = tree->pixel_groups[(size_t)y * tree->width + x]};
+            if (tree->pixel_seams[(size_t)y * tree->width + x] != 0 && pixel.group == 0)
+                add_pixel_seams(tree, tree->pixel_seams[(size_t)y * tree->width + x],
+                                &pixel.contrast, sums);
+            memcpy(pixel.color, tree->pixels[refine_tree_place(tree, x, y)].color,
+                   sizeof pixel.color);
+            add_part(tree, &pixel, sums);
+        }
+}
+
+static void add_cells(const RefineTree *tree, const CellGroup *group, CellSums *sums)
+{
+    const uint32_t side = refine_tree_cell_side(group->level);
+    CellContrast contrast[GROUP_CELLS];
+    ColorSum known[GROUP_CELLS];
+    contrast_of_group(group, contrast);
+    refine_tree_cells(tree, group, known);
+    for (uint32_t i = 0; i < GROUP_CELLS; i++) {
+        Part cell = {contrast[i], group->level, group->groups[i], {0}};
+        for (int channel = 0; channel < 3; channel++)
+            cell.color[channel] = (float)known[i][channel] / (float)(2 * side * side) * 0x1p-32f;
+        add_part(tree, &cell, sums);
+    }
 }
 
 static void sum_groups(const RefineTree *tree, uint32_t task, CellSums *sums)
@@ -86,11 +155,9 @@ static void sum_groups(const RefineTree *tree, uint32_t task, CellSums *sums)
     const size_t end = end_of(task, GROUPS_OF_TASK, tree->groups.count - 1);
     for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end; i++) {
         const CellGroup *group = &tree->groups.data[i + 1];
-        float contrast[GROUP_CELLS];
-        contrast_of_group(group, contrast);
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-            add_cell(tree, &group->cells[cell], contrast[cell], group->groups[cell], group->level,
-                     sums);
+        add_cells(tree, group, sums);
+        for (uint32_t seam = group->seams; seam != 0; seam = tree->seams.data[seam].next)
+            add_seam(&tree->seams.data[seam], sums);
     }
 }
 
@@ -104,16 +171,23 @@ static void sum_task(void *context, uint32_t task, uint32_t worker)
         sum_groups(summing->tree, task - summing->row_tasks, &summing->parts[task]);
 }
 
-static void add_part(CellSums *sums, const CellSums *part)
+static void add_kinds(KindSums sums[], const KindSums parts[])
 {
     for (uint32_t level = 0; level <= REFINE_LEVELS; level++) {
-        sums->cut[level] += part->cut[level];
-        sums->left[level] += part->left[level];
-        sums->changed[level] += part->changed[level];
-        sums->cuts[level] += part->cuts[level];
+        sums[level].cut += parts[level].cut;
+        sums[level].left += parts[level].left;
+        sums[level].changed += parts[level].changed;
+        sums[level].cuts += parts[level].cuts;
     }
+}
+
+static void add_sums(CellSums *sums, const CellSums *more)
+{
+    add_kinds(sums->bends, more->bends);
+    add_kinds(sums->steps, more->steps);
+    sums->seams += more->seams;
     for (uint32_t bin = 0; bin < CONTRAST_BINS; bin++)
-        sums->counts[bin] += part->counts[bin];
+        sums->counts[bin] += more->counts[bin];
 }
 
 bool cell_sums_make(CellSums *sums, const Adaptive *adaptive, Error *error)
@@ -127,34 +201,34 @@ bool cell_sums_make(CellSums *sums, const Adaptive *adaptive, Error *error)
         return false;
     crew_run(adaptive->crew, tasks, sum_task, &summing);
     for (uint32_t task = 0; task < tasks; task++)
-        add_part(sums, &summing.parts[task]);
+        add_sums(sums, &summing.parts[task]);
     free(summing.parts);
     return true;
 }
 
-// What a square of contrast changes, squared.
-static double square_of_ratio(const CellSums *sums, uint32_t level)
+// What cutting the rest of a kind would change, squared.
+static double square_left(const KindSums *kind, double usual)
 {
-    if (sums->cuts[level] >= FEW_CUTS && sums->cut[level] > 0)
-        return sums->changed[level] / sums->cut[level];
-    return level == 0 ? PIXEL_SQUARE : CELL_SQUARE;
+    const bool is_known = kind->cuts >= FEW_CUTS && kind->cut > 0;
+    return (is_known ? kind->changed / kind->cut : usual) * kind->left;
 }
 
 double cell_sums_error(const CellSums *sums)
 {
-    double squares = 0;
+    double squares = sums->seams;
     for (uint32_t level = 0; level <= REFINE_LEVELS; level++)
-        squares += square_of_ratio(sums, level) * sums->left[level];
+        squares += square_left(&sums->steps[level], level == 0 ? PIXEL_SQUARE : CELL_SQUARE) +
+                   square_left(&sums->bends[level], BEND_SQUARE);
     return sqrt(squares / sums->pixels);
 }
 
-float cell_sums_threshold(const CellSums *sums, double cells)
+float cell_sums_threshold(const CellSums *sums, double samples)
 {
     double above = 0;
     for (uint32_t bin = 0; bin < CONTRAST_BINS; bin++) {
         above += (double)sums->counts[bin];
-        if (above > cells)
-            return (float)(CONTRAST_MOST * exp2(-(double)bin / 4));
+        if (above > samples)
+            return top_of_bin(bin);
     }
     return 0;
 }

@@ -5,16 +5,20 @@
 
 #include "render/adaptive.h"
 
-// Contrasts are counted by powers of 2^(1/4) below CONTRAST_MOST.
+// Contrasts are counted by quarters of powers of two.
 #define CONTRAST_BINS 128
-#define CONTRAST_MOST 8
+
+// Sums of squares over the cells of a level and kind: contrast of those that are cut, of those that
+// are not, and what cutting changed, as the part of a pixel.
+typedef struct {
+    double cut, left, changed;
+    uint64_t cuts; // cells that are cut
+} KindSums;
 
 typedef struct {
-    // Sums of squares over the cells of each level: contrast of those that are cut, of those that
-    // are not, and what cutting changed, as the part of a pixel.
-    double cut[REFINE_LEVELS + 1], left[REFINE_LEVELS + 1], changed[REFINE_LEVELS + 1];
-    uint64_t cuts[REFINE_LEVELS + 1]; // cells that are cut
-    uint64_t counts[CONTRAST_BINS];   // of cells that can be cut, by contrast, the highest first
+    KindSums bends[REFINE_LEVELS + 1], steps[REFINE_LEVELS + 1];
+    double seams;                   // expected squares of errors where they may lie
+    uint64_t counts[CONTRAST_BINS]; // of samples to take, by contrast, the highest first
     double pixels;
 } CellSums;
 
@@ -23,5 +27,5 @@ bool cell_sums_make(CellSums *sums, const Adaptive *adaptive, Error *error);
 // The estimated root mean square error over all values of the picture.
 double cell_sums_error(const CellSums *sums);
 
-// A threshold that at most so many cells, of those that can be cut, are above; 0 where all may.
-float cell_sums_threshold(const CellSums *sums, double cells);
+// A threshold for which a pass takes at most so many samples; 0 where it may take all.
+float cell_sums_threshold(const CellSums *sums, double samples);

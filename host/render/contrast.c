@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Contrast is how far a sample lies off the line between the two beside it, doubled so that a step
 // between two even surfaces counts as what it is; and where the surfaces differ no less than the
-// difference itself.
+// difference itself.  In groups seams tell where steps lie, and contrast what they may have missed.
 #include "render/contrast.h"
 
 #include <math.h>
 #include <string.h>
 
 // Two pixels may agree in color by chance where an outline runs between them.
-#define OUTLINE_WEIGHT 4
+#define OUTLINE_WEIGHT 2
+
+// Beside a seam, and in a pixel that has one.
+#define STEP_WEIGHT  0.5f
+#define BEND_WEIGHT  0.25f
+#define PIXEL_WEIGHT 0.5f
 
 static float larger(float a, float b)
 {
@@ -38,14 +43,7 @@ static float step(const SampleData *at, const SampleData *other)
     return most;
 }
 
-static float contrast_between(const SampleData *before, const SampleData *at,
-                              const SampleData *after, float weight)
-{
-    const float sides = larger(step(at, before), step(at, after));
-    return larger(sides, bend(before, at, after, weight));
-}
-
-float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
+CellContrast contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
 {
     const SampleData *pixels = tree->pixels, *at = &pixels[refine_tree_place(tree, x, y)];
     const bool is_left = x == 0, is_right = x + 1 == tree->width;
@@ -56,11 +54,11 @@ float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
     const SampleData *below = is_bottom ? at : &pixels[refine_tree_place(tree, x, y + 1)];
     const float steps =
         larger(larger(step(at, left), step(at, right)), larger(step(at, above), step(at, below)));
-    float contrast = OUTLINE_WEIGHT * steps;
+    CellContrast contrast = {OUTLINE_WEIGHT * steps, steps > 0};
     if (!is_left && !is_right)
-        contrast = larger(contrast, bend(left, at, right, 0.5f));
+        contrast.value = larger(contrast.value, bend(left, at, right, 0.5f));
     if (!is_top && !is_bottom)
-        contrast = larger(contrast, bend(above, at, below, 0.5f));
+        contrast.value = larger(contrast.value, bend(above, at, below, 0.5f));
     return contrast;
 }
 
@@ -87,6 +85,11 @@ static inline bool saw_another(const SampleData *at, const SampleData *other)
     return at->signature != other->signature;
 }
 
+float contrast_past_seams(float contrast)
+{
+    return PIXEL_WEIGHT * contrast;
+}
+
 bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold)
 {
     if (x == 0 || y == 0 || x + 1 == tree->width || y + 1 == tree->height)
@@ -103,18 +106,39 @@ bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float t
            may_bend(channels_of(above), channels_of(at), channels_of(below), least);
 }
 
-// The three cells of a line between what lies beyond its ends, twice as far away.
-static void contrast_of_line(const CellGroup *group, uint32_t first, uint32_t stride,
-                             CellSide start, float contrast[GROUP_CELLS])
+// What lies beyond a line is twice as far away.
+static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellContrast found[])
 {
-    const SampleData *cells = &group->cells[first], *before = &group->beyond[start],
-                     *after = &group->beyond[start + 1];
-    const SampleData *middle = cells + stride, *last = middle + stride;
-    const float values[GROUP_SIDE] = {contrast_between(before, cells, middle, 1 / 3.0f),
-                                      contrast_between(cells, middle, last, 0.5f),
-                                      contrast_between(middle, last, after, 2 / 3.0f)};
-    for (uint32_t i = 0; i < GROUP_SIDE; i++)
-        contrast[first + i * stride] = larger(contrast[first + i * stride], values[i]);
+    static const float weights[GROUP_SIDE] = {1 / 3.0f, 0.5f, 2 / 3.0f};
+    bool is_step = seam_steps(line, 0);
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        const SampleData *before = line[i], *at = line[i + 1], *after = line[i + 2];
+        const bool was_step = is_step;
+        const float sides = larger(step(at, before), step(at, after));
+        const float bends = bend(before, at, after, weights[i]);
+        is_step = seam_steps(line, i + 1);
+        found[i].is_step = was_step || is_step;
+        found[i].value =
+            found[i].is_step ? larger(STEP_WEIGHT * sides, BEND_WEIGHT * bends) : bends;
+    }
+}
+
+// Looks at cells `first` and those a stride apart.
+static void add_line(const CellGroup *group, uint32_t first, uint32_t stride,
+                     CellContrast contrast[GROUP_CELLS])
+{
+    const CellSide start = stride == 1 ? SIDE_LEFT : SIDE_ABOVE;
+    const SampleData *cells = &group->cells[first];
+    const SampleData *const line[LINE_SAMPLES] = {&group->beyond[start], cells, cells + stride,
+                                                  cells + 2 * (size_t)stride,
+                                                  &group->beyond[start + 1]};
+    CellContrast found[GROUP_SIDE];
+    contrast_of_line(line, found);
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        CellContrast *cell = &contrast[first + i * stride];
+        cell->value = larger(cell->value, found[i].value);
+        cell->is_step = cell->is_step || found[i].is_step;
+    }
 }
 
 // Of a pixel, by level.
@@ -129,16 +153,16 @@ float contrast_across(const CellGroup *group, CellSide side, const SampleData *o
         const SampleData *cell = &group->cells[first[side] + i * stride[side]];
         most = larger(most, step(cell, other));
     }
-    return (level == 0 ? OUTLINE_WEIGHT : 1) * parts[level] * most;
+    return (level == 0 ? PIXEL_WEIGHT * OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] * most;
 }
 
-void contrast_of_group(const CellGroup *group, float contrast[GROUP_CELLS])
+void contrast_of_group(const CellGroup *group, CellContrast contrast[GROUP_CELLS])
 {
     memset(contrast, 0, GROUP_CELLS * sizeof *contrast);
     for (uint32_t i = 0; i < GROUP_SIDE; i++) {
-        contrast_of_line(group, i * GROUP_SIDE, 1, SIDE_LEFT, contrast);
-        contrast_of_line(group, i, GROUP_SIDE, SIDE_ABOVE, contrast);
+        add_line(group, i * GROUP_SIDE, 1, contrast);
+        add_line(group, i, GROUP_SIDE, contrast);
     }
     for (uint32_t i = 0; i < GROUP_CELLS; i++)
-        contrast[i] *= parts[group->level];
+        contrast[i].value *= parts[group->level];
 }

@@ -5,8 +5,17 @@
 
 #include "render/refine_tree.h"
 
-// Of a pixel; what differs from a neighbor that met another surface or light counts four times.
-float contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
+// Of one kind or the other as its neighbors show: colors that step say less of what is left.
+typedef struct {
+    float value;
+    bool is_step;
+} CellContrast;
+
+// Of a pixel; what differs from a neighbor that met another surface or light counts twice.
+CellContrast contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
+
+// What is left of a pixel's steps once its seams are placed.
+float contrast_past_seams(float contrast);
 
 // Whether that may be above a threshold: false for most pixels, at a fraction of the cost.
 bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold);
@@ -17,4 +26,4 @@ float contrast_across(const CellGroup *group, CellSide side, const SampleData *o
                       uint32_t level);
 
 // Of a group's cells, with no regard to which are cut.
-void contrast_of_group(const CellGroup *group, float contrast[GROUP_CELLS]);
+void contrast_of_group(const CellGroup *group, CellContrast contrast[GROUP_CELLS]);

@@ -60,54 +60,64 @@ bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *obs
     }
 }
 
-// What passes are known to take.
+// Time being spent, and what passes are known to take of it.
 typedef struct {
-    double start, seconds; // of all
-    double of_sample;      // seconds, in the latest pass
-    double of_look;        // seconds of looking at all cells, which storing takes as well
-} Pace;
+    Adaptive *adaptive;
+    const RenderObserver *observer;
+    GoalTime time;
+    CellSums sums;
+    double of_sample; // seconds, in the latest pass
+    double of_look;   // seconds of looking at all cells, which storing takes as well
+} Spending;
 
 // How many samples there is time for.
-static double samples_in_time(const Pace *pace)
+static double samples_in_time(const Spending *spending)
 {
-    const double left = pace->seconds - (clock_seconds() - pace->start) - pace->of_look;
-    if (left < PART_UNSPENT * pace->seconds)
+    const double seconds = spending->time.seconds;
+    const double left = seconds - (clock_seconds() - spending->time.start) - spending->of_look;
+    if (left < PART_UNSPENT * seconds)
         return 0;
-    return (left < PART_OF_LAST * pace->seconds ? 1 : PART_OF_STEP) * left / pace->of_sample;
+    return (left < PART_OF_LAST * seconds ? 1 : PART_OF_STEP) * left / spending->of_sample;
+}
+
+static bool look(Spending *spending, GoalOutcome *outcome, Error *error)
+{
+    const double start = clock_seconds();
+    const bool ok = estimate(spending->adaptive, &spending->sums, outcome, error);
+    spending->of_look = clock_seconds() - start;
+    return ok;
 }
 
 // Returns whether there was time for a pass, and something to do.
-static bool pass_in_time(Adaptive *adaptive, const CellSums *sums, Pace *pace,
-                         const RenderObserver *observer, GoalOutcome *outcome, Error *error)
+static bool pass_in_time(Spending *spending, GoalOutcome *outcome, Error *error)
 {
-    const double cells = samples_in_time(pace) / ADAPTIVE_CUT;
-    const float affordable = cell_sums_threshold(sums, cells);
-    const float threshold = fmaxf(affordable, outcome->threshold * TIME_FALL_MOST);
+    Adaptive *adaptive = spending->adaptive;
+    const double affordable = samples_in_time(spending);
+    const float threshold = fmaxf(cell_sums_threshold(&spending->sums, affordable),
+                                  outcome->threshold * TIME_FALL_MOST);
     const double start = clock_seconds();
     const uint64_t before = adaptive->samples;
-    if (cells < 1 || !adaptive_is_whole(adaptive) ||
-        !adaptive_refine_once(adaptive, threshold, observer, error))
+    if (affordable < ADAPTIVE_CUT || !adaptive_is_whole(adaptive) ||
+        !adaptive_refine_once(adaptive, threshold, spending->observer, error))
         return false;
     const double taken = clock_seconds() - start;
     const uint64_t samples = adaptive->samples - before;
     outcome->threshold = threshold;
     if (samples > SAMPLES_THAT_TELL)
-        pace->of_sample = taken / (double)samples;
+        spending->of_sample = taken / (double)samples;
     return samples > 0 || threshold > LEAST_THRESHOLD;
 }
 
-bool goal_spend_time(Adaptive *adaptive, double start, double seconds,
-                     const RenderObserver *observer, GoalOutcome *outcome, Error *error)
+bool goal_spend_time(Adaptive *adaptive, const GoalTime *time, const RenderObserver *observer,
+                     GoalOutcome *outcome, Error *error)
 {
-    const double passed = clock_seconds() - start;
-    Pace pace = {start, seconds, passed / (double)adaptive->samples, 0};
-    CellSums sums;
-    *outcome = (GoalOutcome){.threshold = 1, .reached = passed < seconds};
+    const double passed = clock_seconds() - time->start;
+    Spending spending = {.adaptive = adaptive, .observer = observer, .time = *time};
+    spending.of_sample = passed / (double)adaptive->samples;
+    *outcome = (GoalOutcome){.threshold = 1, .reached = passed < time->seconds};
     do {
-        const double look = clock_seconds();
-        if (!estimate(adaptive, &sums, outcome, error))
+        if (!look(&spending, outcome, error))
             return false;
-        pace.of_look = clock_seconds() - look;
-    } while (pass_in_time(adaptive, &sums, &pace, observer, outcome, error));
+    } while (pass_in_time(&spending, outcome, error));
     return error->text[0] == '\0';
 }

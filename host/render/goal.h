@@ -15,6 +15,11 @@ typedef struct {
 bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *observer,
                       GoalOutcome *outcome, Error *error);
 
-// Refines until so many seconds have passed since `start`, by clock_seconds.
-bool goal_spend_time(Adaptive *adaptive, double start, double seconds,
-                     const RenderObserver *observer, GoalOutcome *outcome, Error *error);
+// By clock_seconds.
+typedef struct {
+    double start, seconds;
+} GoalTime;
+
+// Refines until so many seconds have passed since the start.
+bool goal_spend_time(Adaptive *adaptive, const GoalTime *time, const RenderObserver *observer,
+                     GoalOutcome *outcome, Error *error);

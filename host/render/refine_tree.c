@@ -11,10 +11,12 @@ bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *
     *tree = (RefineTree){
         .width = width, .height = height, .columns = (width + PACKET_SIDE - 1) / PACKET_SIDE};
     const CellGroup none = {0};
+    const Seam no_seam = {0};
     tree->pixels = memory_raw(refine_tree_places(tree), sizeof *tree->pixels, error);
     tree->pixel_groups = memory_zeroed((size_t)width * height, sizeof *tree->pixel_groups, error);
-    if (tree->pixels != NULL && tree->pixel_groups != NULL &&
-        array_push(&tree->groups, none, error))
+    tree->pixel_seams = memory_zeroed((size_t)width * height, sizeof *tree->pixel_seams, error);
+    if (tree->pixels != NULL && tree->pixel_groups != NULL && tree->pixel_seams != NULL &&
+        array_push(&tree->groups, none, error) && array_push(&tree->seams, no_seam, error))
         return true;
     refine_tree_free(tree);
     return false;
@@ -24,7 +26,9 @@ void refine_tree_free(RefineTree *tree)
 {
     free(tree->pixels);
     free(tree->pixel_groups);
+    free(tree->pixel_seams);
     free(tree->groups.data);
+    free(tree->seams.data);
     *tree = (RefineTree){0};
 }
 
@@ -50,12 +54,6 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
             if (tree->groups.data[number].groups[cell] >= first)
                 tree->groups.data[number].groups[cell] = 0;
     tree->groups.count = first;
-}
-
-uint32_t refine_tree_cell_side(uint32_t level)
-{
-    static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};
-    return sides[level];
 }
 
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2])
@@ -116,6 +114,13 @@ const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *nam
                                            name->cell / tree->width)];
 }
 
+const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t place[2])
+{
+    CellName name;
+    descend(tree, place, REFINE_LEVELS, tree->traced, &name);
+    return refine_tree_sample(tree, &name);
+}
+
 // What was seen beyond a side of the cell that a group cuts, from the nearest cell no smaller than
 // that; its own where the picture ends.
 static SampleData sample_beyond(const RefineTree *tree, const CellGroup *group, CellSide side)
@@ -144,7 +149,57 @@ bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *erro
         return false;
     *group = (CellGroup){.x = REFINE_GRID * x + half, .y = REFINE_GRID * y + half, .level = 1};
     begin_group(tree, group, &tree->pixels[refine_tree_place(tree, x, y)]);
-    tree->pixel_groups[(size_t)y * tree->width + x] = (uint32_t)tree->groups.count - 1;
+    const size_t pixel = (size_t)y * tree->width + x;
+    tree->pixel_groups[pixel] = (uint32_t)tree->groups.count - 1;
+    for (uint32_t seam = tree->pixel_seams[pixel]; seam != 0; seam = tree->seams.data[seam].next)
+        seam_close(&tree->seams.data[seam]);
+    return true;
+}
+
+// The pixels on either side of one along an axis; itself where the picture ends.
+static void neighbors_along(const RefineTree *tree, uint32_t x, uint32_t y, uint32_t stride,
+                            const SampleData *beyond[SEAM_ENDS])
+{
+    const bool is_row = stride == 1;
+    const bool is_first = is_row ? x == 0 : y == 0;
+    const bool is_last = is_row ? x + 1 == tree->width : y + 1 == tree->height;
+    const uint32_t before = is_first ? 0 : 1, after = is_last ? 0 : 1;
+    beyond[0] =
+        &tree->pixels[refine_tree_place(tree, is_row ? x - before : x, is_row ? y : y - before)];
+    beyond[1] =
+        &tree->pixels[refine_tree_place(tree, is_row ? x + after : x, is_row ? y : y + after)];
+}
+
+static float difference_along(const SampleData *at, const SampleData *beyond[SEAM_ENDS])
+{
+    return seam_difference(beyond[0], at) + seam_difference(at, beyond[1]);
+}
+
+bool refine_tree_open_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error)
+{
+    const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];
+    const SampleData *row[SEAM_ENDS], *column[SEAM_ENDS];
+    neighbors_along(tree, x, y, 1, row);
+    neighbors_along(tree, x, y, GROUP_SIDE, column);
+    const bool is_row = difference_along(at, row) >= difference_along(at, column);
+    const uint32_t half = REFINE_GRID / 2, pixel = y * tree->width + x;
+    for (SeamEnd end = SEAM_END_FIRST; end < SEAM_ENDS; end++) {
+        const SampleData *beyond = is_row ? row[end] : column[end];
+        Seam seam = {.ends = {*at, *at}, .next = tree->pixel_seams[pixel], .cells = 1};
+        seam.ends[end] = *beyond;
+        seam.x = REFINE_GRID * x + (is_row ? 0 : half);
+        seam.y = REFINE_GRID * y + (is_row ? half : 0);
+        seam.stride = is_row ? 1 : GROUP_SIDE;
+        seam.side = REFINE_GRID;
+        seam.from = seam.low = end == SEAM_END_FIRST ? 0 : half;
+        seam.to = seam.high = end == SEAM_END_FIRST ? half : REFINE_GRID - 1;
+        seam.assumed = (uint8_t)end;
+        if (beyond->signature == at->signature)
+            continue;
+        tree->pixel_seams[pixel] = (uint32_t)tree->seams.count;
+        if (!array_push(&tree->seams, seam, error))
+            return false;
+    }
     return true;
 }
 
@@ -162,23 +217,37 @@ bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Erro
     return true;
 }
 
-static void add_group(const RefineTree *tree, uint32_t number, uint64_t sum[3])
+void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS])
+{
+    const uint32_t side = refine_tree_cell_side(group->level);
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        for (int channel = 0; channel < 3; channel++)
+            sums[cell][channel] =
+                2 * side * side * seam_color_steps(group->cells[cell].color[channel]);
+    for (uint32_t number = group->seams; number != 0; number = tree->seams.data[number].next)
+        seam_correct(&tree->seams.data[number], group->cells, sums);
+}
+
+static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];
-    const uint64_t side = refine_tree_cell_side(group->level);
+    ColorSum sums[GROUP_CELLS];
+    refine_tree_cells(tree, group, sums);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
         if (group->groups[cell] != 0)
             add_group(tree, group->groups[cell], sum);
         for (int channel = 0; channel < 3 && group->groups[cell] == 0; channel++)
-            sum[channel] += side * side * (uint64_t)(group->cells[cell].color[channel] * 0x1p32f);
+            sum[channel] += sums[cell][channel];
     }
 }
 
 // Those that a group added to the one of the cell it cuts.
 static uint32_t count_added(const RefineTree *tree, uint32_t number)
 {
-    uint32_t count = GROUP_CELLS - 1;
     const CellGroup *group = &tree->groups.data[number];
+    uint32_t count = GROUP_CELLS - 1;
+    for (uint32_t seam = group->seams; seam != 0; seam = tree->seams.data[seam].next)
+        count += tree->seams.data[seam].samples;
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
         if (group->groups[cell] != 0)
             count += count_added(tree, group->groups[cell]);
@@ -188,16 +257,41 @@ static uint32_t count_added(const RefineTree *tree, uint32_t number)
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
 {
     const uint32_t group = tree->pixel_groups[(size_t)y * tree->width + x];
-    return group == 0 ? 1 : 1 + count_added(tree, group);
+    uint32_t count = 1 + (group == 0 ? 0 : count_added(tree, group));
+    for (uint32_t seam = tree->pixel_seams[(size_t)y * tree->width + x]; seam != 0;
+         seam = tree->seams.data[seam].next)
+        count += tree->seams.data[seam].samples;
+    return count;
+}
+
+// The mean color over a square of that side.
+static void mean_of(const ColorSum sum, uint64_t side, float mean[3])
+{
+    for (int channel = 0; channel < 3; channel++)
+        mean[channel] = (float)((sum[channel] + side * side) / (2 * side * side)) * 0x1p-32f;
 }
 
 void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
 {
-    const uint64_t side = refine_tree_cell_side(tree->groups.data[group].level - 1);
-    uint64_t sum[3] = {0};
+    ColorSum sum = {0};
     add_group(tree, group, sum);
+    mean_of(sum, refine_tree_cell_side(tree->groups.data[group].level - 1), mean);
+}
+
+// The color of a pixel that is not cut.
+static void pixel_color(const RefineTree *tree, uint32_t x, uint32_t y, float color[3])
+{
+    const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];
+    uint32_t seam = tree->pixel_seams[(size_t)y * tree->width + x];
+    memcpy(color, at->color, sizeof at->color);
+    if (seam == 0)
+        return;
+    ColorSum sum;
     for (int channel = 0; channel < 3; channel++)
-        mean[channel] = (float)((sum[channel] + side * side / 2) / (side * side)) * 0x1p-32f;
+        sum[channel] = 2 * REFINE_GRID * REFINE_GRID * seam_color_steps(at->color[channel]);
+    for (; seam != 0; seam = tree->seams.data[seam].next)
+        seam_correct(&tree->seams.data[seam], at, &sum);
+    mean_of(sum, REFINE_GRID, color);
 }
 
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3])
@@ -207,6 +301,6 @@ void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3
         if (group != 0)
             refine_tree_mean(tree, group, colors[x]);
         else
-            memcpy(colors[x], tree->pixels[refine_tree_place(tree, x, y)].color, sizeof *colors);
+            pixel_color(tree, x, y, colors[x]);
     }
 }

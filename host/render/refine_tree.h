@@ -5,12 +5,10 @@
 #pragma once
 
 #include "image/framebuffer.h"
-#include "scene/scene.h"
+#include "render/seam.h"
 
 #define REFINE_LEVELS 4  // how often a cell of a pixel's size can be cut
 #define REFINE_GRID   81 // cells of the last level along a pixel's side
-#define GROUP_SIDE    3
-#define GROUP_CELLS   9
 #define GROUP_MIDDLE  4
 
 typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellSide;
@@ -22,13 +20,16 @@ typedef struct {
     SampleData beyond[SIDE_COUNT]; // from the next cells of the size that was cut, or larger ones
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
+    uint32_t seams;               // the first, 0 for none
 } CellGroup;
 
 typedef struct {
     uint32_t width, height, columns; // the last of blocks
     SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
     uint32_t *pixel_groups;          // in rows; 0 where the pixel is not cut
+    uint32_t *pixel_seams;           // in rows; the first of a pixel that is not, 0 for none
     ARRAY(CellGroup) groups;         // from 1
+    ARRAY(Seam) seams;               // from 1
     uint32_t traced;                 // groups below have all their samples
 } RefineTree;
 
@@ -61,21 +62,35 @@ bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSi
                           CellName *name);
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
 
+// The sample of the smallest cell at a place of the picture.
+const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t place[2]);
+
 // Cuts a pixel, or a cell of a group: appends the group, of which the middle alone is known.
 bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 bool refine_tree_cut_cell(RefineTree *tree, uint32_t group, uint32_t cell, Error *error);
+
+// Opens the seams of a pixel between what it and its neighbors saw, along the axis on which more
+// differs.
+bool refine_tree_open_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 
 // Forgets the groups from `first` on, none of which has been cut.
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
 // Cells of the last level along the side of a level's.
-uint32_t refine_tree_cell_side(uint32_t level);
+static inline uint32_t refine_tree_cell_side(uint32_t level)
+{
+    static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};
+    return sides[level];
+}
 
 // Where the sample of a group's cell lies, in cells of the last level.
 void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t place[2]);
 
 // How many samples a pixel has.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
+
+// What each of a group's cells is known to hold, seams included, but for what they are cut into.
+void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS]);
 
 // The mean over the samples of what a group cuts, weighted by their cells.
 void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);

@@ -27,12 +27,19 @@ typedef struct {
     cl_event done[2]; // of launches by turns
 } Sampling;
 
-static bool share(const Sampling *sampling, cl_mem_flags access, const void *data, size_t size,
-                  cl_mem *buffer, Error *error)
+// Memory of the host that the device uses in place.
+typedef struct {
+    cl_mem_flags access;
+    const void *data;
+    size_t size;
+} Shared;
+
+static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer, Error *error)
 {
     cl_int status;
-    *buffer = clCreateBuffer(sampling->renderer->device->context, access | CL_MEM_USE_HOST_PTR,
-                             size, (void *)data, &status);
+    *buffer =
+        clCreateBuffer(sampling->renderer->device->context, shared->access | CL_MEM_USE_HOST_PTR,
+                       shared->size, (void *)shared->data, &status);
     return cl_succeeded(status, "share the samples with the device", error);
 }
 
@@ -42,13 +49,15 @@ static bool open_buffers(Sampling *sampling, Error *error)
     const size_t tallies =
         sampling->renderer->settings.statistics ? (size_t)list->count * TALLY_KINDS : 16;
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
-    return sampling->host_tallies != NULL &&
-           share(sampling, CL_MEM_READ_ONLY, list->places, list->count * sizeof *list->places,
-                 &sampling->places, error) &&
-           share(sampling, CL_MEM_READ_WRITE, list->samples, list->count * sizeof *list->samples,
-                 &sampling->samples, error) &&
-           share(sampling, CL_MEM_READ_WRITE, sampling->host_tallies,
-                 tallies * sizeof *sampling->host_tallies, &sampling->tallies, error);
+    if (sampling->host_tallies == NULL)
+        return false;
+    const Shared places = {CL_MEM_READ_ONLY, list->places, list->count * sizeof *list->places};
+    const Shared samples = {CL_MEM_READ_WRITE, list->samples, list->count * sizeof *list->samples};
+    const Shared counts = {CL_MEM_READ_WRITE, sampling->host_tallies,
+                           tallies * sizeof *sampling->host_tallies};
+    return share(sampling, &places, &sampling->places, error) &&
+           share(sampling, &samples, &sampling->samples, error) &&
+           share(sampling, &counts, &sampling->tallies, error);
 }
 
 static void close_buffers(Sampling *sampling)

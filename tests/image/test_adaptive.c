@@ -75,12 +75,19 @@ static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
 
 #define SIDE 240
 
+// What a contrast must reach: the error of side x side samples, with so many times fewer.
+typedef struct {
+    float contrast;
+    uint32_t side, times;
+} Saving;
+
 // Against a grid that none of the others is part of.
-static void expect_error_of_uniform(const char *scene, float contrast, uint32_t side)
+static void expect_error_of_uniform(const char *scene, const Saving *saving)
 {
+    const uint32_t side = saving->side;
     uint64_t samples;
     PictureRequest many = square(scene, SIDE), uniform = many;
-    PictureRequest few = adaptive(many, contrast);
+    PictureRequest few = adaptive(many, saving->contrast);
     few.sample_count = &samples;
     many.samples = 32;
     uniform.samples = side;
@@ -89,25 +96,27 @@ static void expect_error_of_uniform(const char *scene, float contrast, uint32_t 
     const double reached = rendered_error(&refined, &reference);
     if (reached > 1.1 * allowed)
         fail_msg("%s: error %g, of %ux%u samples %g", scene, reached, side, side, allowed);
-    if (5 * samples > (uint64_t)SIDE * SIDE * side * side)
+    if (saving->times * samples > (uint64_t)SIDE * SIDE * side * side)
         fail_msg("%s: %llu samples", scene, (unsigned long long)samples);
     framebuffer_free(&reference);
     framebuffer_free(&plain);
     framebuffer_free(&refined);
 }
 
-static void a_contrast_of_4_percent_reaches_16_samples_with_a_fifth_of_them(void **state)
+static void a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them(void **state)
 {
     (void)state;
+    static const Saving saving = {0.1f, 4, 8};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
-        expect_error_of_uniform(scenes[scene], 0.04f, 4);
+        expect_error_of_uniform(scenes[scene], &saving);
 }
 
-static void a_contrast_of_1_percent_reaches_64_samples_with_a_fifth_of_them(void **state)
+static void a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them(void **state)
 {
     (void)state;
+    static const Saving saving = {0.03f, 8, 25};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
-        expect_error_of_uniform(scenes[scene], 0.01f, 8);
+        expect_error_of_uniform(scenes[scene], &saving);
 }
 
 static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
@@ -171,14 +180,48 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
     remove(request.scene_path);
 }
 
+// Of a sphere 80 pixels wide that hardly stands out.
+static const char *write_faint_sphere(void)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "%s", "/tmp/clrt-adaptive-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
+                    "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
+    assert_int_equal(fclose(stream), 0);
+    return path;
+}
+
+static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
+{
+    (void)state;
+    uint64_t samples;
+    PictureRequest plain = square(write_faint_sphere(), 100), many = plain;
+    many.samples = 32;
+    PictureRequest request = adaptive(plain, 0.08f);
+    request.sample_count = &samples;
+    Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
+    const double left = error_between(&picture, &exact) / error_between(&first, &exact);
+    if (samples < 10100 || samples > 11300 || left > 0.45)
+        fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
+    framebuffer_free(&picture);
+    framebuffer_free(&first);
+    framebuffer_free(&exact);
+    remove(request.scene_path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
         cmocka_unit_test(refining_in_steps_takes_as_many_samples_as_at_once),
-        cmocka_unit_test(a_contrast_of_4_percent_reaches_16_samples_with_a_fifth_of_them),
-        cmocka_unit_test(a_contrast_of_1_percent_reaches_64_samples_with_a_fifth_of_them),
+        cmocka_unit_test(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them),
+        cmocka_unit_test(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them),
         cmocka_unit_test(a_picture_of_one_color_takes_a_sample_a_pixel),
+        cmocka_unit_test(a_faint_outline_is_placed_with_two_samples_a_pixel),
         cmocka_unit_test(thousands_of_spheres_smaller_than_pixels_are_all_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

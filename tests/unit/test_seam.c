@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Seams against steps whose place is known.
+#include "render/seam.h"
+#include "unit/cmocka_all.h"
+
+#include <string.h>
+
+#define SIDE  27u
+#define LINE  (GROUP_SIDE * SIDE)
+#define AREA  (2.0 * SIDE * SIDE) // of a cell, in the sums' unit
+#define STEPS 4294967296.0
+
+static SampleData seen(float color, uint32_t signature)
+{
+    return (SampleData){{color, color, color}, signature};
+}
+
+// Dark up to the place of a step, and bright from there on.
+static SampleData step_at(uint32_t place, uint32_t step)
+{
+    return place < step ? seen(0.25f, 1) : seen(0.75f, 2);
+}
+
+static void see_cells(SampleData cells[GROUP_CELLS], uint32_t step)
+{
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        cells[cell] = step_at(SIDE / 2 + cell % GROUP_SIDE * SIDE, step);
+}
+
+static double sum_of_line(const Seam *seam, const SampleData cells[GROUP_CELLS])
+{
+    ColorSum sums[GROUP_CELLS];
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        for (int channel = 0; channel < 3; channel++)
+            sums[cell][channel] = 2 * SIDE * SIDE * seam_color_steps(cells[cell].color[channel]);
+    seam_correct(seam, cells, sums);
+    return (double)(sums[0][0] + sums[1][0] + sums[2][0]) / STEPS / AREA;
+}
+
+static void samples_place_a_step_between_two_cells_wherever_it_lies(void **state)
+{
+    (void)state;
+    for (uint32_t step = SIDE / 2 + 1; step <= SIDE / 2 + SIDE; step++) {
+        SampleData cells[GROUP_CELLS];
+        uint32_t place[2], samples = 0;
+        Seam rest, seam = {.stride = 1,
+                           .cells = GROUP_SIDE,
+                           .side = SIDE,
+                           .from = SIDE / 2,
+                           .to = SIDE / 2 + SIDE,
+                           .assumed = SEAM_ENDS};
+        see_cells(cells, step);
+        seam.low = seam.from;
+        seam.high = seam.to;
+        seam.ends[0] = cells[0];
+        seam.ends[1] = cells[1];
+        for (; seam_asks(&seam, place); samples++) {
+            const float before = seam_contrast(&seam);
+            const SampleData sample = step_at(place[0], step);
+            assert_false(seam_take(&seam, &sample, &rest));
+            assert_true(seam_contrast(&seam) < 0.7f * before);
+        }
+        const double expected = (0.25 * step + 0.75 * (LINE - step)) / SIDE;
+        assert_true(samples <= 5);
+        assert_true(sum_of_line(&seam, cells) - expected < 1e-6);
+        assert_true(sum_of_line(&seam, cells) - expected > -1e-6);
+    }
+}
+
+static Seam border_seam(const SampleData cells[GROUP_CELLS])
+{
+    Seam seam = {.stride = 1,
+                 .cells = GROUP_SIDE,
+                 .side = SIDE,
+                 .to = SIDE / 2,
+                 .high = SIDE / 2,
+                 .assumed = SEAM_END_FIRST};
+    seam.ends[0] = seen(0.75f, 2);
+    seam.ends[1] = cells[0];
+    return seam;
+}
+
+static void what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside(void **state)
+{
+    (void)state;
+    SampleData cells[GROUP_CELLS];
+    uint32_t place[2];
+    Seam rest;
+    see_cells(cells, LINE);
+    Seam inside = border_seam(cells), outside = inside;
+    assert_true(sum_of_line(&inside, cells) == 0.75);
+    assert_true(seam_asks(&inside, place));
+    assert_int_equal(place[0], 0);
+    seam_take(&inside, &inside.ends[0], &rest);
+    assert_true(sum_of_line(&inside, cells) > 0.75 + 0.5 * 6 / SIDE);
+    assert_true(sum_of_line(&inside, cells) < 0.75 + 0.5 * 8 / SIDE);
+    seam_take(&outside, &cells[0], &rest);
+    assert_true(sum_of_line(&outside, cells) == 0.75);
+    assert_false(seam_asks(&outside, place));
+}
+
+static void a_third_surface_between_two_makes_a_seam_on_either_side(void **state)
+{
+    (void)state;
+    const SampleData third = seen(1, 3);
+    SampleData cells[GROUP_CELLS];
+    Seam rest, seam = {.stride = 1,
+                       .cells = GROUP_SIDE,
+                       .side = SIDE,
+                       .from = 13,
+                       .to = 40,
+                       .low = 13,
+                       .high = 40,
+                       .assumed = SEAM_ENDS};
+    see_cells(cells, 30);
+    seam.ends[0] = cells[0];
+    seam.ends[1] = cells[1];
+    assert_true(seam_take(&seam, &third, &rest));
+    assert_int_equal(seam.to, 26);
+    assert_int_equal(rest.from, 26);
+    assert_int_equal(rest.to, 40);
+    assert_memory_equal(&seam.ends[1], &third, sizeof third);
+    assert_memory_equal(&rest.ends[0], &third, sizeof third);
+    const double both = sum_of_line(&seam, cells) + sum_of_line(&rest, cells);
+    const double expected = 2 * (0.25 + 0.75 + 0.75) + (7 * 0.75 + 7 * 0.25) / SIDE;
+    assert_true(both - expected < 0.02 && both - expected > -0.02);
+}
+
+static void a_slope_is_no_step_and_a_crease_on_one_surface_is(void **state)
+{
+    (void)state;
+    const SampleData slope[] = {seen(0.1f, 1), seen(0.2f, 1), seen(0.3f, 1), seen(0.4f, 1),
+                                seen(0.5f, 1)};
+    const SampleData crease[] = {seen(0.1f, 1), seen(0.1f, 1), seen(0.12f, 1), seen(0.4f, 1),
+                                 seen(0.42f, 1)};
+    const SampleData *const line[] = {&slope[0], &slope[1], &slope[2], &slope[3], &slope[4]};
+    const SampleData *const bent[] = {&crease[0], &crease[1], &crease[2], &crease[3], &crease[4]};
+    for (uint32_t gap = 0; gap < LINE_GAPS; gap++) {
+        assert_false(seam_steps(line, gap));
+        assert_int_equal(seam_steps(bent, gap), gap == 2);
+    }
+}
+
+static void another_surface_is_a_step_whatever_its_color(void **state)
+{
+    (void)state;
+    const SampleData one = seen(0.1f, 1), other = seen(0.1f, 2);
+    const SampleData *const line[] = {&one, &one, &one, &one, &other};
+    assert_false(seam_steps(line, 2));
+    assert_true(seam_steps(line, 3));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_place_a_step_between_two_cells_wherever_it_lies),
+        cmocka_unit_test(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside),
+        cmocka_unit_test(a_third_surface_between_two_makes_a_seam_on_either_side),
+        cmocka_unit_test(a_slope_is_no_step_and_a_crease_on_one_surface_is),
+        cmocka_unit_test(another_surface_is_a_step_whatever_its_color),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
