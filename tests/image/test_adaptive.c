@@ -204,7 +204,7 @@ static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
     PictureRequest request = adaptive(plain, 0.08f);
     request.sample_count = &samples;
     Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
-    const double left = error_between(&picture, &exact) / error_between(&first, &exact);
+    const double left = rendered_error(&picture, &exact) / rendered_error(&first, &exact);
     if (samples < 10100 || samples > 11300 || left > 0.45)
         fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
     framebuffer_free(&picture);
