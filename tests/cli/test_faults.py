@@ -82,6 +82,12 @@ class Disks(Faults):
         self.assert_fails(run, 5, "target/old: cannot be written: No space left on device")
         self.assertEqual(run.stdout, b"old\n")
 
+    def test_a_full_disk_keeps_no_part_of_a_report(self):
+        words = [SCENE, "-s", "8x8", "-q", "-o", "a.pfm", "--stats=target/a.json"]
+        run = self.clrt_on_disk((os.sysconf("SC_PAGE_SIZE"), "rw"), *words)
+        self.assert_fails(run, 5, "target/a.json: cannot be written: No space left on device")
+        self.assertEqual(run.stdout, b"old\n")
+
     def test_a_disk_for_reading_alone_is_told_before_any_work(self):
         run = self.clrt_on_disk((DISK_SIZE, "ro"), "nowhere.scn", "-o", "target/a.png")
         self.assert_fails(run, 5, "target/a.png: cannot be written: Read-only file system")
