@@ -2,8 +2,6 @@
 // Asks the ICD loader for every device of every platform and picks one.
 #include "device/device.h"
 
-#include <assert.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -181,44 +179,8 @@ unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error)
     return candidates.count;
 }
 
-// Takes units behind the first ones, which nobody gets.
-static cl_uint divide(const Device *device, uint32_t first, uint32_t units, cl_device_id parts[2])
-{
-    const cl_device_partition_property all[] = {CL_DEVICE_PARTITION_BY_COUNTS, first, units,
-                                                CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
-    const cl_device_partition_property front[] = {CL_DEVICE_PARTITION_BY_COUNTS, units,
-                                                  CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
-    cl_uint count = 0;
-    const cl_int status = clCreateSubDevices(device->id, first > 0 ? all : front, 2, parts, &count);
-    return status == CL_SUCCESS ? count : 0;
-}
-
-static void take_part(Device *device, uint32_t units)
-{
-    static atomic_uint parts_taken;
-    cl_device_id parts[2];
-    if (!device->is_cpu || units >= device->compute_units)
-        return;
-    const uint32_t first =
-        atomic_fetch_add(&parts_taken, 1) * units % (device->compute_units - units + 1);
-    const cl_uint count = divide(device, first, units, parts);
-    if (count == 0)
-        return;
-    for (cl_uint part = 0; part + 1 < count; part++)
-        clReleaseDevice(parts[part]);
-    device->id = parts[count - 1];
-    device->compute_units = units;
-    device->is_part = true;
-}
-
 bool device_open(Device *device, const char *spec, Error *error)
 {
-    return device_open_part(device, spec, UINT32_MAX, error);
-}
-
-bool device_open_part(Device *device, const char *spec, uint32_t units, Error *error)
-{
-    assert(units > 0);
     Candidates candidates;
     *device = (Device){0};
     if (!find_candidates(&candidates, error))
@@ -231,14 +193,13 @@ bool device_open_part(Device *device, const char *spec, uint32_t units, Error *e
     }
     device->id = chosen->id;
     describe(device);
-    take_part(device, units);
     cl_int status;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &status);
-    if (cl_succeeded(status, "create an OpenCL context", error)) {
-        device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
-        if (cl_succeeded(status, "create an OpenCL queue", error))
-            return true;
-    }
+    if (!cl_succeeded(status, "create an OpenCL context", error))
+        return false;
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
+    if (cl_succeeded(status, "create an OpenCL queue", error))
+        return true;
     device_close(device);
     return false;
 }
@@ -249,7 +210,5 @@ void device_close(Device *device)
         clReleaseCommandQueue(device->queue);
     if (device->context != NULL)
         clReleaseContext(device->context);
-    if (device->is_part)
-        clReleaseDevice(device->id);
     *device = (Device){0};
 }

@@ -4,8 +4,6 @@
 
 #include "device/cl_error.h"
 
-#include <stdint.h>
-
 typedef struct {
     cl_device_id id;
     cl_context context;
@@ -15,7 +13,6 @@ typedef struct {
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool is_cpu;
-    bool is_part;          // of what the driver calls a device
     bool shares_memory;    // with the host, whose arrays it reads in place
     bool correct_division; // offers correctly rounded divide and square root
     bool has_fp64;         // computes with doubles
@@ -25,11 +22,6 @@ typedef struct {
 // gpu, accelerator, all), or part of a device's or platform's name in any case.  NULL takes the
 // first GPU, else the first device.  Where nothing matches, the message says what there is.
 bool device_open(Device *device, const char *spec, Error *error);
-
-// The same with at most that many of a CPU's compute units, as far as the driver divides it.  Every
-// next one begins with other units, so that they do not all wait for the same.
-bool device_open_part(Device *device, const char *spec, uint32_t units, Error *error);
-
 void device_close(Device *device);
 
 // Writes all devices into text as `clinfo -l` prints them; false where there is none.

@@ -44,7 +44,8 @@ typedef struct {
 
 typedef struct ClrtScene ClrtScene;
 
-// Reads a scene file (man 5 clrt-scene) or a lone mesh, as `clrt` does.
+// Reads a scene file (man 5 clrt-scene) or a lone mesh, as `clrt` does: for models other than PLY
+// it starts clrt's program clrt-foreign where that is installed.
 CLRT_API ClrtScene *clrt_scene_load(const char *path, ClrtError *error);
 
 // An empty scene: a white background, ambient light of 0.05, and the materials below.
@@ -137,11 +138,13 @@ typedef struct ClrtRenderer ClrtRenderer;
 
 // Opens an OpenCL device and compiles the kernels for it, which takes a second or two where the
 // driver has not kept them.  device is what `clrt --device` takes: PLATFORM:DEVICE, a type (cpu,
-// gpu, accelerator, all) or part of a name; NULL is the first GPU, else the first device.  Of a CPU
-// it uses at most `threads` threads; 0 stands for as many as affinity and the control groups'
-// quotas allow.  A lock in $XDG_CACHE_HOME/clrt, else ~/.cache/clrt, keeps processes that compile
-// at once from losing PoCL's kernels; PoCL itself finds no device where it can write neither to its
-// cache there nor to $POCL_CACHE_DIR.
+// gpu, accelerator, all) or part of a name; NULL is the first GPU, else the first device.  Trees
+// are built by that many threads; 0 stands for as many as affinity and the control groups' quotas
+// allow. How many a CPU device has is up to its driver and, as libraries set no environment, to the
+// program: PoCL reads POCL_MAX_PTHREAD_COUNT, later POCL_CPU_MAX_CU_COUNT, at its first call.
+// A lock in $XDG_CACHE_HOME/clrt, else ~/.cache/clrt, keeps processes that compile at once from
+// losing PoCL's kernels; PoCL itself finds no device where it can write neither to its cache there
+// nor to $POCL_CACHE_DIR.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // NULL is harmless.

@@ -5,12 +5,13 @@
 #include "base/processors.h"
 #include "library/check.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 static bool open_device(ClrtRenderer *renderer, const char *name, Error *cause)
 {
     const KernelWish none = {0};
-    if (!device_open_part(&renderer->device, name, renderer->threads, cause))
+    if (!device_open(&renderer->device, name, cause))
         return false;
     const KernelChoice choice = kernel_choose(&none, renderer->device.is_cpu);
     renderer->setup = (RendererSetup){
@@ -26,6 +27,17 @@ static bool make_kernel(ClrtRenderer *renderer, Error *cause)
     return ready_kernel_make(&renderer->kernel, &renderer->setup, &traits, group, cause);
 }
 
+// One thread at a time: loader and drivers of OpenCL set themselves up at the first calls, and PoCL
+// 3.1 crashes where these come from two threads.
+static bool open_renderer(ClrtRenderer *renderer, const char *device, Error *cause)
+{
+    static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&opening);
+    const bool ok = open_device(renderer, device, cause) && make_kernel(renderer, cause);
+    pthread_mutex_unlock(&opening);
+    return ok;
+}
+
 ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error)
 {
     Error cause = {0};
@@ -33,7 +45,7 @@ ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtErr
     if (renderer != NULL) {
         renderer->threads = threads > 0 ? threads : processors_usable();
         cache_open_for_library(&renderer->cache);
-        if (open_device(renderer, device, &cause) && make_kernel(renderer, &cause))
+        if (open_renderer(renderer, device, &cause))
             return renderer;
     }
     check_fail_for(error, CLRT_DEVICE, &cause);
@@ -77,7 +89,7 @@ static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
 }
 
 // Pictures bring their own sizes.
-static bool open_renderer(ClrtRenderer *renderer, Error *cause)
+static bool open_scene(ClrtRenderer *renderer, Error *cause)
 {
     ReadyKernel lent = renderer->kernel;
     RendererSetup setup = renderer->setup;
@@ -107,7 +119,7 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
     if (!normalization_check(&renderer->normalization, &scene->scene, &cause) ||
         !flatten(renderer, &scene->scene, &cause))
         return check_fail_for(error, CLRT_SCENE, &cause);
-    if (!open_renderer(renderer, &cause)) {
+    if (!open_scene(renderer, &cause)) {
         drop_scene(renderer);
         return check_fail_for(error, CLRT_DEVICE, &cause);
     }

@@ -54,9 +54,9 @@ target_link_libraries(picture PRIVATE clrt::clrt)
 
 # What a library may not do to the program that it is part of.
 FORBIDDEN = (
-    r"_?exit|quick_exit|abort|raise|kill|f?puts|put(char|s)|(__)?v?f?printf(_chk)?|perror|fputc|"
-    r"fwrite|(un)?setenv|putenv|clearenv|setlocale|signal|sig\w+|atexit|fork|vfork|system|chdir|"
-    r"umask|srand"
+    r"_?exit|quick_exit|abort|raise|f?puts|put(char|s)|(__)?v?f?printf(_chk)?|perror|fputc|fwrite|"
+    r"(un)?setenv|putenv|clearenv|setlocale|signal|sigaction|sigprocmask|pthread_sigmask|atexit|"
+    r"fork|vfork|system|chdir|umask|srand"
 )
 
 

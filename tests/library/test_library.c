@@ -4,7 +4,6 @@
 #include "library/program.h"
 #include "unit/cmocka_all.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -236,48 +235,6 @@ static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
     clrt_scene_free(scene);
 }
 
-typedef struct {
-    const ClrtScene *scene;
-    const ClrtPicture *picture;
-    float *expected;
-    bool agrees;
-} Job;
-
-static void *draw_thrice(void *context)
-{
-    Job *job = context;
-    ClrtRenderer *own = clrt_renderer_create(getenv("CLRT_DEVICE"), 1, NULL);
-    job->agrees = own != NULL;
-    for (int round = 0; round < 3 && job->agrees; round++)
-        job->agrees = program_agrees(own, job->scene, job->picture, job->expected);
-    clrt_renderer_free(own);
-    return NULL;
-}
-
-static void renderers_draw_at_once_in_threads_of_their_own(void **state)
-{
-    (void)state;
-    pthread_t threads[4];
-    Job jobs[4];
-    const ClrtPicture picture = {.size = sizeof picture, .width = 200, .height = 150, .samples = 2};
-    ClrtScene *scenes[2] = {filled_make(), load(program_file("scenes/reflections.scn"))};
-    float *expected[2];
-    for (int i = 0; i < 2; i++)
-        expected[i] = draw(renderer, scenes[i], &picture);
-    for (int i = 0; i < 4; i++) { // two of them the same scene
-        jobs[i] = (Job){scenes[i % 2], &picture, expected[i % 2], false};
-        assert_int_equal(pthread_create(&threads[i], NULL, draw_thrice, &jobs[i]), 0);
-    }
-    for (int i = 0; i < 4; i++) {
-        pthread_join(threads[i], NULL);
-        assert_true(jobs[i].agrees);
-    }
-    for (int i = 0; i < 2; i++) {
-        free(expected[i]);
-        clrt_scene_free(scenes[i]);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -290,7 +247,6 @@ int main(void)
         cmocka_unit_test(a_scene_that_was_changed_is_drawn_changed),
         cmocka_unit_test(progress_counts_every_tile),
         cmocka_unit_test(a_stopped_picture_has_whole_tiles_and_leaves_the_rest),
-        cmocka_unit_test(renderers_draw_at_once_in_threads_of_their_own),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

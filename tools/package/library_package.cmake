@@ -7,6 +7,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclrt0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS clrt) # which reads models
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pictures by the ray tracer clrt from other programs
 libclrt traces scenes of triangle meshes and spheres with OpenCL kernels, on
 CPUs and GPUs, into the memory of the program that it is part of, with the same
