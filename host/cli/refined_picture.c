@@ -65,7 +65,8 @@ bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserv
     Adaptive adaptive;
     const double start = clock_seconds();
     Crew *crew = crew_open(threads_allowed(run->options->threads));
-    const AdaptiveSetup setup = {&run->renderer, &run->flat, camera, crew};
+    const AdaptiveSetup setup = {&run->renderer, &run->flat,  camera,
+                                 crew,           &run->scene, &run->normalization};
     bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
               refine(run, &adaptive, start, observer, error);
     if (ok) {

@@ -15,6 +15,7 @@
 typedef struct {
     const RefineTree *tree;
     const Footprints *footprints;
+    const ThinParts *thin_parts;
     float threshold;
     uint32_t first, end; // of groups
     uint16_t *marks;     // a bit for each cell of a group and each side, or for a pixel
@@ -39,7 +40,12 @@ static PixelMark mark_of_pixel(const Marking *marking, uint32_t x, uint32_t y)
     const RefineTree *tree = marking->tree;
     const float threshold = marking->threshold;
     const size_t pixel = (size_t)y * tree->width + x;
-    if (tree->pixel_groups[pixel] != 0 || !contrast_may_exceed(tree, x, y, threshold))
+    const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
+    if (tree->pixel_groups[pixel] != 0)
+        return PIXEL_LEAVE;
+    if (thin_parts_cut(marking->thin_parts, place, 0))
+        return PIXEL_CUT;
+    if (!contrast_may_exceed(tree, x, y, threshold))
         return PIXEL_LEAVE;
     const CellContrast contrast = contrast_of_pixel(tree, x, y);
     if (contrast.value <= threshold)
@@ -57,24 +63,6 @@ static void mark_rows(void *context, uint32_t task, uint32_t worker)
     for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
         for (uint32_t x = 0; x < tree->width; x++)
             marking->marks[(size_t)y * tree->width + x] = (uint16_t)mark_of_pixel(marking, x, y);
-}
-
-// The cells to be cut for the sake of small spheres.
-static unsigned footprint_marks(const Marking *marking, const CellGroup *group)
-{
-    const Footprint *range[2];
-    const uint32_t side = refine_tree_cell_side(group->level);
-    const uint32_t pixel = group->y / REFINE_GRID * marking->tree->width + group->x / REFINE_GRID;
-    unsigned marks = 0;
-    footprints_of_pixel(marking->footprints, pixel, range);
-    for (const Footprint *footprint = range[0]; footprint < range[1]; footprint++)
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
-            uint32_t middle[2];
-            refine_tree_cell_place(group, cell, middle);
-            if (group->groups[cell] == 0 && footprint_cuts(footprint, middle, side))
-                marks |= 1u << cell;
-        }
-    return marks;
 }
 
 // What a group's outer cells saw may reach into the cells around it: a bit for each side.
@@ -98,7 +86,8 @@ static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
     unsigned marks = marks_around(marking, group) << GROUP_CELLS;
     if (group->level == REFINE_LEVELS)
         return (uint16_t)marks;
-    marks |= footprint_marks(marking, group);
+    marks |=
+        footprints_marks(marking->footprints, group) | thin_parts_marks(marking->thin_parts, group);
     contrast_of_group(group, contrast);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
         if (group->groups[cell] == 0 && contrast[cell].value > threshold)
@@ -196,10 +185,18 @@ static void mark_footprints(const Marking *marking)
     }
 }
 
+static Marking marking_of(const Adaptive *adaptive, float threshold)
+{
+    return (Marking){.tree = &adaptive->tree,
+                     .footprints = &adaptive->footprints,
+                     .thin_parts = &adaptive->thin_parts,
+                     .threshold = threshold};
+}
+
 static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = {tree, &adaptive->footprints, threshold, 0, 0, NULL};
+    Marking marking = marking_of(adaptive, threshold);
     marking.marks = memory_raw((size_t)tree->width * tree->height, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
@@ -215,7 +212,9 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
                                 Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = {tree, &adaptive->footprints, threshold, first, end, NULL};
+    Marking marking = marking_of(adaptive, threshold);
+    marking.first = first;
+    marking.end = end;
     if (first >= end || !adaptive_is_whole(adaptive))
         return true;
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
@@ -277,8 +276,10 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
     frame->camera = *setup->camera;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
+    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->crew};
     const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
                     footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
+                    thin_parts_make(&adaptive->thin_parts, &thin, error) &&
                     adaptive_pass_begin(adaptive, observer, error);
     if (!ok)
         adaptive_close(adaptive);
@@ -308,6 +309,7 @@ void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 void adaptive_close(Adaptive *adaptive)
 {
     footprints_free(&adaptive->footprints);
+    thin_parts_free(&adaptive->thin_parts);
     refine_tree_free(&adaptive->tree);
     *adaptive = (Adaptive){0};
 }

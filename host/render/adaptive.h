@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "render/footprint.h"
 #include "render/renderer.h"
+#include "render/thin_parts.h"
 
 // Samples that cutting a cell takes.
 #define ADAPTIVE_CUT (GROUP_CELLS - 1)
@@ -19,6 +20,7 @@ typedef struct {
     FrameData frame;
     RefineTree tree;
     Footprints footprints; // of small spheres, whose cells are cut in any case
+    ThinParts thin_parts;  // of meshes, the same
     uint64_t samples;      // taken
 } Adaptive;
 
@@ -28,6 +30,8 @@ typedef struct {
     const FlatScene *flat;    // of the renderer
     const CameraData *camera; // made for REFINE_GRID samples
     Crew *crew;               // to share the work, NULL for none
+    const Scene *scene;       // of the renderer too
+    const Normalization *normalization;
 } AdaptiveSetup;
 
 // Takes one sample a pixel.

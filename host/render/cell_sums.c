@@ -24,6 +24,7 @@
 
 typedef struct {
     const RefineTree *tree;
+    const ThinParts *thin_parts;
     CellSums *parts; // of each task
     uint32_t row_tasks;
 } Summing;
@@ -119,11 +120,20 @@ static void add_pixel_seams(const RefineTree *tree, uint32_t seam, CellContrast 
         add_seam(&tree->seams.data[seam], sums);
 }
 
-static void sum_rows(const RefineTree *tree, uint32_t task, CellSums *sums)
+// What was cut for what contrast does not show tells nothing of contrasts.
+static bool is_told(const ThinParts *thin_parts, uint32_t group, const uint32_t place[2],
+                    uint32_t level)
 {
+    return group == 0 || !thin_parts_cut(thin_parts, place, level);
+}
+
+static void sum_rows(const Summing *summing, uint32_t task, CellSums *sums)
+{
+    const RefineTree *tree = summing->tree;
     const uint32_t end = (uint32_t)end_of(task, ROWS_OF_TASK, tree->height);
     for (uint32_t y = task * ROWS_OF_TASK; y < end; y++)
         for (uint32_t x = 0; x < tree->width; x++) {
+            const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
             Part pixel = {.contrast = contrast_of_pixel(tree, x, y),
                           .group = tree->pixel_groups[(size_t)y * tree->width + x]};
             if (tree->pixel_seams[(size_t)y * tree->width + x] != 0 && pixel.group == 0)
@@ -131,31 +141,36 @@ static void sum_rows(const RefineTree *tree, uint32_t task, CellSums *sums)
                                 &pixel.contrast, sums);
             memcpy(pixel.color, tree->pixels[refine_tree_place(tree, x, y)].color,
                    sizeof pixel.color);
-            add_part(tree, &pixel, sums);
+            if (is_told(summing->thin_parts, pixel.group, place, 0))
+                add_part(tree, &pixel, sums);
         }
 }
 
-static void add_cells(const RefineTree *tree, const CellGroup *group, CellSums *sums)
+static void add_cells(const Summing *summing, const CellGroup *group, CellSums *sums)
 {
     const uint32_t side = refine_tree_cell_side(group->level);
     CellContrast contrast[GROUP_CELLS];
     ColorSum known[GROUP_CELLS];
     contrast_of_group(group, contrast);
-    refine_tree_cells(tree, group, known);
+    refine_tree_cells(summing->tree, group, known);
     for (uint32_t i = 0; i < GROUP_CELLS; i++) {
+        uint32_t middle[2];
         Part cell = {contrast[i], group->level, group->groups[i], {0}};
         for (int channel = 0; channel < 3; channel++)
             cell.color[channel] = (float)known[i][channel] / (float)(2 * side * side) * 0x1p-32f;
-        add_part(tree, &cell, sums);
+        refine_tree_cell_place(group, i, middle);
+        if (is_told(summing->thin_parts, cell.group, middle, group->level))
+            add_part(summing->tree, &cell, sums);
     }
 }
 
-static void sum_groups(const RefineTree *tree, uint32_t task, CellSums *sums)
+static void sum_groups(const Summing *summing, uint32_t task, CellSums *sums)
 {
+    const RefineTree *tree = summing->tree;
     const size_t end = end_of(task, GROUPS_OF_TASK, tree->groups.count - 1);
     for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end; i++) {
         const CellGroup *group = &tree->groups.data[i + 1];
-        add_cells(tree, group, sums);
+        add_cells(summing, group, sums);
         for (uint32_t seam = group->seams; seam != 0; seam = tree->seams.data[seam].next)
             add_seam(&tree->seams.data[seam], sums);
     }
@@ -166,9 +181,9 @@ static void sum_task(void *context, uint32_t task, uint32_t worker)
     (void)worker;
     const Summing *summing = context;
     if (task < summing->row_tasks)
-        sum_rows(summing->tree, task, &summing->parts[task]);
+        sum_rows(summing, task, &summing->parts[task]);
     else
-        sum_groups(summing->tree, task - summing->row_tasks, &summing->parts[task]);
+        sum_groups(summing, task - summing->row_tasks, &summing->parts[task]);
 }
 
 static void add_kinds(KindSums sums[], const KindSums parts[])
@@ -193,7 +208,9 @@ static void add_sums(CellSums *sums, const CellSums *more)
 bool cell_sums_make(CellSums *sums, const Adaptive *adaptive, Error *error)
 {
     const RefineTree *tree = &adaptive->tree;
-    Summing summing = {.tree = tree, .row_tasks = tasks_of(tree->height, ROWS_OF_TASK)};
+    Summing summing = {.tree = tree,
+                       .thin_parts = &adaptive->thin_parts,
+                       .row_tasks = tasks_of(tree->height, ROWS_OF_TASK)};
     const uint32_t tasks = summing.row_tasks + tasks_of(tree->groups.count - 1, GROUPS_OF_TASK);
     *sums = (CellSums){.pixels = (double)tree->width * tree->height};
     summing.parts = memory_zeroed(tasks, sizeof *summing.parts, error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A disk holds the middle of some cell once the cells' diagonal is no longer than its diameter.  At
-// the last level that is a hundredth of a pixel; what is smaller may still be missed.
+// the last level that is a 57th of a pixel; what is smaller may still be missed.
 #include "render/footprint.h"
 
 #include "base/vec.h"
@@ -76,7 +76,7 @@ static int compare(const void *a, const void *b)
 bool footprints_make(Footprints *footprints, const FrameData *frame, const SphereData *spheres,
                      Error *error)
 {
-    *footprints = (Footprints){0};
+    *footprints = (Footprints){.width = frame->width};
     for (uint32_t i = 0; i < frame->sphere_count; i++)
         if (!add_sphere(footprints, frame, &spheres[i], error)) {
             footprints_free(footprints);
@@ -94,6 +94,15 @@ void footprints_free(Footprints *footprints)
     *footprints = (Footprints){0};
 }
 
+// Whether a cell, of that side and with that middle, must be cut for a sphere to be met.
+static bool cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t side)
+{
+    const double reach = side / 2.0 + footprint->outer;
+    return footprint->inner < HALF_DIAGONAL * side &&
+           fabs((double)footprint->x - middle[0]) <= reach &&
+           fabs((double)footprint->y - middle[1]) <= reach;
+}
+
 // The first that is not before the pixel.
 static const Footprint *first_of(const Footprints *footprints, uint32_t pixel)
 {
@@ -108,16 +117,18 @@ static const Footprint *first_of(const Footprints *footprints, uint32_t pixel)
     return footprints->list.data + low;
 }
 
-void footprints_of_pixel(const Footprints *footprints, uint32_t pixel, const Footprint *range[2])
+unsigned footprints_marks(const Footprints *footprints, const CellGroup *group)
 {
-    range[0] = first_of(footprints, pixel);
-    range[1] = first_of(footprints, pixel + 1);
-}
-
-bool footprint_cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t side)
-{
-    const double reach = side / 2.0 + footprint->outer;
-    return footprint->inner < HALF_DIAGONAL * side &&
-           fabs((double)footprint->x - middle[0]) <= reach &&
-           fabs((double)footprint->y - middle[1]) <= reach;
+    const uint32_t side = refine_tree_cell_side(group->level);
+    const uint32_t pixel = group->y / REFINE_GRID * footprints->width + group->x / REFINE_GRID;
+    const Footprint *end = first_of(footprints, pixel + 1);
+    unsigned marks = 0;
+    for (const Footprint *footprint = first_of(footprints, pixel); footprint < end; footprint++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+            uint32_t middle[2];
+            refine_tree_cell_place(group, cell, middle);
+            if (group->groups[cell] == 0 && cuts(footprint, middle, side))
+                marks |= 1u << cell;
+        }
+    return marks;
 }

@@ -14,6 +14,7 @@ typedef struct {
 
 typedef struct {
     ARRAY(Footprint) list; // in the order of the pixels
+    uint32_t width;        // of the picture
 } Footprints;
 
 // Projects the spheres that may lie between the samples of neighboring pixels.  The frame's camera
@@ -22,8 +23,5 @@ bool footprints_make(Footprints *footprints, const FrameData *frame, const Spher
                      Error *error);
 void footprints_free(Footprints *footprints);
 
-// Those in a pixel: the first, and one past the last.
-void footprints_of_pixel(const Footprints *footprints, uint32_t pixel, const Footprint *range[2]);
-
-// Whether a cell, of that side and with that middle, must be cut for a sphere to be met.
-bool footprint_cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t side);
+// The cells of a group that must be cut for spheres to be met: a bit for each.
+unsigned footprints_marks(const Footprints *footprints, const CellGroup *group);

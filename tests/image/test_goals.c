@@ -55,7 +55,7 @@ static uint32_t side_that_holds(const PictureRequest *request, double goal,
     }
 }
 
-static void errors_asked_for_are_held_in_95_percent_of_pictures(void **state)
+static void errors_asked_for_are_held_but_for_one_of_forty(void **state)
 {
     (void)state;
     unsigned held = 0;
@@ -73,7 +73,7 @@ static void errors_asked_for_are_held_in_95_percent_of_pictures(void **state)
         }
         framebuffer_free(&reference);
     }
-    assert_true(100 * held >= 95 * PICTURE_COUNT * GOAL_COUNT);
+    assert_true(held + 1 >= PICTURE_COUNT * GOAL_COUNT);
     for (size_t goal = 0; goal < GOAL_COUNT; goal++) {
         print_message("%g: %.1f times fewer samples\n", goals[goal],
                       (double)uniform[goal] / (double)samples[goal]);
@@ -86,7 +86,7 @@ static void errors_asked_for_are_held_in_95_percent_of_pictures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_asked_for_are_held_in_95_percent_of_pictures),
+        cmocka_unit_test(errors_asked_for_are_held_but_for_one_of_forty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

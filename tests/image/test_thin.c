@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// What of meshes is thinner than a pixel is seen where pictures are refined, at any contrast.
+#include "image/form.h"
+#include "image/rendered.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#define SIDE 181
+#define PI   3.14159265358979
+
+// A corner where a picture of SIDE x SIDE shows it: in pixels from the middle, right and up, seen
+// from 100 pixels' worth of depth units before the plane it is in.
+typedef struct {
+    double x, y;
+} Corner;
+
+typedef struct {
+    char scene[64], mesh[64];
+    Corner (*triangles)[3]; // counter-clockwise in front
+    int count, capacity;
+} Drawing;
+
+static void open_file(char path[64], const char *pattern, int suffix)
+{
+    snprintf(path, 64, "%s", pattern);
+    const int file = mkstemps(path, suffix);
+    assert_true(file >= 0);
+    close(file);
+}
+
+static Drawing drawing_of(int capacity)
+{
+    Drawing drawing = {.capacity = capacity};
+    drawing.triangles = calloc((size_t)capacity, sizeof *drawing.triangles);
+    assert_non_null(drawing.triangles);
+    open_file(drawing.scene, "/tmp/clrt-thin-XXXXXX.scn", 4);
+    open_file(drawing.mesh, "/tmp/clrt-thin-XXXXXX.ply", 4);
+    return drawing;
+}
+
+static void add_triangle(Drawing *drawing, Corner a, Corner b, Corner c)
+{
+    assert_true(drawing->count < drawing->capacity);
+    Corner *corners = drawing->triangles[drawing->count++];
+    corners[0] = a;
+    corners[1] = b;
+    corners[2] = c;
+}
+
+static void write_mesh(const Drawing *drawing)
+{
+    const double pixel = 2 * 100 * tan(PI / 6) / SIDE;
+    FILE *stream = fopen(drawing->mesh, "w");
+    assert_non_null(stream);
+    fprintf(stream,
+            "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
+            "property double z\nelement face %d\nproperty list uchar int vertex_indices\n"
+            "end_header\n",
+            3 * drawing->count, drawing->count);
+    for (int i = 0; i < 3 * drawing->count; i++) {
+        const Corner *corner = &drawing->triangles[i / 3][i % 3];
+        fprintf(stream, "%.12g 0 %.12g\n", corner->x * pixel, corner->y * pixel);
+    }
+    for (int i = 0; i < drawing->count; i++)
+        fprintf(stream, "3 %d %d %d\n", 3 * i, 3 * i + 1, 3 * i + 2);
+    assert_int_equal(fclose(stream), 0);
+}
+
+// What is drawn is of that lightness before black.
+static PictureRequest request_of(const Drawing *drawing, double light)
+{
+    write_mesh(drawing);
+    FILE *stream = fopen(drawing->scene, "w");
+    assert_non_null(stream);
+    fprintf(stream,
+            "background 0 0 0\ndefine it silhouette diffuse %g %g %g\nmaterial it\n"
+            "camera 0 -100 0 0 0 0 60\nply_file %s\n",
+            light, light, light, drawing->mesh + sizeof "/tmp");
+    assert_int_equal(fclose(stream), 0);
+    PictureRequest request = picture_request(drawing->scene, 1);
+    request.width = request.height = SIDE;
+    request.contrasts[0] = 0.04f;
+    return request;
+}
+
+static void drawing_free(Drawing *drawing)
+{
+    remove(drawing->scene);
+    remove(drawing->mesh);
+    free(drawing->triangles);
+}
+
+static Corner turned(Corner center, double radius, double angle)
+{
+    return (Corner){center.x + radius * cos(angle), center.y + radius * sin(angle)};
+}
+
+#define GRID 60
+
+static Corner middle_of(int column, int row)
+{
+    return (Corner){3.013 * (column - GRID / 2) + 0.5, 2.971 * (row - GRID / 2) + 1.5};
+}
+
+// Each keeps a distance of about three pixels from the next.  Half are slivers, whose inner disks
+// are a third of their radius across.  Returns the area.
+static double add_grid(Drawing *drawing)
+{
+    static const double radii[] = {0.6, 0.4, 0.2, 0.1, 0.07, 0.05};
+    double area = 0;
+    for (int row = 0; row < GRID; row++)
+        for (int column = 0; column < GRID; column++) {
+            const double angle = row + 2.7 * column, radius = radii[(7 * row + column) % 6];
+            const double spread = (row + column) % 2 == 0 ? 2 * PI / 3 : PI - 0.2;
+            const Corner center = middle_of(column, row);
+            const Corner a = turned(center, radius, angle),
+                         b = turned(center, radius, angle + spread),
+                         c = turned(center, radius, angle + 2 * PI - spread);
+            add_triangle(drawing, a, b, c);
+            area += ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+        }
+    return area;
+}
+
+static double light_around(const Framebuffer *picture, Corner center)
+{
+    const int column = (int)(SIDE / 2.0 + center.x), row = (int)(SIDE / 2.0 - center.y);
+    double light = 0;
+    for (int y = row - 1; y <= row + 1; y++)
+        for (int x = column - 1; x <= column + 1; x++)
+            light += (double)picture->pixels[y * SIDE + x][0];
+    return light;
+}
+
+static void thousands_of_triangles_smaller_than_pixels_are_all_seen(void **state)
+{
+    (void)state;
+    Drawing drawing = drawing_of(GRID * GRID);
+    const double area = add_grid(&drawing);
+    const PictureRequest request = request_of(&drawing, 1);
+    Framebuffer picture = rendered(&request);
+    double sum = 0;
+    int seen = 0;
+    for (int row = 0; row < GRID; row++)
+        for (int column = 0; column < GRID; column++) {
+            const double light = light_around(&picture, middle_of(column, row));
+            sum += light;
+            seen += light > 0;
+        }
+    assert_int_equal(seen, GRID * GRID);
+    assert_true(fabs(sum / area - 1) < 0.05);
+    framebuffer_free(&picture);
+    drawing_free(&drawing);
+}
+
+// A strip across the picture, of two triangles.
+static void add_cable(Drawing *drawing, Corner from, Corner to, double thickness)
+{
+    const double x = to.x - from.x, y = to.y - from.y;
+    const double part = thickness / 2 / sqrt(x * x + y * y);
+    const Corner corners[4] = {{from.x + part * y, from.y - part * x},
+                               {to.x + part * y, to.y - part * x},
+                               {to.x - part * y, to.y + part * x},
+                               {from.x - part * y, from.y + part * x}};
+    add_triangle(drawing, corners[0], corners[1], corners[2]);
+    add_triangle(drawing, corners[0], corners[2], corners[3]);
+}
+
+static void expect_unbroken(double light, double from, double to)
+{
+    Drawing drawing = drawing_of(2);
+    const double length = SIDE + 20, slope = (to - from) / length;
+    add_cable(&drawing, (Corner){-length / 2, from}, (Corner){length / 2, to}, 0.1);
+    const PictureRequest request = request_of(&drawing, light);
+    Framebuffer picture = rendered(&request);
+    const double expected = 0.1 * sqrt(1 + slope * slope) * light;
+    for (int x = 0; x < SIDE; x++) {
+        double sum = 0;
+        for (int y = 0; y < SIDE; y++)
+            sum += (double)picture.pixels[y * SIDE + x][0];
+        if (fabs(sum / expected - 1) > 0.35)
+            fail_msg("column %d has %g of the light", x, sum / expected);
+    }
+    framebuffer_free(&picture);
+    drawing_free(&drawing);
+}
+
+static void a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line(void **state)
+{
+    (void)state;
+    expect_unbroken(1, -40, 55);
+    expect_unbroken(0.02, -40, 55); // a contrast too low to be looked for
+    expect_unbroken(0.02, 7.3, 7.3);
+}
+
+static void backs_of_one_sided_triangles_take_no_samples(void **state)
+{
+    (void)state;
+    uint64_t samples;
+    Drawing drawing = drawing_of(GRID * GRID);
+    add_grid(&drawing);
+    for (int i = 0; i < drawing.count; i++) {
+        const Corner first = drawing.triangles[i][0];
+        drawing.triangles[i][0] = drawing.triangles[i][1];
+        drawing.triangles[i][1] = first;
+    }
+    PictureRequest request = request_of(&drawing, 1);
+    request.sample_count = &samples;
+    Framebuffer picture = rendered(&request);
+    assert_int_equal(samples, SIDE * SIDE);
+    framebuffer_free(&picture);
+    drawing_free(&drawing);
+}
+
+#define FINE 400
+
+// A wall of triangles that are all smaller than pixels.
+static void add_wall(Drawing *drawing, double width)
+{
+    const double step = width / FINE;
+    for (int row = 0; row < FINE; row++)
+        for (int column = 0; column < FINE; column++) {
+            const double x = -width / 2 + column * step, y = -width / 2 + row * step;
+            const Corner a = {x, y}, b = {x + step, y}, c = {x + step, y + step}, d = {x, y + step};
+            add_triangle(drawing, a, b, c);
+            add_triangle(drawing, a, c, d);
+        }
+}
+
+static uint64_t samples_of(Drawing *drawing)
+{
+    uint64_t samples;
+    PictureRequest request = request_of(drawing, 1);
+    request.sample_count = &samples;
+    Framebuffer picture = rendered(&request);
+    framebuffer_free(&picture);
+    drawing_free(drawing);
+    return samples;
+}
+
+static void a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one(void **state)
+{
+    (void)state;
+    const double half = 60.3;
+    Drawing fine = drawing_of(2 * FINE * FINE), plain = drawing_of(2);
+    add_wall(&fine, 2 * half);
+    add_triangle(&plain, (Corner){-half, -half}, (Corner){half, -half}, (Corner){half, half});
+    add_triangle(&plain, (Corner){-half, -half}, (Corner){half, half}, (Corner){-half, half});
+    assert_int_equal(samples_of(&fine), samples_of(&plain));
+}
+
+static void every_form_and_any_threads_find_the_same(void **state)
+{
+    (void)state;
+    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
+    Drawing drawing = drawing_of(GRID * GRID + 2);
+    add_grid(&drawing);
+    add_cable(&drawing, (Corner){-80, -40.1}, (Corner){80, 33}, 0.06);
+    PictureRequest usual = request_of(&drawing, 0.5);
+    Framebuffer first = rendered(&usual);
+    for (uint32_t i = 0; i < 6; i++) {
+        PictureRequest other = usual;
+        other.threads = i;
+        other.choice = choices[i % 2];
+        other.group_width = other.group_height = form_group(&other.choice);
+        Framebuffer second = rendered(&other);
+        assert_memory_equal(first.pixels, second.pixels, SIDE * SIDE * sizeof *first.pixels);
+        framebuffer_free(&second);
+    }
+    framebuffer_free(&first);
+    drawing_free(&drawing);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thousands_of_triangles_smaller_than_pixels_are_all_seen),
+        cmocka_unit_test(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line),
+        cmocka_unit_test(backs_of_one_sided_triangles_take_no_samples),
+        cmocka_unit_test(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one),
+        cmocka_unit_test(every_form_and_any_threads_find_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

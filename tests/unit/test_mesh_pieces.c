@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Pieces of meshes, whoever shares the work.
+#include "render/mesh_pieces.h"
+#include "unit/cmocka_all.h"
+
+#include <stdlib.h>
+
+static uint32_t random_below(uint64_t *state, uint32_t end)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(*state >> 33) % end;
+}
+
+static Mesh mesh_of(uint32_t vertices, uint32_t triangles)
+{
+    Mesh mesh = {.vertex_count = vertices, .triangle_count = triangles};
+    mesh.triangles = calloc(triangles, sizeof *mesh.triangles);
+    assert_non_null(mesh.triangles);
+    return mesh;
+}
+
+static MeshPieces pieces_of(const Mesh *mesh, Crew *crew)
+{
+    Error error;
+    MeshPieces pieces;
+    assert_true(mesh_pieces_make(&pieces, mesh, crew, &error));
+    return pieces;
+}
+
+// A band of triangles, each of which shares two vertices with the next.
+static void fill_band(Mesh *mesh, uint32_t first, uint32_t end, uint32_t vertex)
+{
+    for (uint32_t i = first; i < end; i++)
+        for (uint32_t corner = 0; corner < 3; corner++)
+            mesh->triangles[i][corner] = vertex + i - first + corner;
+}
+
+static void a_mesh_of_one_piece_keeps_its_order(void **state)
+{
+    (void)state;
+    Mesh mesh = mesh_of(1002, 1000);
+    fill_band(&mesh, 0, 1000, 0);
+    MeshPieces pieces = pieces_of(&mesh, NULL);
+    assert_int_equal(pieces.count, 1);
+    assert_int_equal(pieces.ends[0], 1000);
+    assert_null(pieces.order);
+    mesh_pieces_free(&pieces);
+    free(mesh.triangles);
+}
+
+// By going through all triangles until nothing changes.
+static void find_lowest(const Mesh *mesh, uint32_t *lowest)
+{
+    bool changes = true;
+    for (uint32_t vertex = 0; vertex < mesh->vertex_count; vertex++)
+        lowest[vertex] = vertex;
+    while (changes) {
+        changes = false;
+        for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++) {
+            const uint32_t *corners = mesh->triangles[i / 3];
+            const uint32_t one = corners[i % 3], other = corners[(i + 1) % 3];
+            const uint32_t least = lowest[one] < lowest[other] ? lowest[one] : lowest[other];
+            changes |= lowest[one] != least || lowest[other] != least;
+            lowest[one] = lowest[other] = least;
+        }
+    }
+}
+
+static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint32_t *lowest)
+{
+    uint32_t first = 0, last_lowest = 0;
+    for (uint32_t piece = 0; piece < pieces->count; piece++) {
+        const uint32_t of_piece = lowest[mesh->triangles[pieces->order[first]][0]];
+        assert_true(pieces->ends[piece] > first);
+        assert_true(piece == 0 || of_piece > last_lowest);
+        for (uint32_t i = first; i < pieces->ends[piece]; i++) {
+            assert_int_equal(lowest[mesh->triangles[pieces->order[i]][0]], of_piece);
+            assert_true(i == first || pieces->order[i] > pieces->order[i - 1]);
+        }
+        last_lowest = of_piece;
+        first = pieces->ends[piece];
+    }
+    assert_int_equal(first, mesh->triangle_count);
+}
+
+#define VERTICES  40000
+#define TRIANGLES 60000
+
+// Triangles at random, each in a stretch of a thousand vertices.
+static void pieces_are_what_shared_vertices_join(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    Mesh mesh = mesh_of(VERTICES, TRIANGLES);
+    for (uint32_t i = 0; i < TRIANGLES; i++) {
+        const uint32_t stretch = 1000 * random_below(&random, VERTICES / 1000);
+        for (int corner = 0; corner < 3; corner++)
+            mesh.triangles[i][corner] = stretch + random_below(&random, 1000);
+    }
+    static uint32_t lowest[VERTICES];
+    find_lowest(&mesh, lowest);
+    for (uint32_t threads = 1; threads <= 4; threads++) {
+        Crew *crew = crew_open(threads);
+        MeshPieces pieces = pieces_of(&mesh, crew);
+        expect_pieces(&mesh, &pieces, lowest);
+        mesh_pieces_free(&pieces);
+        crew_close(crew);
+    }
+    free(mesh.triangles);
+}
+
+static void small_pieces_are_one_before_the_larger(void **state)
+{
+    (void)state;
+    const uint32_t small = 30, band = PIECE_TRIANGLES;
+    Mesh mesh = mesh_of(3 * small + band + 2, small + band);
+    fill_band(&mesh, 0, band, 0);
+    for (uint32_t i = 0; i < small; i++)
+        fill_band(&mesh, band + i, band + i + 1, band + 2 + 3 * i);
+    MeshPieces pieces = pieces_of(&mesh, NULL);
+    assert_int_equal(pieces.count, 2);
+    assert_int_equal(pieces.ends[0], small);
+    assert_int_equal(pieces.order[0], band);
+    assert_int_equal(pieces.ends[1], small + band);
+    mesh_pieces_free(&pieces);
+    free(mesh.triangles);
+}
+
+static void no_triangles_are_no_pieces(void **state)
+{
+    (void)state;
+    const Mesh mesh = {0};
+    MeshPieces pieces = pieces_of(&mesh, NULL);
+    assert_int_equal(pieces.count, 0);
+    mesh_pieces_free(&pieces);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mesh_of_one_piece_keeps_its_order),
+        cmocka_unit_test(pieces_are_what_shared_vertices_join),
+        cmocka_unit_test(small_pieces_are_one_before_the_larger),
+        cmocka_unit_test(no_triangles_are_no_pieces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Which cells a convex outline touches and samples, judged cell by cell.
+#include "render/outline.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+
+#define TRIALS 3000
+#define GRID   12
+
+static double random_number(uint64_t *state, double low, double high)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
+}
+
+static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};
+
+// Some reach beyond the grid, some are slivers.
+static Outline random_triangle(uint64_t *state)
+{
+    Outline outline = {.count = 3};
+    const double size = random_number(state, 1, 200);
+    const double x = random_number(state, -50, 400), y = random_number(state, -50, 400);
+    const double flat = random_number(state, 0, 1) < 0.5 ? 0.02 : 1;
+    for (int i = 0; i < 3; i++) {
+        const double across = size * random_number(state, -1, 1);
+        outline.corners[i][0] = x + across;
+        outline.corners[i][1] = y + across + flat * size * random_number(state, -1, 1);
+    }
+    outline_complete(&outline);
+    return outline;
+}
+
+static double side_of(const double from[2], const double to[2], double x, double y)
+{
+    return (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (x - from[0]);
+}
+
+static bool holds(const Outline *outline, double x, double y)
+{
+    int left = 0;
+    for (uint32_t i = 0; i < 3; i++)
+        left += side_of(outline->corners[i], outline->corners[(i + 1) % 3], x, y) >= 0;
+    return left == 0 || left == 3;
+}
+
+// Whether all corners of a square lie beyond a side that all of the triangle is this side of.
+static bool parted_by(const Outline *outline, uint32_t i, double x, double y, double size)
+{
+    const double *from = outline->corners[i], *to = outline->corners[(i + 1) % 3];
+    const double *third = outline->corners[(i + 2) % 3];
+    const double sign = side_of(from, to, third[0], third[1]) > 0 ? 1 : -1;
+    bool parted = true;
+    for (int corner = 0; corner < 4; corner++)
+        parted = parted &&
+                 sign * side_of(from, to, x + size * (corner % 2), y + size * (corner / 2)) < 0;
+    return parted;
+}
+
+static bool meets_square(const Outline *outline, double x, double y, double size)
+{
+    const OutlineBox *box = &outline->box;
+    bool meets = box->low[0] <= x + size && box->high[0] >= x && box->low[1] <= y + size &&
+                 box->high[1] >= y;
+    for (uint32_t i = 0; i < 3; i++)
+        meets = meets && !parted_by(outline, i, x, y, size);
+    return meets;
+}
+
+static bool is_in(CellRange range, uint32_t number)
+{
+    return number >= range.first && number < range.end;
+}
+
+static void exactly_the_cells_that_it_meets_are_touched(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const Outline outline = random_triangle(&random);
+        const CellRange rows = box_touched(&outline.box, &grid, 1);
+        for (uint32_t row = 0; row < grid.counts[1]; row++) {
+            const CellRange columns = outline_touched(&outline, &grid, row);
+            for (uint32_t column = 0; column < grid.counts[0]; column++)
+                assert_int_equal(
+                    is_in(rows, row) && is_in(columns, column),
+                    meets_square(&outline, column * grid.side, row * grid.side, grid.side));
+        }
+    }
+}
+
+static void exactly_the_samples_that_it_holds_are_sampled(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const Outline outline = random_triangle(&random);
+        const CellRange rows = box_sampled(&outline.box, &grid, 1);
+        for (uint32_t row = 0; row < grid.counts[1]; row++) {
+            const CellRange columns = outline_sampled(&outline, &grid, row);
+            for (uint32_t column = 0; column < grid.counts[0]; column++)
+                assert_int_equal(
+                    is_in(rows, row) && is_in(columns, column),
+                    holds(&outline, (column + 0.5) * grid.side, (row + 0.5) * grid.side));
+        }
+    }
+}
+
+static void a_triangle_is_as_thick_as_its_inner_disk(void **state)
+{
+    (void)state;
+    Outline outline = {.count = 3, .corners = {{0, 0}, {30, 0}, {0, 40}}};
+    outline_complete(&outline);
+    assert_true(outline_is_thinner(&outline, 20.001));
+    assert_false(outline_is_thinner(&outline, 19.999));
+}
+
+static void a_polygon_is_never_said_to_be_thicker_than_it_is(void **state)
+{
+    (void)state;
+    Outline strip = {.count = 4, .corners = {{0, 0}, {300, 400}, {292, 406}, {-8, 6}}};
+    outline_complete(&strip);
+    assert_true(outline_is_thinner(&strip, 10.001));
+    assert_false(outline_is_thinner(&strip, 5));
+}
+
+static void corners_counter_clockwise_as_seen_give_a_negative_area(void **state)
+{
+    (void)state;
+    const Outline outline = {.count = 4, .corners = {{0, 0}, {0, 5}, {7, 5}, {7, 0}}};
+    assert_true(outline_signed_area(&outline) == -70);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exactly_the_cells_that_it_meets_are_touched),
+        cmocka_unit_test(exactly_the_samples_that_it_holds_are_sampled),
+        cmocka_unit_test(a_triangle_is_as_thick_as_its_inner_disk),
+        cmocka_unit_test(a_polygon_is_never_said_to_be_thicker_than_it_is),
+        cmocka_unit_test(corners_counter_clockwise_as_seen_give_a_negative_area),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

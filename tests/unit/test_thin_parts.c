@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// Which cells are cut for thin triangles, where those are hard to project or too many.
+#include "render/mesh_pieces.h"
+#include "render/thin_parts.h"
+#include "scene/camera.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIDE  120
+#define FOCUS 100.0 // pixels at a distance of one
+#define PI    3.14159265358979
+
+// The eye is at the origin and looks along y, with z up: a point appears FOCUS * x / y pixels right
+// of the middle.
+typedef struct {
+    double (*positions)[3];
+    uint32_t (*triangles)[3];
+    MeshObject object;
+    Scene scene;
+    Normalization normalization;
+    FrameData frame;
+    ThinParts parts;
+} World;
+
+static void open_world(World *world, size_t triangles)
+{
+    *world = (World){0};
+    world->positions = calloc(3 * triangles, sizeof *world->positions);
+    world->triangles = calloc(triangles, sizeof *world->triangles);
+    assert_non_null(world->positions);
+    assert_non_null(world->triangles);
+}
+
+static void add_triangle(World *world, Vec3 a, Vec3 b, Vec3 c)
+{
+    const Vec3 corners[3] = {a, b, c};
+    Mesh *mesh = &world->object.mesh;
+    for (int i = 0; i < 3; i++) {
+        double *position = world->positions[mesh->vertex_count];
+        position[0] = corners[i].x;
+        position[1] = corners[i].y;
+        position[2] = corners[i].z;
+        world->triangles[mesh->triangle_count][i] = (uint32_t)mesh->vertex_count++;
+    }
+    mesh->triangle_count++;
+}
+
+static void search(World *world, uint32_t threads)
+{
+    const Viewpoint viewpoint = {
+        {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2 * atan(SIDE / 2 / FOCUS) * 180 / PI};
+    world->object.mesh.positions = world->positions;
+    world->object.mesh.triangles = world->triangles;
+    world->scene.objects.data = &world->object;
+    world->scene.objects.count = 1;
+    world->normalization = normalization_of(&world->scene);
+    world->frame = (FrameData){.width = SIDE, .height = SIDE, .max_level = 1};
+    world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, REFINE_GRID);
+    Crew *crew = crew_open(threads);
+    const ThinSource source = {&world->frame, &world->scene, &world->normalization, crew};
+    Error error;
+    assert_true(thin_parts_make(&world->parts, &source, &error));
+    crew_close(crew);
+}
+
+static void close_world(World *world)
+{
+    thin_parts_free(&world->parts);
+    free(world->positions);
+    free(world->triangles);
+}
+
+static bool is_cut(const World *world, uint32_t column, uint32_t row, uint32_t level)
+{
+    const uint32_t side = refine_tree_cell_side(level);
+    const uint32_t place[2] = {column * side + side / 2, row * side + side / 2};
+    return thin_parts_cut(&world->parts, place, level);
+}
+
+static uint64_t count_cuts(const World *world, uint32_t level)
+{
+    uint64_t count = 0;
+    const uint32_t cells = SIDE * REFINE_GRID / refine_tree_cell_side(level);
+    for (uint32_t row = 0; row < cells; row++)
+        for (uint32_t column = 0; column < cells; column++)
+            count += is_cut(world, column, row, level);
+    return count;
+}
+
+static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
+{
+    World world;
+    open_world(&world, 1);
+    world.object.two_sided = two_sided;
+    add_triangle(&world, a, b, c);
+    search(&world, 1);
+    const uint64_t count = count_cuts(&world, 0);
+    close_world(&world);
+    return count;
+}
+
+// A point that appears at that place, in pixels from the upper left corner.
+static Vec3 point_at(double x, double y, double depth)
+{
+    return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
+}
+
+static void a_small_triangle_is_cut_where_it_appears_down_to_its_size(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 1);
+    add_triangle(&world, point_at(40.1, 70.9, 5), point_at(40.4, 70.8, 6), point_at(40.3, 70.7, 7));
+    search(&world, 1);
+    assert_true(is_cut(&world, 40, 70, 0));
+    assert_true(is_cut(&world, 40 * 3, 70 * 3 + 2, 1));
+    assert_false(is_cut(&world, 40 * 3, 70 * 3, 1));
+    assert_true(is_cut(&world, 40 * 9 + 2, 70 * 9 + 7, 2));
+    assert_int_equal(count_cuts(&world, 0), 1);
+    assert_int_equal(count_cuts(&world, 1), 2);
+    close_world(&world);
+}
+
+static void a_triangle_is_cut_from_either_side_only_if_it_has_two(void **state)
+{
+    (void)state;
+    const Vec3 a = point_at(40.1, 70.9, 5), b = point_at(40.4, 70.8, 6),
+               c = point_at(40.3, 70.7, 7);
+    assert_int_equal(cuts_of_triangle(a, b, c, false), 1);
+    assert_int_equal(cuts_of_triangle(a, c, b, false), 0);
+    assert_int_equal(cuts_of_triangle(a, c, b, true), 1);
+}
+
+static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
+{
+    (void)state;
+    assert_int_equal(cuts_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
+    assert_int_equal(cuts_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
+                     0);
+    assert_int_equal(cuts_of_triangle(vec3(9, 5, 0), vec3(9.01, 5, 0), vec3(9, 5, 0.01), true), 0);
+    assert_int_equal(cuts_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
+}
+
+// A path below the eye that begins far behind it appears from the picture's lower edge upward.
+static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(void **state)
+{
+    (void)state;
+    World world;
+    const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
+    open_world(&world, 2);
+    add_triangle(&world, vec3(side, -far, -1), vec3(side * 1.01, -far, -1), vec3(side, end, -1));
+    search(&world, 1);
+    for (uint32_t row = 0; row < SIDE; row++) {
+        bool cut = false;
+        for (uint32_t column = 0; column < SIDE; column++)
+            cut = cut || is_cut(&world, column, row, 0);
+        assert_int_equal(cut, row >= 70);
+    }
+    close_world(&world);
+}
+
+static void a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 1);
+    add_triangle(&world, vec3(0.005, 1, -1e9), vec3(0.006, 1, -1e9), vec3(0.0055, 1, 1e9));
+    search(&world, 1);
+    for (uint32_t row = 0; row < SIDE; row++)
+        assert_true(is_cut(&world, 60, row, 0));
+    assert_int_equal(count_cuts(&world, 0), SIDE);
+    close_world(&world);
+}
+
+// Across the picture in all directions.
+static void add_slivers(World *world, int count, double thickness)
+{
+    uint64_t random = 1;
+    for (int i = 0; i < count; i++) {
+        double numbers[2];
+        for (int k = 0; k < 2; k++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            numbers[k] = (double)(random >> 11) * 0x1p-53;
+        }
+        const double angle = PI * numbers[0], offset = SIDE * (numbers[1] - 0.5);
+        const double x = cos(angle), y = sin(angle), far = 2 * SIDE;
+        const double middle[2] = {SIDE / 2.0 - offset * y, SIDE / 2.0 + offset * x};
+        add_triangle(
+            world, point_at(middle[0] - far * x, middle[1] - far * y, 3),
+            point_at(middle[0] + far * x + thickness * y, middle[1] + far * y - thickness * x, 3),
+            point_at(middle[0] + far * x, middle[1] + far * y, 3));
+    }
+}
+
+static void too_many_slivers_take_no_more_samples_than_there_are(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 20000);
+    world.object.two_sided = true;
+    add_slivers(&world, 20000, 0.001);
+    search(&world, 2);
+    uint64_t samples = 0;
+    for (uint32_t level = 0; level < REFINE_LEVELS; level++)
+        samples += (GROUP_CELLS - 1) * count_cuts(&world, level);
+    assert_true(100 * count_cuts(&world, 0) > 99 * SIDE * SIDE);
+    assert_true(samples <= (uint64_t)THIN_SAMPLES * SIDE * SIDE);
+    close_world(&world);
+}
+
+static void any_threads_find_the_same_cells(void **state)
+{
+    (void)state;
+    World worlds[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        open_world(&worlds[i], 5000);
+        worlds[i].object.two_sided = true;
+        add_slivers(&worlds[i], 10, 0.3);
+        search(&worlds[i], i + 1);
+    }
+    for (uint32_t level = 0; level < REFINE_LEVELS; level++)
+        for (uint32_t row = 0; row < SIDE * REFINE_GRID / refine_tree_cell_side(level); row++)
+            for (uint32_t column = 0; column < SIDE * REFINE_GRID / refine_tree_cell_side(level);
+                 column++)
+                for (int i = 1; i < 4; i++)
+                    assert_int_equal(is_cut(&worlds[i], column, row, level),
+                                     is_cut(&worlds[0], column, row, level));
+    assert_true(count_cuts(&worlds[0], 2) > 0);
+    for (int i = 0; i < 4; i++)
+        close_world(&worlds[i]);
+}
+
+// Two triangles side by side that share no vertex.
+static void add_strip(World *world, double left, double right)
+{
+    add_triangle(world, point_at(left, 10.1, 4), point_at(left, 109.9, 4),
+                 point_at(right, 109.9, 4));
+    add_triangle(world, point_at(left, 10.1, 4), point_at(right, 109.9, 4),
+                 point_at(right, 10.1, 4));
+}
+
+static void a_wide_part_made_of_thin_ones_is_not_cut(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 400);
+    for (int i = 0; i < 200; i++)
+        add_strip(&world, 50 + 0.1 * i, 50 + 0.1 * (i + 1));
+    search(&world, 1);
+    assert_int_equal(count_cuts(&world, 0), 0);
+    close_world(&world);
+}
+
+// One that is a piece.
+static void add_joined_strip(World *world, double left, double right)
+{
+    Mesh *mesh = &world->object.mesh;
+    const uint32_t first = (uint32_t)mesh->vertex_count;
+    for (uint32_t i = 0; i <= PIECE_TRIANGLES / 2; i++) {
+        const double y = 10.1 + 99.8 * i / (PIECE_TRIANGLES / 2);
+        const Vec3 ends[2] = {point_at(left, y, 4), point_at(right, y, 4)};
+        for (int k = 0; k < 2; k++) {
+            double *position = world->positions[mesh->vertex_count++];
+            position[0] = ends[k].x;
+            position[1] = ends[k].y;
+            position[2] = ends[k].z;
+        }
+    }
+    for (uint32_t i = 0; i < PIECE_TRIANGLES; i++) {
+        const uint32_t corner = first + i / 2 * 2, odd = i % 2;
+        const uint32_t corners[3] = {corner, corner + 2 + odd, corner + 3 - 2 * odd};
+        memcpy(world->triangles[mesh->triangle_count++], corners, sizeof corners);
+    }
+}
+
+static void a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 2 * PIECE_TRIANGLES);
+    add_joined_strip(&world, 20, 90);
+    add_joined_strip(&world, 50.2, 50.5);
+    search(&world, 1);
+    for (uint32_t row = 0; row < SIDE; row++)
+        assert_int_equal(is_cut(&world, 50, row, 0), row >= 10 && row < 110);
+    close_world(&world);
+}
+
+// The broader strip holds samples of the cells, and is looked at first.
+static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels(void **state)
+{
+    (void)state;
+    World world;
+    open_world(&world, 2 * PIECE_TRIANGLES);
+    add_joined_strip(&world, 50.05, 50.95);
+    add_joined_strip(&world, 50.45, 50.55);
+    search(&world, 1);
+    for (uint32_t row = 30; row < 90; row++) {
+        assert_true(is_cut(&world, 3 * 50 + 1, 3 * row, 1));
+        assert_true(is_cut(&world, 9 * 50 + 4, 9 * row, 2));
+    }
+    close_world(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_small_triangle_is_cut_where_it_appears_down_to_its_size),
+        cmocka_unit_test(a_triangle_is_cut_from_either_side_only_if_it_has_two),
+        cmocka_unit_test(what_is_edge_on_behind_or_beside_is_not_cut),
+        cmocka_unit_test(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it),
+        cmocka_unit_test(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture),
+        cmocka_unit_test(too_many_slivers_take_no_more_samples_than_there_are),
+        cmocka_unit_test(any_threads_find_the_same_cells),
+        cmocka_unit_test(a_wide_part_made_of_thin_ones_is_not_cut),
+        cmocka_unit_test(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh),
+        cmocka_unit_test(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
