@@ -8,7 +8,7 @@
 #include <math.h>
 
 // What the estimate is multiplied by: measured, it is 0.9 to 1.4 of the error.
-#define MARGIN 1.12
+#define MARGIN 1.2
 
 // Contrasts in this relation to the error leave about that error; the threshold starts above.
 #define CONTRAST_OF_ERROR 60
