@@ -29,15 +29,11 @@ static inline void nearest_add(Nearest *nearest, const Candidate *candidate, uin
     }
 }
 
-// A shadow ray that this many triangles may block is given up: cones that wide see too much.
-#define DOUBTS_MOST 32
-
 typedef struct {
     const ThickRay *ray;
     Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
     Answer blocked; // a shadow ray
-    uint doubts;    // triangles that may block it
 } Search;
 
 // How much a box whose farthest corner is `far` away has to grow.
@@ -72,14 +68,17 @@ static inline Real search_reach(const Search *search)
     return min(search->nearest.high, search->nearest.other);
 }
 
-// Where the cone enters the box of a node's child, INFINITY where it does not before `reach`.
-static inline Real box_entry(const Search *search, global const BvhPair *node, uint child,
-                             Real reach)
+typedef struct {
+    Real low[3], high[3];
+} Box;
+
+// Where the cone enters a box, INFINITY where it does not before `reach`.
+static inline Real box_entry(const Search *search, const Box *box, Real reach)
 {
     Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
     for (uint axis = 0; axis < 3; axis++) {
-        low[axis] = node->planes[axis][0][child] - search->origin[axis];
-        high[axis] = node->planes[axis][1][child] - search->origin[axis];
+        low[axis] = box->low[axis] - search->origin[axis];
+        high[axis] = box->high[axis] - search->origin[axis];
         far += max(fabs(low[axis]), fabs(high[axis]));
     }
     const Real growth = growth_at(search->ray, far);
@@ -92,12 +91,37 @@ static inline Real box_entry(const Search *search, global const BvhPair *node, u
     return enter <= leave && low[0] <= high[0] ? enter : INFINITY;
 }
 
+static inline Real child_entry(const Search *search, global const BvhPair *node, uint child,
+                               Real reach)
+{
+    Box box;
+    for (uint axis = 0; axis < 3; axis++) {
+        box.low[axis] = node->planes[axis][0][child];
+        box.high[axis] = node->planes[axis][1][child];
+    }
+    return box_entry(search, &box, reach);
+}
+
+// Its own box is asked before a triangle is: what the cone passes by is then no matter of the boxes
+// that a tree has around it, and every tree finds the same.
+static inline Real triangle_entry(const Search *search, global const TriangleData *triangle,
+                                  Real reach)
+{
+    Box box;
+    for (uint axis = 0; axis < 3; axis++) {
+        const Real a = triangle->a[axis], b = triangle->b[axis], c = triangle->c[axis];
+        box.low[axis] = min(min(a, b), c);
+        box.high[axis] = max(max(a, b), c);
+    }
+    return box_entry(search, &box, reach);
+}
+
 static inline void wait_for_cone(const SceneView *scene, const Search *search, uint node,
                                  Waiting *waiting)
 {
     const Real reach = search_reach(search);
-    const Real first = box_entry(search, &scene->nodes[node], 0, reach);
-    const Real second = box_entry(search, &scene->nodes[node], 1, reach);
+    const Real first = child_entry(search, &scene->nodes[node], 0, reach);
+    const Real second = child_entry(search, &scene->nodes[node], 1, reach);
     const bool second_nearer = second < first;
     if (!second_nearer && second < INFINITY)
         wait_for_child(waiting, 2 * node + 1, second);
@@ -111,18 +135,18 @@ static inline void search_leaf(const SceneView *scene, Search *search, uint2 ran
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &scene->triangles[index];
+        if (!(triangle_entry(search, triangle, search_reach(search)) < INFINITY))
+            continue;
         const Candidate candidate = triangle_candidate(search->ray, triangle);
         if (search->ray->kind != RAY_SHADOW)
             nearest_add(&search->nearest, &candidate, triangle->id, index);
         search->blocked = max(search->blocked, candidate.met);
-        search->doubts += candidate.met == ANSWER_UNKNOWN;
     }
 }
 
 static inline bool search_is_over(const Search *search)
 {
-    return search->ray->kind == RAY_SHADOW &&
-           (search->blocked == ANSWER_YES || search->doubts > DOUBTS_MOST);
+    return search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
 }
 
 static void search_triangles(const SceneView *scene, Search *search)
