@@ -164,6 +164,14 @@ static void add_cells(const Summing *summing, const CellGroup *group, CellSums *
     }
 }
 
+// Whether the cell that the seam passes in is cut: then the group within tells of the step.
+static bool is_cut(const CellGroup *group, const Seam *seam)
+{
+    const uint32_t along = (seam->low + seam->high) / 2u / seam->side;
+    const uint32_t first = seam->stride == 1 ? GROUP_SIDE * seam->line : seam->line;
+    return group->groups[first + (along < GROUP_SIDE ? along : GROUP_SIDE - 1) * seam->stride] != 0;
+}
+
 static void sum_groups(const Summing *summing, uint32_t task, CellSums *sums)
 {
     const RefineTree *tree = summing->tree;
@@ -172,7 +180,8 @@ static void sum_groups(const Summing *summing, uint32_t task, CellSums *sums)
         const CellGroup *group = &tree->groups.data[i + 1];
         add_cells(summing, group, sums);
         for (uint32_t seam = group->seams; seam != 0; seam = tree->seams.data[seam].next)
-            add_seam(&tree->seams.data[seam], sums);
+            if (!is_cut(group, &tree->seams.data[seam]))
+                add_seam(&tree->seams.data[seam], sums);
     }
 }
 
