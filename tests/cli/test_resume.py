@@ -242,6 +242,7 @@ class Refusals(Resume):
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
+        process.send_signal(signal.SIGSTOP)  # or it might be done before the other begins
         self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
                          f"clrt: {NAME}.part: another process draws this picture\n")
         process.kill()
