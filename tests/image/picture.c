@@ -108,8 +108,8 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
     Adaptive adaptive;
     const PictureRequest *request = pipeline->request;
     Crew *crew = crew_open(request->threads);
-    const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat,  camera,
-                                 crew,                &pipeline->scene, &pipeline->normalization};
+    const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat,         camera, crew,
+                                 &pipeline->scene,    &pipeline->normalization};
     const bool ok =
         adaptive_open(&adaptive, &setup, NULL, error) && refine(&adaptive, request, error);
     if (ok)
