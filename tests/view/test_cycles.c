@@ -19,8 +19,9 @@
 
 static Cache cache;
 
-// Drivers stay loaded, so that the sanitizer can tell whose a block is.
-int dlclose(void *handle)
+// Drivers stay loaded, so that the sanitizer can tell whose a block is.  They find this function
+// only where it is exported.
+__attribute__((visibility("default"))) int dlclose(void *handle)
 {
     (void)handle;
     return 0;
