@@ -112,6 +112,19 @@ class Installed(unittest.TestCase):
         self.build_by_pkg_config(program, "-std=c99", *STRICT)
         self.assertEqual(run(program, env=self.environment), self.expected)
 
+    # PoCL cannot make a folder in /proc, not even as root.
+    def test_where_no_cache_can_be_written_the_variable_that_helps_is_named(self):
+        program = self.work / "without-cache"
+        self.build_by_pkg_config(program)
+        hidden = ("POCL_CACHE_DIR", "XDG_CACHE_HOME")
+        environment = {k: v for k, v in self.environment.items() if k not in hidden}
+        environment["HOME"] = "/proc"
+        failed = subprocess.run([program], capture_output=True, env=environment)
+        self.assertNotEqual(failed.returncode, 0)
+        self.assertIn(b"POCL_CACHE_DIR names a folder", failed.stderr)
+        environment["POCL_CACHE_DIR"] = str(self.work / "cache")
+        self.assertEqual(run(program, env=environment), self.expected)
+
     def test_cmake_builds_the_example_and_its_picture_is_the_programs(self):
         source, build = self.work / "source", self.work / "build"
         source.mkdir()
