@@ -21,8 +21,11 @@ static void limit(int resource, rlim_t most)
     setrlimit((__rlimit_resource_t)resource, &both);
 }
 
-// Sanitizers map more than any limit could allow.
-#ifdef __SANITIZE_ADDRESS__
+// Sanitizers map more than any limit could allow.  gcc tells of them by a macro, clang otherwise.
+#ifndef __has_feature
+#define __has_feature(name) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
 static void limit_memory(void)
 {
 }

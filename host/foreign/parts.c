@@ -134,6 +134,15 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh, const
     }
 }
 
+// What Assimp lets pass would be another part's vertex.
+static bool is_within(const struct aiFace *face, size_t vertex_count)
+{
+    for (size_t corner = 0; corner < face->mNumIndices; corner++)
+        if (face->mIndices[corner] >= vertex_count)
+            return false;
+    return true;
+}
+
 static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mirror)
 {
     const uint32_t base = (uint32_t)sender->part.mesh.vertex_count;
@@ -143,6 +152,8 @@ static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mir
             sender->counts->others++;
             continue;
         }
+        if (!is_within(face, mesh->mNumVertices))
+            return error_set(sender->error, "a face of it names a vertex that is not there");
         if (!array_reserve(&sender->triangles.memory, &sender->triangles.capacity,
                            sender->triangles.count + 1, sizeof(Triangle), sender->error))
             return false;
@@ -229,9 +240,12 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
 static bool add_node(Sender *sender, const struct aiNode *node, const Placement *above)
 {
     const Placement placement = placement_below(above, &node->mTransformation);
-    for (size_t i = 0; i < node->mNumMeshes; i++)
+    for (size_t i = 0; i < node->mNumMeshes; i++) {
+        if (node->mMeshes[i] >= sender->scene->mNumMeshes)
+            return error_set(sender->error, "a node of it names a mesh that is not there");
         if (!add_mesh(sender, sender->scene->mMeshes[node->mMeshes[i]], &placement))
             return false;
+    }
     for (size_t i = 0; i < node->mNumChildren; i++)
         if (!add_node(sender, node->mChildren[i], &placement))
             return false;
@@ -248,9 +262,11 @@ bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, P
                      .part = {.material = FOREIGN_NO_MATERIAL},
                      .error = error};
     *counts = (PartCounts){0};
+    if (scene->mRootNode == NULL)
+        return true;
     sender.numbers = memory_zeroed(scene->mNumMaterials, sizeof *sender.numbers, error);
-    const bool ok = sender.numbers != NULL && scene->mRootNode != NULL &&
-                    add_node(&sender, scene->mRootNode, &identity) && send_part_so_far(&sender);
+    const bool ok = sender.numbers != NULL && add_node(&sender, scene->mRootNode, &identity) &&
+                    send_part_so_far(&sender);
     mesh_free(&sender.part.mesh);
     free(sender.triangles.memory);
     free(sender.numbers);

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 # One mesh in several formats, written from Python's numbers: each function returns a file's bytes.
+import io
 import json
 import math
 import struct
+import zipfile
 
 
 def rounded(value):
@@ -152,3 +154,21 @@ def glb(points, triangles, normals=None, node=None, change=None):
         + struct.pack("<I4s", len(body), b"BIN\0")
         + body
     )
+
+
+# With the number of its last corner to be filled in.
+THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="model"><mesh>
+<vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
+</vertices><triangles><triangle v1="0" v2="1" v3="%d"/></triangles></mesh></object></resources>
+<build><item objectid="1"/></build></model>"""
+
+
+def three_mf(model, is_found=True):
+    """A 3MF file of that XML, which may be lost in it."""
+    relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+    target = f'<Relationship Target="/3D/3DModel.model" Id="rel0" Type="{relation}"/>'
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("_rels/.rels", f"<Relationships>{target}</Relationships>" if is_found else "")
+        archive.writestr("3D/3DModel.model", model)
+    return file.getvalue()

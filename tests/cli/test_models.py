@@ -293,8 +293,16 @@ class Hostile(Work):
         self.assertEqual(self.clrt("check", "a.stl").returncode, 1)
 
     def test_a_model_without_triangles_is_refused(self):
-        self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n")
+        self.write(
+            a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False)
+        )
         self.fails("a.obj: there are no triangles in it", "a.obj")
+        self.fails("a.3mf: there are no triangles in it", "a.3mf")
+
+    def test_a_face_that_names_a_vertex_that_is_not_there_is_told(self):
+        for corner in (3, 2**32 - 1):
+            self.write(a_3mf=models.three_mf(models.THREE_MF_TRIANGLE % corner))
+            self.fails("a.3mf: a face of it names a vertex that is not there", "a.3mf")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Assimp reads and cuts polygons into triangles; all that depends on the whole model is told here.
+#include "foreign/model.h"
+
+#include "foreign/parts.h"
+#include "foreign/send.h"
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <string.h>
+#include <strings.h>
+
+// Coordinates stay as the file has them: no turn to Assimp's idea of upward, no skeletons.
+static const struct aiScene *import(Files *files)
+{
+    struct aiPropertyStore *settings = aiCreatePropertyStore();
+    aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+    aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+    const struct aiScene *scene = aiImportFileExWithProperties(files->model, aiProcess_Triangulate,
+                                                               &files->interface, settings);
+    aiReleasePropertyStore(settings);
+    return scene;
+}
+
+static bool has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+    return length > size && strcasecmp(path + length - size, ending) == 0;
+}
+
+static bool lacks_materials(const Files *files)
+{
+    for (size_t i = 0; i < files->opened.count; i++)
+        if (has_ending(files->opened.data[i].path, ".mtl"))
+            return false;
+    return files->missing[0] != '\0';
+}
+
+static void send_note(FILE *stream, const Files *files, const PartCounts *counts)
+{
+    char note[512] = "";
+    FILE *text = fmemopen(note, sizeof note, "w");
+    if (text == NULL)
+        return;
+    if (counts->others > 0)
+        fprintf(text, "; %zu lines and points are left out", counts->others);
+    if (counts->is_textured)
+        fputs("; its textures are left out", text);
+    if (lacks_materials(files))
+        fprintf(text, "; its materials, %.200s, cannot be opened", files->missing);
+    if (files->outside_count > 0)
+        fputs("; it names files outside of its folder, which are not read", text);
+    fclose(text);
+    if (note[0] != '\0')
+        send_text(stream, FOREIGN_NOTE, "%s", note + 2);
+}
+
+static void send_files(FILE *stream, const Files *files)
+{
+    for (size_t i = 0; i < files->opened.count; i++) {
+        const OpenedFile *opened = &files->opened.data[i];
+        send_file(stream, opened->path, opened->file.bytes, opened->file.size);
+    }
+}
+
+static bool fail(Error *error)
+{
+    const char *reason = aiGetErrorString();
+    if (strstr(reason, "bad_alloc") != NULL)
+        return error_set(error, "Assimp wants more memory to read it than a file of its size may "
+                                "take");
+    return error_set(error, "Assimp cannot read it: %s",
+                     reason[0] != '\0' ? reason : "no reason is given");
+}
+
+bool model_send(FILE *stream, Files *files, Error *error)
+{
+    PartCounts counts;
+    if (!files_open_model(files, error))
+        return false;
+    const struct aiScene *scene = import(files);
+    if (scene == NULL)
+        return fail(error);
+    send_files(stream, files);
+    const bool ok = parts_send(stream, scene, !has_ending(files->model, ".stl"), &counts, error);
+    aiReleaseImport(scene);
+    if (!ok)
+        return false;
+    if (counts.triangles == 0)
+        return error_set(error, "there are no triangles in it");
+    send_note(stream, files, &counts);
+    send_bytes(stream, FOREIGN_END, "", 0);
+    return true;
+}
