@@ -4,12 +4,13 @@
 
 #include "scene/limits.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST_TEXT 1024 // of a message or a path
+#define LONGEST_TEXT PATH_MAX // of a message or a path
 
 typedef struct {
     ForeignModel *model;

@@ -16,7 +16,7 @@
     "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 
 typedef struct {
-    char bytes[4096];
+    char bytes[8192];
     size_t size;
 } Builder;
 
@@ -47,10 +47,11 @@ static inline void put_part(Builder *builder, uint32_t material, const char *ply
 
 static inline void put_file(Builder *builder, const char *path)
 {
-    char bytes[256] = "0123456789abcdef";
     const size_t length = strlen(path);
-    memcpy(bytes + 16, path, length);
-    put_record(builder, FOREIGN_FILE, 0, bytes, 16 + length);
+    const ForeignHead head = {.kind = FOREIGN_FILE, .size = sizeof(ForeignHash) + length};
+    put_bytes(builder, &head, sizeof head);
+    put_bytes(builder, "0123456789abcdef", sizeof(ForeignHash));
+    put_bytes(builder, path, length);
 }
 
 // Parses a copy that ends where the stream ends, so that the sanitizers see any step beyond it.

@@ -49,6 +49,22 @@ static void a_stream_becomes_files_materials_parts_and_a_note(void **state)
     foreign_model_free(&model);
 }
 
+static void a_path_may_be_as_long_as_the_system_has_them(void **state)
+{
+    (void)state;
+    char path[4001];
+    memset(path, 'd', sizeof path - 1);
+    path[sizeof path - 1] = '\0';
+    Builder builder = {0};
+    put_file(&builder, path);
+    put_text(&builder, FOREIGN_END, "");
+    ForeignModel model;
+    Error error;
+    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    assert_string_equal(model.files.data[0], path);
+    foreign_model_free(&model);
+}
+
 static void a_part_goes_through_the_checks_of_ply(void **state)
 {
     (void)state;
@@ -143,14 +159,14 @@ static void records_of_a_wrong_size_or_kind_are_damage(void **state)
                  {FOREIGN_FILE, 16},
                  {FOREIGN_MATERIAL, 7},
                  {FOREIGN_NOTE, 0},
-                 {FOREIGN_NOTE, 1025},
+                 {FOREIGN_NOTE, 4097},
                  {FOREIGN_END, 1},
                  {0, 0},
                  {FOREIGN_END + 1, 0},
                  {UINT32_MAX, 4},
-                 {FOREIGN_FILE, 2000}};
-    const char filler[2048] = "filler without a zero byte would be text";
-    char text[2048];
+                 {FOREIGN_FILE, 5000}};
+    const char filler[100] = "filler without a zero byte would be text";
+    char text[5000];
     memset(text, 't', sizeof text);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         Builder builder = {0};
@@ -159,7 +175,7 @@ static void records_of_a_wrong_size_or_kind_are_damage(void **state)
         expect_failure(&builder, DAMAGED);
     }
     Builder builder = {0};
-    put_record(&builder, FOREIGN_NOTE, 0, filler, 100); // zero bytes within a text
+    put_record(&builder, FOREIGN_NOTE, 0, filler, sizeof filler); // zero bytes within a text
     put_text(&builder, FOREIGN_END, "");
     expect_failure(&builder, DAMAGED);
 }
@@ -202,6 +218,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stream_becomes_files_materials_parts_and_a_note),
+        cmocka_unit_test(a_path_may_be_as_long_as_the_system_has_them),
         cmocka_unit_test(a_part_goes_through_the_checks_of_ply),
         cmocka_unit_test(a_reason_is_told_in_plain_letters),
         cmocka_unit_test(colors_come_into_range_and_names_into_one_word),
