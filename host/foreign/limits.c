@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Limits are for the whole life of the process: what it reads later cannot lift them, but for the
-// lower one of memory, which keeps a short file from asking for all that the longest may have.
+// Of memory there are two limits: the lower one, which rises with every file that is read, keeps a
+// short file from asking for all that the longest may have.
 #include "foreign/limits.h"
 
-#include <signal.h>
-#include <stdio.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
+#include "base/confinement.h"
+
 #include <unistd.h>
 
 #define MEMORY_MOST   ((rlim_t)12 << 30) // beside what is mapped already
@@ -14,12 +12,6 @@
 #define MEMORY_FACTOR 64                 // bytes for a byte of a file
 #define TIME_LIMIT    120                // seconds, of the processor and of the clock
 #define FILE_LIMIT    32
-
-static void limit(int resource, rlim_t most)
-{
-    const struct rlimit both = {most, most};
-    setrlimit((__rlimit_resource_t)resource, &both);
-}
 
 // Sanitizers map more than any limit could allow.  gcc tells of them by a macro, clang otherwise.
 #ifndef __has_feature
@@ -35,17 +27,6 @@ void limits_allow_file(size_t bytes)
     (void)bytes;
 }
 #else
-static rlim_t mapped_memory(void)
-{
-    unsigned long pages = 0;
-    FILE *stream = fopen("/proc/self/statm", "r");
-    if (stream == NULL || fscanf(stream, "%lu", &pages) != 1)
-        pages = 0;
-    if (stream != NULL)
-        fclose(stream);
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
-}
-
 static rlim_t smaller(rlim_t a, rlim_t b)
 {
     return a < b ? a : b;
@@ -55,7 +36,7 @@ static rlim_t smaller(rlim_t a, rlim_t b)
 static void limit_memory(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);
-    const rlim_t most = smaller(machine / 4 * 3, MEMORY_MOST), mapped = mapped_memory();
+    const rlim_t most = smaller(machine / 4 * 3, MEMORY_MOST), mapped = confine_mapped_memory();
     const struct rlimit now = {mapped + smaller(MEMORY_LEAST, most), mapped + most};
     setrlimit(RLIMIT_AS, &now);
 }
@@ -74,13 +55,8 @@ void limits_allow_file(size_t bytes)
 void limits_take(void)
 {
     close_range(STDERR_FILENO + 1, ~0U, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    limit(RLIMIT_CPU, TIME_LIMIT);
-    limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_NPROC, 0);
-    limit(RLIMIT_NOFILE, FILE_LIMIT);
+    confine_process(TIME_LIMIT);
+    confine_resource(RLIMIT_NPROC, 0);
+    confine_resource(RLIMIT_NOFILE, FILE_LIMIT);
     limit_memory();
-    alarm(TIME_LIMIT);
 }

@@ -3,17 +3,15 @@
 // as it would a file.
 #include "image/image_reader.h"
 
+#include "base/confinement.h"
 #include "image/image_module.h"
 #include "image/open_module.h"
 #include "image/socket.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,32 +32,10 @@ _Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
                    STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
                "names and texts are copied whole");
 
-static void limit(int resource, rlim_t most)
-{
-    const struct rlimit both = {most, most};
-    setrlimit((__rlimit_resource_t)resource, &both);
-}
-
-static rlim_t mapped_memory(void)
-{
-    unsigned long pages = 0;
-    FILE *stream = fopen("/proc/self/statm", "r");
-    if (stream == NULL || fscanf(stream, "%lu", &pages) != 1)
-        pages = 0;
-    if (stream != NULL)
-        fclose(stream);
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
-}
-
 static void live_within_limits(void)
 {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    limit(RLIMIT_AS, mapped_memory() + MEMORY_LIMIT);
-    limit(RLIMIT_CPU, TIME_LIMIT);
-    limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_CORE, 0);
-    alarm(TIME_LIMIT);
+    confine_process(TIME_LIMIT);
+    confine_resource(RLIMIT_AS, confine_mapped_memory() + MEMORY_LIMIT);
     const int nothing = open("/dev/null", O_RDWR);
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
         dup2(nothing, stream);
