@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 // Pipes have no size to believe, so the buffer grows with what really arrives.
@@ -54,6 +55,12 @@ void file_free(File *file)
 {
     free(file->bytes);
     *file = (File){0};
+}
+
+bool file_has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+    return length > size && strcasecmp(path + length - size, ending) == 0;
 }
 
 char *file_path_beside(const char *beside, const char *path, Error *error)

@@ -16,6 +16,9 @@ typedef struct {
 bool file_read(File *file, const char *path, Error *error);
 void file_free(File *file);
 
+// Whether path ends in ending, ".mtl" for one, in letters of either case, behind something else.
+bool file_has_ending(const char *path, const char *ending);
+
 // Returns path as seen from the folder of the file beside: beside's folder and path joined, or
 // path itself when it is absolute.  The caller frees it; NULL when memory ran out.
 char *file_path_beside(const char *beside, const char *path, Error *error);

@@ -14,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #define COURSE_MATERIALS 4
@@ -25,15 +24,9 @@ typedef struct {
     char **mesh_names; // beside the scene text; NULL for a PLY mesh
 } Conversion;
 
-static bool has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), size = strlen(ending);
-    return length > size && strcasecmp(path + length - size, ending) == 0;
-}
-
 bool convert_takes(const char *path, Error *error)
 {
-    return has_ending(path, ".scn") || has_ending(path, ".ply") ||
+    return file_has_ending(path, ".scn") || file_has_ending(path, ".ply") ||
            error_set(error, "clrt convert writes .scn and .ply, not '%s'", path);
 }
 
@@ -182,8 +175,8 @@ static ExitCode run(Conversion *conversion, Error *error)
     if (!scn_load(&conversion->scene, options->scene_path, error) ||
         !check_geometry(options, &conversion->scene, error))
         return EXIT_SCENE;
-    return has_ending(options->other_path, ".ply") ? write_joined(conversion, error)
-                                                   : write_text(conversion, error);
+    return file_has_ending(options->other_path, ".ply") ? write_joined(conversion, error)
+                                                        : write_text(conversion, error);
 }
 
 ExitCode convert_scene(const Options *options, Error *error)

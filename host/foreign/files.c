@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 // One opening of a file.
@@ -130,12 +129,6 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-static bool is_material_library(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && strcasecmp(path + length - 4, ".mtl") == 0;
-}
-
 static struct aiFile *open_reading(struct aiFileIO *interface, const char *path, const char *mode)
 {
     Files *files = (Files *)(void *)interface->UserData;
@@ -148,7 +141,7 @@ static struct aiFile *open_reading(struct aiFileIO *interface, const char *path,
         return NULL;
     }
     if (!open_file(files, path, &opened, &unused)) {
-        if (is_material_library(path) && files->missing[0] == '\0')
+        if (file_has_ending(path, ".mtl") && files->missing[0] == '\0')
             snprintf(files->missing, sizeof files->missing, "%s", path + folder_length(files));
         return NULL;
     }

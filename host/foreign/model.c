@@ -9,7 +9,6 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <string.h>
-#include <strings.h>
 
 // Coordinates stay as the file has them: no turn to Assimp's idea of upward, no skeletons.
 static const struct aiScene *import(Files *files)
@@ -23,16 +22,10 @@ static const struct aiScene *import(Files *files)
     return scene;
 }
 
-static bool has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), size = strlen(ending);
-    return length > size && strcasecmp(path + length - size, ending) == 0;
-}
-
 static bool lacks_materials(const Files *files)
 {
     for (size_t i = 0; i < files->opened.count; i++)
-        if (has_ending(files->opened.data[i].path, ".mtl"))
+        if (file_has_ending(files->opened.data[i].path, ".mtl"))
             return false;
     return files->missing[0] != '\0';
 }
@@ -83,7 +76,7 @@ bool model_send(FILE *stream, Files *files, Error *error)
     if (scene == NULL)
         return fail(error);
     send_files(stream, files);
-    const bool ok = parts_send(stream, scene, !has_ending(files->model, ".stl"), &counts, error);
+    const bool ok = parts_send(stream, scene, !file_has_ending(files->model, ".stl"), &counts, error);
     aiReleaseImport(scene);
     if (!ok)
         return false;
