@@ -16,8 +16,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define COURSE_MATERIALS 4
-
 typedef struct {
     const Options *options;
     Scene scene;

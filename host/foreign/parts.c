@@ -5,7 +5,7 @@
 
 #include "foreign/materials.h"
 #include "foreign/send.h"
-#include "scene/ply_header.h"
+#include "scene/limits.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -222,7 +222,7 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
     const uint32_t material = number_of_material(sender, mesh);
     const Turn turn = turn_of(placement);
     const bool has_normals = sender->keeps_normals && mesh->mNormals != NULL;
-    const bool fits = part->vertex_count + mesh->mNumVertices < (size_t)PLY_COUNT_LIMIT;
+    const bool fits = part->vertex_count + mesh->mNumVertices < (size_t)MESH_COUNT_MOST;
     if ((material != sender->part.material || !fits) && !send_part_so_far(sender))
         return false;
     sender->part.material = material;

@@ -6,8 +6,6 @@
 #include <string.h>
 #include <xxhash.h>
 
-#define COURSE_MATERIALS 4 // of every scene, used or not
-
 // What makes two things the same.
 typedef struct {
     double numbers[4];

@@ -151,7 +151,7 @@ bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material)
     const Token token = tokens_next(tokens);
     const char *end = token.text == NULL ? NULL : token.text + token.length;
     if (token.text != NULL && integer_parse(token.text, end, &number) == end) {
-        *material = number >= 0 && number <= 3 ? (uint32_t)number : 0;
+        *material = number >= 0 && number < COURSE_MATERIALS ? (uint32_t)number : 0;
         return true;
     }
     const MaterialName *entry = find_name(scene, token);

@@ -3,7 +3,7 @@
 #include "scene/mesh_join.h"
 
 #include "base/array.h"
-#include "scene/ply_header.h"
+#include "scene/limits.h"
 
 #include <string.h>
 
@@ -21,8 +21,8 @@ static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
         mesh->triangle_count += object->mesh.triangle_count;
         has_normals |= is_smooth(object);
     }
-    if (mesh->vertex_count > (size_t)PLY_COUNT_LIMIT ||
-        mesh->triangle_count > (size_t)PLY_COUNT_LIMIT)
+    if (mesh->vertex_count > (size_t)MESH_COUNT_MOST ||
+        mesh->triangle_count > (size_t)MESH_COUNT_MOST)
         return error_set(error, "its %zu triangles are too many for one mesh",
                          mesh->triangle_count);
     mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);

@@ -12,6 +12,8 @@
 #define PICTURE_SIZE_MAX 65536
 #define MAX_LEVEL_LIMIT  1000
 
+#define COURSE_MATERIALS 4 // of every scene, its first
+
 typedef struct {
     Vec3 position;
     double intensity; // 0 or more; white, without attenuation
@@ -47,7 +49,7 @@ typedef struct {
     ARRAY(Light) lights;
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
-    ARRAY(Material) materials;          // the first four are the course's
+    ARRAY(Material) materials;          // the first are the course's
     ARRAY(MaterialName) material_names; // of those defined
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COURSE_MATERIALS 4
-
 static const char *const shaders[] = {[SHADER_SILHOUETTE] = "silhouette",
                                       [SHADER_MATTE] = "matte",
                                       [SHADER_BLINN_PHONG] = "blinn_phong"};
