@@ -234,20 +234,14 @@ static ExitCode prepare(Run *run, Error *error)
 {
     image_prepare(run->options->format);
     run_begin(run);
-    if (!run_load_scene(run, error)) {
-        starter_decide(&run->starter, false);
+    if (!run_load_scene(run, error))
         return EXIT_SCENE;
-    }
     if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
-    if (!run_await_device(run, error))
-        return EXIT_DEVICE;
-    if (!run_build_scene(run, error))
-        return EXIT_SCENE;
-    if (!run_open_renderer(run, error))
-        return EXIT_DEVICE;
-    describe(run);
-    return EXIT_DONE;
+    const ExitCode prepared = run_prepare(run, error);
+    if (prepared == EXIT_DONE)
+        describe(run);
+    return prepared;
 }
 
 // Frees what there is of the picture before.

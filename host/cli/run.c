@@ -133,7 +133,8 @@ bool run_build_scene(Run *run, Error *error)
     return ok;
 }
 
-bool run_open_renderer(Run *run, Error *error)
+// Arrays and kernels to the renderer.
+static bool open_renderer(Run *run, Error *error)
 {
     Starter *starter = &run->starter;
     starter_wait_kernel(starter);
@@ -161,7 +162,7 @@ ExitCode run_prepare(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!run_build_scene(run, error))
         return EXIT_SCENE;
-    return run_open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
+    return open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
 }
 
 void run_free(Run *run)

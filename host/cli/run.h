@@ -49,10 +49,7 @@ bool run_await_device(Run *run, Error *error);
 // Scene to arrays.
 bool run_build_scene(Run *run, Error *error);
 
-// Arrays and kernels to the renderer.
-bool run_open_renderer(Run *run, Error *error);
-
-// These three, one after the other; how it went.
+// These two, and then arrays and kernels to the renderer; how it went.
 ExitCode run_prepare(Run *run, Error *error);
 
 // Frees what the stages made.
