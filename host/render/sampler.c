@@ -60,8 +60,13 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
+// A launch that a fault left running may still write into memory of the host, which goes.
 static void close_buffers(Sampling *sampling)
 {
+    clFinish(sampling->renderer->device->queue);
+    for (int i = 0; i < 2; i++)
+        if (sampling->done[i] != NULL)
+            clReleaseEvent(sampling->done[i]);
     const cl_mem buffers[] = {sampling->places, sampling->samples, sampling->tallies};
     for (int i = 0; i < 3; i++)
         if (buffers[i] != NULL)
