@@ -12,6 +12,10 @@ bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *
         .width = width, .height = height, .columns = (width + PACKET_SIDE - 1) / PACKET_SIDE};
     const CellGroup none = {0};
     const Seam no_seam = {0};
+    // Pixels are counted in 32 bits, and lists of samples too.
+    if ((uint64_t)width * height > REFINE_PIXELS_MOST)
+        return error_set(error, "a picture of %u x %u pixels is too large to be refined", width,
+                         height);
     tree->pixels = memory_raw(refine_tree_places(tree), sizeof *tree->pixels, error);
     tree->pixel_groups = memory_zeroed((size_t)width * height, sizeof *tree->pixel_groups, error);
     tree->pixel_seams = memory_zeroed((size_t)width * height, sizeof *tree->pixel_seams, error);

@@ -11,6 +11,8 @@
 #define REFINE_GRID   81 // cells of the last level along a pixel's side
 #define GROUP_MIDDLE  4
 
+#define REFINE_PIXELS_MOST ((uint64_t)1 << 31)
+
 typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellSide;
 
 // Cells are numbered row by row.
@@ -33,7 +35,7 @@ typedef struct {
     uint32_t traced;                 // groups below have all their samples
 } RefineTree;
 
-// A tree with nothing seen yet.
+// A tree with nothing seen yet; false where it has more than REFINE_PIXELS_MOST pixels, too.
 bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *error);
 void refine_tree_free(RefineTree *tree);
 

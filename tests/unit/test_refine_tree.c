@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which cells of a refined picture are neighbors.
+// Which cells of a refined picture are neighbors, and how large it may be.
 #include "render/refine_tree.h"
 
 #include "unit/cmocka_all.h"
@@ -42,11 +42,23 @@ static void cells_without_their_samples_are_no_neighbors_yet(void **state)
     refine_tree_free(&tree);
 }
 
+// Counted in 32 bits there are none.
+static void a_picture_past_the_numbers_of_its_pixels_is_refused(void **state)
+{
+    (void)state;
+    RefineTree tree;
+    Error error = {0};
+    assert_false(refine_tree_make(&tree, 65536, 65536, &error));
+    assert_string_equal(error.text, "a picture of 65536 x 65536 pixels is too large to be refined");
+    assert_null(tree.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cell_beyond_the_pixel_is_the_pixel_beside),
         cmocka_unit_test(cells_without_their_samples_are_no_neighbors_yet),
+        cmocka_unit_test(a_picture_past_the_numbers_of_its_pixels_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
