@@ -5,17 +5,41 @@
 #include "base/array.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define SUFFIX_SIZE sizeof "clrt-01234567"
+#define ATTEMPTS    100 // at a name that no file has
 
 static bool is_replaceable(const char *path)
 {
     struct stat status;
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
+}
+
+// Makes an empty file of a new name, which ends in SUFFIX_SIZE bytes here.  The system applies the
+// process's mask, which cannot be asked for without taking it from the other threads meanwhile.
+static bool make_file(char *suffix, const char *name)
+{
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        uint32_t number = 0;
+        if (getrandom(&number, sizeof number, 0) != sizeof number)
+            return false;
+        snprintf(suffix, SUFFIX_SIZE, "clrt-%08x", number);
+        const int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0)
+            return close(file) == 0;
+        if (errno != EEXIST)
+            return false;
+    }
+    return false;
 }
 
 // In the folder of path, so that it can be renamed to it, or among the system's temporary files.
@@ -25,22 +49,14 @@ static char *temporary_file(const char *path, bool beside, Error *error)
     const char *system = getenv("TMPDIR");
     const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
     const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    const size_t size = strlen(path) + strlen(folder) + 32;
+    const size_t size = strlen(path) + strlen(folder) + SUFFIX_SIZE + 2;
     char *name = memory_raw(size, 1, error);
     if (name == NULL)
         return NULL;
-    if (beside)
-        snprintf(name, size, "%.*s.clrt-XXXXXX", (int)length, path);
-    else
-        snprintf(name, size, "%s/clrt-XXXXXX", folder);
-    const int file = mkstemp(name);
-    if (file >= 0) {
-        const mode_t mask = umask(0);
-        umask(mask);
-        fchmod(file, 0666 & ~mask);
-        close(file);
+    const int start = beside ? snprintf(name, size, "%.*s.", (int)length, path)
+                             : snprintf(name, size, "%s/", folder);
+    if (make_file(name + start, name))
         return name;
-    }
     error_set(error, "%s: cannot be written: %s", path, strerror(errno));
     free(name);
     return NULL;

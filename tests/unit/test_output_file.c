@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Files that appear whole or not at all, and what the rest of the process sees of that.
+#include "base/output_file.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/clrt-output-XXXXXX";
+static int mask_changes;
+
+// Stands before the system's own.
+mode_t umask(mode_t mask)
+{
+    mask_changes++;
+    return (mode_t)syscall(SYS_umask, mask);
+}
+
+static mode_t mode_of(const char *path)
+{
+    struct stat status;
+    assert_int_equal(stat(path, &status), 0);
+    return status.st_mode & 0777;
+}
+
+static void begin(OutputFile *file, const char *path)
+{
+    Error error = {0};
+    assert_true(output_file_begin(file, path, &error));
+}
+
+static void a_file_gets_the_permissions_that_the_mask_leaves(void **state)
+{
+    (void)state;
+    OutputFile file;
+    Error cause = {0};
+    const mode_t before = umask(027);
+    begin(&file, "picture");
+    assert_true(output_file_end(&file, true, &cause));
+    umask(before);
+    assert_int_equal(mode_of("picture"), 0640);
+    unlink("picture");
+}
+
+static void unfinished_files_of_one_name_are_two(void **state)
+{
+    (void)state;
+    OutputFile one, other;
+    Error cause = {0};
+    begin(&one, "picture");
+    begin(&other, "picture");
+    assert_string_not_equal(one.temporary, other.temporary);
+    assert_true(output_file_end(&one, true, &cause));
+    assert_false(output_file_end(&other, false, &cause));
+    assert_int_equal(access("picture", F_OK), 0);
+    unlink("picture");
+}
+
+// Other threads, whose files would be open to all meanwhile, make theirs with it too.
+static void the_mask_is_not_changed_even_for_a_moment(void **state)
+{
+    (void)state;
+    OutputFile file;
+    Error cause = {0};
+    const int before = mask_changes;
+    assert_true(output_file_check("picture", &cause));
+    begin(&file, "picture");
+    assert_true(output_file_end(&file, true, &cause));
+    assert_int_equal(mask_changes, before);
+    unlink("picture");
+}
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+// Which nothing may be left in.
+static int leave_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_gets_the_permissions_that_the_mask_leaves),
+        cmocka_unit_test(unfinished_files_of_one_name_are_two),
+        cmocka_unit_test(the_mask_is_not_changed_even_for_a_moment),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
