@@ -167,21 +167,27 @@ void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
                       std::string(spec.get_string_attribute(content.text_names[i])).c_str());
 }
 
-bool is_integer(const OIIO::ImageSpec &spec, int channel)
+bool is_color(const std::string &name)
 {
-    return spec.channelformat(channel) == OIIO::TypeDesc::UINT32;
+    return name == "R" || name == "G" || name == "B" || name == "Y" || name == "A";
 }
 
-// Integers of 32 bits, which name things, keep their bits in the place of floats; all else becomes
-// of one type.  Neighbors of one kind are read together.
+bool names_things(const OIIO::ImageSpec &spec, int channel)
+{
+    return spec.channelformat(channel) == OIIO::TypeDesc::UINT32 &&
+           !is_color(spec.channel_name(channel));
+}
+
+// Integers of 32 bits that name things keep their bits in the place of floats; all else becomes of
+// one type.  Neighbors of one kind are read together.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {
     const auto size = static_cast<OIIO::stride_t>(type.size());
     bool ok = true;
     for (int first = 0, end = 0; ok && first < spec.nchannels; first = end) {
-        const bool integer = is_integer(spec, first);
-        while (end < spec.nchannels && is_integer(spec, end) == integer)
+        const bool integer = names_things(spec, first);
+        while (end < spec.nchannels && names_things(spec, end) == integer)
             end++;
         ok = input.read_image(0, 0, first, end, integer ? OIIO::TypeDesc::UINT32 : type,
                               static_cast<char *>(values) + first * size, spec.nchannels * size);

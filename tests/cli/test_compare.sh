@@ -92,6 +92,20 @@ for format in ${FORMATS//,/}; do
   check "... with the map of its kind" run 0 compare "one.$format" "two.$format" -o "map.$format"
 done
 
+# Colors in integers of 32 bits are parts of the largest, unlike those that number things.
+case $FORMATS in *tif*)
+  python3 - <<'END'
+import struct
+tags = [(256, 3, 1, 1), (257, 3, 1, 1), (258, 3, 3, 122), (259, 3, 1, 1), (262, 3, 1, 2),
+        (273, 4, 1, 128), (277, 3, 1, 3), (278, 3, 1, 1), (279, 4, 1, 12)]
+data = b"II*\0" + struct.pack("<IH", 8, len(tags)) + b"".join(struct.pack("<HHII", *tag) for tag in tags)
+data += bytes(4) + struct.pack("<3H3I", 32, 32, 32, 2**32 - 1, 2**31, 0)
+open("wide.tif", "wb").write(data)
+open("colors.pfm", "wb").write(b"PF\n1 1\n-1.0\n" + struct.pack("<3f", 1, 0.5, 0))
+END
+  check "colors of 32 bits are read" run 0 compare wide.tif colors.pfm --fail max=1e-6 ;;
+esac
+
 # Causes, from channels that --aov writes: a light and spheres that move, a limit, other samples.
 case $FORMATS in *exr*)
   sed "s|^ply_file |ply_file $source/scenes/|" "$source/scenes/reflections.scn" >scene.scn
