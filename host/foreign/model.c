@@ -76,7 +76,8 @@ bool model_send(FILE *stream, Files *files, Error *error)
     if (scene == NULL)
         return fail(error);
     send_files(stream, files);
-    const bool ok = parts_send(stream, scene, !file_has_ending(files->model, ".stl"), &counts, error);
+    const bool ok =
+        parts_send(stream, scene, !file_has_ending(files->model, ".stl"), &counts, error);
     aiReleaseImport(scene);
     if (!ok)
         return false;
