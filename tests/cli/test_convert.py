@@ -10,8 +10,9 @@ import sys
 import unittest
 
 import models
-from work import ASSIMP, Work
+from work import Work
 
+ASSIMP = sys.argv[2] == "1"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT.parent / "shared/course"))
 POINTS, TRIANGLES = models.knot()
@@ -21,7 +22,7 @@ MUTANTS = 150
 
 class Convert(Work):
     def converts(self, *words, says=""):
-        done = self.clrt("convert", *words)
+        done = self.run_clrt("convert", *words)
         self.assertEqual((done.stderr, done.returncode, done.stdout), (says, 0, ""))
 
     def expect_same_pictures(self, before, after, views):
@@ -94,7 +95,7 @@ class Scenes(Convert):
 
     def test_spheres_do_not_become_a_mesh(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        done = self.clrt("convert", "a.scn", "b.ply")
+        done = self.run_clrt("convert", "a.scn", "b.ply")
         sentence = "clrt: a.scn: PLY has no place for its 1 spheres: convert it to .scn\n"
         self.assertEqual((done.stderr, done.returncode), (sentence, 3))
         self.assertFalse((self.work / "b.ply").exists())
@@ -102,7 +103,7 @@ class Scenes(Convert):
 
 class Refusals(Convert):
     def refuses(self, code, sentence, *words):
-        done = self.clrt("convert", *words)
+        done = self.run_clrt("convert", *words)
         self.assertEqual((done.stderr, done.returncode), (f"clrt: {sentence}\n", code))
 
     def test_other_endings_and_counts_of_files_are_usage(self):
@@ -134,7 +135,7 @@ class Refusals(Convert):
 
     def test_a_scene_that_is_wrong_is_exit_3_and_writes_nothing(self):
         self.write(a_scn="mesh none.ply\n")
-        self.assertEqual(self.clrt("convert", "a.scn", "b.scn").returncode, 3)
+        self.assertEqual(self.run_clrt("convert", "a.scn", "b.scn").returncode, 3)
         self.assertEqual(sorted(file.name for file in self.work.iterdir()), ["a.scn"])
 
     def test_bad_geometry_is_refused_where_that_is_asked_for(self):
@@ -199,7 +200,7 @@ class Models(Convert):
                     content[place:place] = chance.choice(inserts)
                 content = content or bytearray(b"x")
             (self.work / f"m.{ending}").write_bytes(content)
-            done = self.clrt("convert", f"m.{ending}", "out.ply", "-q")
+            done = self.run_clrt("convert", f"m.{ending}", "out.ply", "-q")
             outcomes.add(done.returncode)
             self.assertIn(done.returncode, (0, 3), (number, ending, done.stderr))
             if done.returncode == 3:

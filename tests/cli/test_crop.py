@@ -5,14 +5,12 @@
 import json
 import pathlib
 import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 
 from read_exr import read_exr, read_header
+from work import Work
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
 HAS_EXR = "exr" in sys.argv[2]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
@@ -47,17 +45,7 @@ def channels_in_rows(path):
     return rows, data, display
 
 
-class Crop(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
-
-    def clrt(self, *words, code=0):
-        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr
-
+class Crop(Work):
     def expect_parts(self, crops, *words):
         self.clrt(*WHOLE, *words, "-o", "whole.pfm")
         whole = read_pfm(self.work / "whole.pfm")

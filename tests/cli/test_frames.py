@@ -7,13 +7,12 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 from read_exr import read_exr, read_header
+from work import CLRT, Work
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
 HAS_EXR = "exr" in sys.argv[2]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
@@ -21,20 +20,7 @@ SMALL = [SCENE, "-s", "32x24"]
 TURNED = [(5, 0, 2), (0, 5, 2), (-5, 0, 2), (0, -5, 2)]
 
 
-class Frames(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
-
-    def clrt(self, *words, code=0):
-        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr if code else done.stdout
-
-    def bytes_of(self, name):
-        return (self.work / name).read_bytes()
-
+class Frames(Work):
     def names(self, suffix):
         return sorted(str(path.relative_to(self.work)) for path in self.work.rglob(f"*{suffix}"))
 

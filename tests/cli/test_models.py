@@ -10,8 +10,9 @@ import time
 import unittest
 
 import models
-from work import ASSIMP, Work
+from work import Work
 
+ASSIMP = sys.argv[2] == "1"
 EXPORT = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
 CAMERA = "size 96 64\ncamera 3 -7 4 0 0 0 40\nlight 5 -7 8 1\n"
 POINTS, TRIANGLES = models.knot()
@@ -41,15 +42,18 @@ class WithoutAssimp(Work):
 
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
 class Formats(Work):
+    def expect_pictures_of_ply(self, *names):
+        expected = self.picture("a.ply")
+        for name in names:
+            self.assertEqual(self.picture(name), expected, name)
+
     def test_formats_that_keep_floats_give_the_picture_of_ply(self):
         self.write(
             a_ply=models.ply(POINTS, TRIANGLES),
             a_stl=models.stl(POINTS, TRIANGLES),
             a_glb=models.glb(POINTS, TRIANGLES),
         )
-        expected = self.picture("a.ply")
-        for name in ("a.stl", "a.glb"):
-            self.assertEqual(self.picture(name), expected, name)
+        self.expect_pictures_of_ply("a.stl", "a.glb")
 
     def test_formats_in_decimals_give_it_where_those_are_short(self):
         self.write(
@@ -57,9 +61,7 @@ class Formats(Work):
             a_obj=models.obj(COARSE, TRIANGLES),
             a_OFF=models.off(COARSE, TRIANGLES),
         )
-        expected = self.picture("a.ply")
-        for name in ("a.obj", "a.OFF"):
-            self.assertEqual(self.picture(name), expected, name)
+        self.expect_pictures_of_ply("a.obj", "a.OFF")
 
     def test_normals_are_those_of_the_file(self):
         normals = models.normals_of(POINTS)
@@ -105,7 +107,7 @@ class Formats(Work):
     def test_lines_and_points_are_left_out_and_told(self):
         self.write(a_obj=models.obj(COARSE, TRIANGLES) + b"l 1 2\np 3\n")
         self.picture("a.obj", says="clrt: a.obj: 2 lines and points are left out\n")
-        self.assertIn("2 lines and points", self.clrt("check", "a.obj").stderr)
+        self.assertIn("2 lines and points", self.run_clrt("check", "a.obj").stderr)
 
     def test_ply_file_stays_for_ply(self):
         self.write(a_obj=COLORED, a_scn="ply_file a.obj\n")
@@ -113,14 +115,14 @@ class Formats(Work):
 
     def test_check_reads_them(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
-        done = self.clrt("check", "a.stl")
+        done = self.run_clrt("check", "a.stl")
         self.assertIn(f"a.stl: {len(TRIANGLES)} triangles", done.stdout)
         self.assertIn("closed\n", done.stdout)
         self.assertEqual(done.returncode, 0)
 
     def test_warm_and_statistics_read_them(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
-        self.assertEqual(self.clrt("--warm", "a.stl").returncode, 0)
+        self.assertEqual(self.run_clrt("--warm", "a.stl").returncode, 0)
         self.picture("a.stl", "-q", "--stats=stats.json")
         self.assertIn(f'"triangles": {len(TRIANGLES)}', (self.work / "stats.json").read_text())
 
@@ -144,7 +146,7 @@ class Exported(Work):
         own = {"ply", "scn", "xml"}  # the last says nothing
         for ending in set(told.split()) - own:
             (self.work / f"a.{ending}").write_text("light\n")
-            done = self.clrt(f"a.{ending}", "-o", "a.pfm")
+            done = self.run_clrt(f"a.{ending}", "-o", "a.pfm")
             self.assertEqual(done.returncode, 3, ending)
             self.assertNotIn("the statement is", done.stderr, ending)
 
@@ -197,7 +199,7 @@ class Materials(Work):
         self.assertEqual(self.picture("plain.obj"), plain)
 
     def test_pixels_tell_the_materials_name_and_the_triangles_number(self):
-        text = self.clrt("own.scn", "--explain-pixel", "48,32", "--view", "1").stdout
+        text = self.run_clrt("own.scn", "--explain-pixel", "48,32", "--view", "1").stdout
         self.assertRegex(text, r"triangle \d+ of colors.obj, material colors.obj:(red|shiny)")
 
     def test_a_library_that_is_not_there_is_told(self):
@@ -206,7 +208,7 @@ class Materials(Work):
 
     def test_the_pictures_hash_is_of_the_library_too(self):
         def hash_in_picture():
-            self.assertEqual(self.clrt("colors.obj", "-s", "8x8", "-o", "a.png").returncode, 0)
+            self.assertEqual(self.run_clrt("colors.obj", "-s", "8x8", "-o", "a.png").returncode, 0)
             return (self.work / "a.png").read_bytes().split(b"clrt:scene_hash\0")[1][:32]
 
         before = hash_in_picture()
@@ -222,7 +224,7 @@ class Hostile(Work):
             a_off="OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n3 0 1 2\n",
             a_scn="light 0 0 1 1\n\nmesh a.off\n",
         )
-        done = self.clrt("a.scn", "-o", "a.pfm")
+        done = self.run_clrt("a.scn", "-o", "a.pfm")
         self.assertEqual(done.returncode, 3)
         self.assertRegex(done.stderr, r"^clrt: a\.scn:3:6: a\.off: Assimp .*\n$")
 
@@ -231,7 +233,7 @@ class Hostile(Work):
             document["nodes"] = [{"children": [i + 1]} for i in range(200000)] + [{"mesh": 0}]
 
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=deepen))
-        done = self.clrt("a.glb", "-o", "a.pfm")
+        done = self.run_clrt("a.glb", "-o", "a.pfm")
         self.assertEqual(done.returncode, 3)
         self.assertRegex(done.stderr, r"^clrt: a\.glb: Assimp .*\n$")
 
@@ -246,7 +248,7 @@ class Hostile(Work):
         )
         for name in ("a.off", "a.glb", "a.stl"):
             start = time.monotonic()
-            done = self.clrt(name, "-o", "a.pfm")
+            done = self.run_clrt(name, "-o", "a.pfm")
             self.assertEqual(done.returncode, 3, name)
             self.assertRegex(done.stderr, rf"^clrt: {name}: .*\n$")
             self.assertLess(time.monotonic() - start, 20)
@@ -255,7 +257,7 @@ class Hostile(Work):
         whole = models.glb(POINTS, TRIANGLES)
         self.write(a_glb=whole[: len(whole) // 2], a_stl="noise", a_obj="", a_fbx=bytes(range(256)))
         for name in ("a.glb", "a.stl", "a.obj", "a.fbx"):
-            done = self.clrt(name, "-o", "a.pfm")
+            done = self.run_clrt(name, "-o", "a.pfm")
             self.assertEqual(done.returncode, 3, name)
             self.assertRegex(done.stderr, rf"^clrt: {name}: Assimp cannot read it: .*\n$")
 
@@ -272,7 +274,7 @@ class Hostile(Work):
             self.assertEqual(self.picture(name, "-q"), expected)
         self.assertIn(
             "it names files outside of its folder, which are not read",
-            self.clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr,
+            self.run_clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr,
         )
 
     def test_pipes_and_folders_are_no_models(self):
@@ -287,10 +289,10 @@ class Hostile(Work):
     def test_coordinates_that_are_no_numbers_are_refused_as_in_ply(self):
         bad = [(float("nan"), 0, 0)] + POINTS[1:]
         self.write(a_stl=models.stl(bad, TRIANGLES))
-        done = self.clrt("a.stl", "-o", "a.pfm")
+        done = self.run_clrt("a.stl", "-o", "a.pfm")
         self.assertEqual(done.returncode, 3)
         self.assertRegex(done.stderr, r"^clrt: a\.stl: part 0: .* x is -?nan, not a finite number")
-        self.assertEqual(self.clrt("check", "a.stl").returncode, 1)
+        self.assertEqual(self.run_clrt("check", "a.stl").returncode, 1)
 
     def test_a_model_without_triangles_is_refused(self):
         self.write(

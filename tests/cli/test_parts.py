@@ -5,31 +5,19 @@
 # Usage: test_parts.py CLRT
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 from read_exr import read_exr, read_header
+from work import Work
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
 CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 
 
-class Parts(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
-
-    def clrt(self, *words, code=0):
-        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr if code else done.stdout
-
+class Parts(Work):
     def draw(self, *words, of=3, parts=None):
         """The names of the parts' files."""
         names = []
@@ -37,9 +25,6 @@ class Parts(unittest.TestCase):
             names.append(f"part{part}.exr")
             self.clrt(*(words or SMALL), "--part", f"{part}/{of}", "-o", names[-1])
         return names
-
-    def bytes_of(self, name):
-        return (self.work / name).read_bytes()
 
     def expect_whole(self, names, *words):
         self.clrt(*words, "-o", "whole.exr")

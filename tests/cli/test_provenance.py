@@ -7,14 +7,12 @@ import os
 import pathlib
 import shutil
 import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 
 from read_exr import read_header
+from work import Work
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
 HAS_EXR = "exr" in sys.argv[2]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
@@ -38,18 +36,7 @@ def exr_texts(path):
     return {name: value.decode(errors="replace") for name, value in read_header(path.read_bytes())[0].items()}
 
 
-class Provenance(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
-
-    def clrt(self, *words, code=0, **environment):
-        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, text=True,
-                              env=dict(os.environ, **environment), timeout=120)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
-
+class Provenance(Work):
     def draw(self, *words, name="a.png", **environment):
         self.clrt(*(words or SMALL), "-o", name, **environment)
         return png_texts(self.work / name)
@@ -105,9 +92,8 @@ class Provenance(unittest.TestCase):
             self.clrt(*SMALL, "-o", "a.exr", SOURCE_DATE_EPOCH="951782400")
             self.assertIn("2000:02:29 00:00:00", exr_texts(self.work / "a.exr")["capDate"])
         for wrong in "soon", "-1", "":
-            done = self.clrt(*SMALL, "-o", "b.png", code=2, SOURCE_DATE_EPOCH=wrong)
-            self.assertEqual(done.stderr,
-                             f"clrt: SOURCE_DATE_EPOCH wants seconds since 1970, not '{wrong}'\n")
+            talk = self.clrt(*SMALL, "-o", "b.png", code=2, SOURCE_DATE_EPOCH=wrong)
+            self.assertEqual(talk, f"clrt: SOURCE_DATE_EPOCH wants seconds since 1970, not '{wrong}'\n")
 
     def test_without_metadata_nothing_of_it_is_told(self):
         environment = {"SOURCE_DATE_EPOCH": "0"}
@@ -121,30 +107,28 @@ class Provenance(unittest.TestCase):
         texts = self.draw(*SMALL, "--stats=a.json")
         found = {texts["clrt:pixel_hash"], json.loads((self.work / "a.json").read_text())["pixel_hash"]}
         for words in (["-o", "b.pfm"], ["-o", "b.png", "--encode", "srgb"], ["-o", "b.png", "-j", "1"]):
-            done = self.clrt(*SMALL, *words, "--hash")
-            self.assertEqual(done.stderr, "")
+            done = self.run_clrt(*SMALL, *words, "--hash")
+            self.assertEqual((done.stderr, done.returncode), ("", 0))
             found.add(done.stdout.removesuffix("\n"))
         self.assertEqual(len(found), 1, found)
-        other = self.clrt(*SMALL, "-o", "b.pfm", "--hash", "--aa").stdout.removesuffix("\n")
+        other = self.clrt(*SMALL, "-o", "b.pfm", "--hash", "--aa").removesuffix("\n")
         self.assertNotIn(other, found)
 
     def test_another_hash_than_expected_is_exit_1_and_the_picture_is_there(self):
-        right = self.clrt(*SMALL, "-o", "a.pfm", "--hash").stdout.removesuffix("\n")
+        right = self.clrt(*SMALL, "-o", "a.pfm", "--hash").removesuffix("\n")
         for same in right, right.upper():
             self.clrt(*SMALL, "-o", "a.pfm", "--expect-hash", same)
         wrong = right[:-1] + ("1" if right[-1] == "0" else "0")
-        done = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", wrong, code=1)
-        self.assertEqual(done.stderr,
-                         f"clrt: the hash of the pixels is {right}, not the expected {wrong}\n")
+        talk = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", wrong, code=1)
+        self.assertEqual(talk, f"clrt: the hash of the pixels is {right}, not the expected {wrong}\n")
         self.assertEqual((self.work / "a.pfm").read_bytes(), (self.work / "b.pfm").read_bytes())
-        done = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", "abc", code=2)
-        self.assertEqual(done.stderr, "clrt: --expect-hash wants 32 hexadecimal digits, not 'abc'\n")
+        talk = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", "abc", code=2)
+        self.assertEqual(talk, "clrt: --expect-hash wants 32 hexadecimal digits, not 'abc'\n")
 
     def test_one_thing_at_most_goes_to_standard_output(self):
         for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--stats=-"], "statistics")):
-            done = self.clrt(*SMALL, *words, "--hash", code=2)
-            self.assertEqual(done.stderr,
-                             f"clrt: the {thing} and the hash cannot both go to standard output\n")
+            talk = self.clrt(*SMALL, *words, "--hash", code=2)
+            self.assertEqual(talk, f"clrt: the {thing} and the hash cannot both go to standard output\n")
 
     def test_json_replaces_a_file_whole_or_not_at_all(self):
         (self.work / "a.json").write_text("what was there")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-# A folder for each test and runs of clrt in it, for tests whose words are CLRT 1|0, the latter for a
-# build without Assimp.
+# A folder for each test and runs of clrt in it, for tests whose first word is CLRT.
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
-CLRT, ASSIMP = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2] == "1"
+CLRT = pathlib.Path(sys.argv[1]).resolve()
 
 
 class Work(unittest.TestCase):
@@ -23,16 +23,29 @@ class Work(unittest.TestCase):
             path = self.work / ".".join(name.rsplit("_", 1))
             path.write_bytes(content)
 
-    def clrt(self, *words):
+    def bytes_of(self, name):
+        return (self.work / name).read_bytes()
+
+    def run_clrt(self, *words, **environment):
         return subprocess.run(
-            [CLRT, *words], cwd=self.work, capture_output=True, text=True, timeout=300
+            [CLRT, *words],
+            cwd=self.work,
+            capture_output=True,
+            text=True,
+            env=dict(os.environ, **environment),
+            timeout=300,
         )
 
+    def clrt(self, *words, code=0, **environment):
+        """What it prints or, where it is to fail with code, says on standard error."""
+        done = self.run_clrt(*words, **environment)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr if code else done.stdout
+
     def picture(self, scene, *words, says=""):
-        done = self.clrt(scene, "-o", "picture.pfm", "-s", "96x64", *words)
+        done = self.run_clrt(scene, "-o", "picture.pfm", "-s", "96x64", *words)
         self.assertEqual((done.stderr, done.returncode), (says, 0))
-        return (self.work / "picture.pfm").read_bytes()
+        return self.bytes_of("picture.pfm")
 
     def fails(self, sentence, *words):
-        done = self.clrt(*words, "-o", "picture.pfm")
-        self.assertEqual((done.stderr, done.returncode), (f"clrt: {sentence}\n", 3))
+        self.assertEqual(self.clrt(*words, "-o", "picture.pfm", code=3), f"clrt: {sentence}\n")
