@@ -2,11 +2,11 @@
 // Adaptive anti-aliasing: what it reaches, what it costs, and that it is one picture.
 #include "image/form.h"
 #include "image/rendered.h"
+#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define SCENES CLRT_SOURCE_FOLDER "/scenes/"
 
@@ -136,12 +136,8 @@ static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
 // A wall of bright spheres on black, of these radii in pixels by turns.
 static const char *write_spheres(const double radii[], int count)
 {
-    static char path[64];
-    snprintf(path, sizeof path, "%s", "/tmp/clrt-adaptive-XXXXXX");
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    FILE *stream = fdopen(file, "w");
-    assert_non_null(stream);
+    static char path[TEMPORARY_PATH];
+    FILE *stream = temporary_open(path);
     fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 1 1 1\nmaterial it\n"
                     "camera 0 -100 0 0 0 0 60\n");
     const double pixel = 2 * 100 * tan(acos(-1) / 6) / 181;
@@ -149,7 +145,7 @@ static const char *write_spheres(const double radii[], int count)
         for (int x = 0; x < SPHERES; x++)
             fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
                     (2.971 * (y - 30) + 1.5) * pixel, radii[(y * 7 + x) % count] * pixel);
-    assert_int_equal(fclose(stream), 0);
+    temporary_close(stream);
     return path;
 }
 
@@ -183,15 +179,11 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
 // Of a sphere 80 pixels wide that hardly stands out.
 static const char *write_faint_sphere(void)
 {
-    static char path[64];
-    snprintf(path, sizeof path, "%s", "/tmp/clrt-adaptive-XXXXXX");
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    FILE *stream = fdopen(file, "w");
-    assert_non_null(stream);
+    static char path[TEMPORARY_PATH];
+    FILE *stream = temporary_open(path);
     fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
                     "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
-    assert_int_equal(fclose(stream), 0);
+    temporary_close(stream);
     return path;
 }
 

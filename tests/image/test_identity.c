@@ -3,10 +3,10 @@
 // program, the same bits.
 #include "image/form.h"
 #include "image/rendered.h"
+#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/scenes/reflections.scn",
@@ -135,12 +135,8 @@ static void counting_changes_no_pixel(void **state)
 // Writes a scene with exactly the features of the mask, and returns its path.
 static const char *write_scene(unsigned mask)
 {
-    static char path[64];
-    snprintf(path, sizeof path, "%s", "/tmp/clrt-traits-XXXXXX");
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    FILE *stream = fdopen(file, "w");
-    assert_non_null(stream);
+    static char path[TEMPORARY_PATH];
+    FILE *stream = temporary_open(path);
     fprintf(stream, "light 3 -4 6 .8\ndefine it %s reflectivity %s\nmaterial it\n",
             mask & 4 ? "blinn_phong" : "silhouette", mask & 8 ? ".4" : "0");
     if (mask & 1)
@@ -148,7 +144,7 @@ static const char *write_scene(unsigned mask)
     if (mask & 2)
         fprintf(stream, "ply_file %s/scenes/cube.ply\nply_file %s/scenes/plateau.ply\n",
                 CLRT_SOURCE_FOLDER, CLRT_SOURCE_FOLDER);
-    assert_int_equal(fclose(stream), 0);
+    temporary_close(stream);
     return path;
 }
 

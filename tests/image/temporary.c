@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// In /tmp, as everything that tests leave behind once they fail.
+#include "image/temporary.h"
+
+#include "unit/cmocka_all.h"
+
+#include <stdlib.h>
+
+FILE *temporary_open(char path[TEMPORARY_PATH])
+{
+    snprintf(path, TEMPORARY_PATH, "%s", "/tmp/clrt-scene-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    return stream;
+}
+
+void temporary_close(FILE *stream)
+{
+    assert_int_equal(fclose(stream), 0);
+}
