@@ -219,15 +219,13 @@ bool read_picture(const char *path, const char *format, ImageModuleContent &cont
     return ok;
 }
 
-} // namespace
-
-int clrt_image_module_read(const char *path, const char *format, ImageModuleContent *content,
-                           char *message, size_t message_size)
+// Does the work, which leaves why it failed in the text; no exception leaves.
+template <typename Work> int guarded(char *message, size_t message_size, Work work)
 {
     std::string text;
     bool ok = false;
     try {
-        ok = read_picture(path, format, *content, text);
+        ok = work(text);
     } catch (const std::exception &failure) {
         text = failure.what();
     } catch (...) {
@@ -237,17 +235,17 @@ int clrt_image_module_read(const char *path, const char *format, ImageModuleCont
     return ok;
 }
 
+} // namespace
+
+int clrt_image_module_read(const char *path, const char *format, ImageModuleContent *content,
+                           char *message, size_t message_size)
+{
+    return guarded(message, message_size,
+                   [&](std::string &text) { return read_picture(path, format, *content, text); });
+}
+
 int clrt_image_module_write(const ImageModulePicture *picture, char *message, size_t message_size)
 {
-    std::string text;
-    bool ok = false;
-    try {
-        ok = write_picture(*picture, text);
-    } catch (const std::exception &failure) {
-        text = failure.what();
-    } catch (...) {
-        text = "an unknown exception";
-    }
-    std::snprintf(message, message_size, "%s", text.c_str());
-    return ok;
+    return guarded(message, message_size,
+                   [&](std::string &text) { return write_picture(*picture, text); });
 }

@@ -102,6 +102,25 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth 
                 (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
+// What the rays meet or, of shadow rays, whether they are blocked, as 1 in place of the id.
+static inline void trace_rays(const SceneView *scene, const FrameData *frame, const TestRays *rays,
+                              bool are_shadows, global TestHit *hits)
+{
+    Truth left = rays->exist;
+    while (any_lane(left)) {
+        const Truth lanes = companions(rays, left);
+        const Ray ray = ray_of(scene, rays, lanes);
+        Tally tally = {0};
+        Hit hit = {0.0f, NOTHING, NOTHING};
+        if (are_shadows)
+            hit.id = is_blocked(scene, frame, &ray, &tally) ? (Count)(1) : (Count)(0);
+        else
+            hit = nearest_hit(scene, frame, &ray, &tally);
+        store_hits(hits, rays, lanes, hit.t, hit.id);
+        left = left && !lanes;
+    }
+}
+
 kernel void batch_nearest(const FrameData frame, global const SphereData *spheres,
                           global const Node *nodes, global const Triangles *triangles,
                           global const TestRay *rays, uint count, global TestHit *hits)
@@ -110,15 +129,7 @@ kernel void batch_nearest(const FrameData frame, global const SphereData *sphere
         return;
     const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, count);
-    Truth left = all.exist;
-    while (any_lane(left)) {
-        const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&scene, &all, lanes);
-        Tally tally = {0};
-        const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
-        store_hits(hits, &all, lanes, hit.t, hit.id);
-        left = left && !lanes;
-    }
+    trace_rays(&scene, &frame, &all, false, hits);
 }
 
 // id becomes 1 where the ray, a shadow ray, is blocked.
@@ -130,15 +141,7 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
         return;
     const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, count);
-    Truth left = all.exist;
-    while (any_lane(left)) {
-        const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&scene, &all, lanes);
-        Tally tally = {0};
-        const Truth blocked = is_blocked(&scene, &frame, &ray, &tally);
-        store_hits(hits, &all, lanes, 0.0f, blocked ? (Count)(1) : (Count)(0));
-        left = left && !lanes;
-    }
+    trace_rays(&scene, &frame, &all, true, hits);
 }
 
 // What a ray meets that leaves the surface its own ray meets, in the direction of outward or the
