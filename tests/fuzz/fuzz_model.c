@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes as a model that Assimp reads, all of clrt-foreign but its limits. The
 // first byte chooses the format.  What is sent must be a stream that is read without fault, or
-// there must be a sentence.  Crashes of Assimp are no findings: clrt expects them
-// (tests/fuzz/README.md).
+// there must be a sentence.  Crashes of Assimp are no findings: clrt expects them.
 #include "foreign/model.h"
 #include "scene/foreign_stream.h"
 
