@@ -55,13 +55,21 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
                      journal->path);
 }
 
+// A pipe would never tell that it holds no journal.
+static bool is_regular(const Journal *journal)
+{
+    struct stat status;
+    return fstat(fileno(journal->stream), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error)
 {
     *journal = (Journal){.path = path, .stream = fopen(path, "ab+e")};
     if (journal->stream == NULL)
         return cannot(journal, "opened", error);
-    bool ok = flock(fileno(journal->stream), LOCK_EX | LOCK_NB) == 0 ||
-              error_set(error, "%s: another process draws this picture", path);
+    bool ok = is_regular(journal) || error_set(error, "%s: is no journal of clrt", path);
+    ok = ok && (flock(fileno(journal->stream), LOCK_EX | LOCK_NB) == 0 ||
+                error_set(error, "%s: another process draws this picture", path));
     rewind(journal->stream);
     ok = ok && check_head(journal, key, error);
     if (!ok)

@@ -228,6 +228,13 @@ class Refusals(Resume):
         self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
                          f"clrt: {NAME}.part: is no journal of clrt\n")
 
+    def test_a_pipe_in_the_journals_place_is_refused(self):
+        os.mkfifo(self.journal)
+        process = self.start(*SMALL, "-o", NAME, "--resume")
+        self.addCleanup(process.kill)
+        self.assertEqual(process.communicate(timeout=20)[1], f"clrt: {NAME}.part: is no journal of clrt\n")
+        self.assertEqual(process.returncode, 3)
+
     @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
     def test_an_exr_that_was_drawn_otherwise_is_refused(self):
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
