@@ -87,6 +87,9 @@ class Uniform(unittest.TestCase):
             tried = {side: 1 / side for side in (2, 4, 12)}
             self.assertEqual(self.side(1 / wanted, tried), wanted)
 
+    def test_they_are_found_where_none_was_tried_before(self):
+        self.assertEqual(self.side(0.1, {}), 10)
+
     def test_it_says_where_none_holds(self):
         self.assertIsNone(self.side(1 / 65, {1: 1}))
 

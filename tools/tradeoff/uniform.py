@@ -16,7 +16,7 @@ def side_that_holds(error, tried, rmse_of):
 
     high = next((side for side in sorted(tried) if holds(side)), None)
     while high is None:
-        side = min(2 * max(tried), LARGEST)
+        side = min(2 * max(tried), LARGEST) if tried else 1
         if holds(side):
             high = side
         elif side == LARGEST:
