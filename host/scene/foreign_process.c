@@ -27,19 +27,30 @@ const ForeignReader foreign_reader = {.seconds = 125, .bytes = (size_t)8 << 30};
 typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
-// Beside this program in a build tree, and in the folder for programs of programs once installed,
-// as seen from clrt or, in a program that uses clrt's library, where it was to be installed.
-static bool find_program(char *path, size_t size, const char *model, Error *error)
+// As seen from this program: beside it in a build tree, and in the folder for programs of programs
+// once installed.  A program that is nowhere, as without /proc, has nothing to find: what lies in
+// the current folder is none of it.
+static bool find_beside(char *path, size_t size)
 {
     char program[PATH_MAX];
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = '\0';
+    if (length <= 0)
+        return false;
+    program[length] = '\0';
     const char *folder = dirname(program);
     snprintf(path, size, "%s/clrt-foreign", folder);
-    if (access(path, X_OK) != 0)
-        snprintf(path, size, "%s/%s/clrt-foreign", folder, CLRT_FOREIGN_FOLDER);
-    if (access(path, X_OK) != 0)
-        snprintf(path, size, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
+    if (access(path, X_OK) == 0)
+        return true;
+    snprintf(path, size, "%s/%s/clrt-foreign", folder, CLRT_FOREIGN_FOLDER);
+    return access(path, X_OK) == 0;
+}
+
+// Programs that use clrt's library find it where it was to be installed.
+static bool find_program(char *path, size_t size, const char *model, Error *error)
+{
+    if (find_beside(path, size))
+        return true;
+    snprintf(path, size, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
     return access(path, X_OK) == 0 ||
            error_set(error, "%s: %s, which reads it, cannot be started: %s", model, path,
                      strerror(errno));

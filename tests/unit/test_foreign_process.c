@@ -6,13 +6,28 @@
 #include "base/clock.h"
 #include "unit/cmocka_all.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 static char script[] = "/tmp/clrt_reader_XXXXXX";
+
+static bool is_without_proc;
+
+// Stands before the system's own.
+ssize_t readlink(const char *restrict path, char *restrict target, size_t size)
+{
+    if (is_without_proc) {
+        errno = ENOENT;
+        return -1;
+    }
+    return syscall(SYS_readlinkat, AT_FDCWD, path, target, size);
+}
 
 static void write_script(const char *text)
 {
@@ -99,6 +114,25 @@ static void a_program_that_is_not_there_is_told(void **state)
                                     "such file or directory");
 }
 
+// It may be anybody's.
+static void a_program_of_that_name_in_the_current_folder_is_not_started(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/clrt_folder_XXXXXX";
+    File stream;
+    Error error = {0};
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    write_script("echo > started");
+    assert_int_equal(rename(script, "clrt-foreign"), 0);
+    is_without_proc = true;
+    assert_false(foreign_process_run(&stream, &foreign_reader, "m.obj", &error));
+    is_without_proc = false;
+    assert_int_not_equal(access("started", F_OK), 0);
+    assert_int_equal(rename("clrt-foreign", script), 0);
+    assert_int_equal(chdir("/") + rmdir(folder), 0);
+}
+
 static int make_script(void **state)
 {
     (void)state;
@@ -122,6 +156,7 @@ int main(void)
         cmocka_unit_test(a_program_that_stays_when_its_stream_has_ended_is_ended),
         cmocka_unit_test(a_program_that_gives_up_is_told),
         cmocka_unit_test(a_program_that_is_not_there_is_told),
+        cmocka_unit_test(a_program_of_that_name_in_the_current_folder_is_not_started),
     };
     return cmocka_run_group_tests(tests, make_script, remove_script);
 }
