@@ -2,18 +2,19 @@
 // The module lies beside the program in a build tree and under the library folder once installed.
 #include "image/open_module.h"
 
+#include "base/own_folder.h"
+
 #include <dlfcn.h>
-#include <libgen.h>
-#include <limits.h>
 #include <stdio.h>
 #include <unistd.h>
 
 ModuleFunction *open_module(const char *name, Error *cause)
 {
-    char program[PATH_MAX], path[2 * PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = '\0';
-    const char *folder = dirname(program);
+    char folder[PATH_MAX], path[2 * PATH_MAX];
+    if (!own_folder(folder)) {
+        error_set(cause, "the picture module cannot be found: /proc does not tell where clrt is");
+        return NULL;
+    }
     snprintf(path, sizeof path, "%s/%s", folder, CLRT_IMAGE_MODULE);
     if (access(path, R_OK) != 0)
         snprintf(path, sizeof path, "%s/%s/%s", folder, CLRT_IMAGE_MODULE_FOLDER,

@@ -5,10 +5,10 @@
 
 #include "base/array.h"
 #include "base/clock.h"
+#include "base/own_folder.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <libgen.h>
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
@@ -28,16 +28,12 @@ typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
 // As seen from this program: beside it in a build tree, and in the folder for programs of programs
-// once installed.  A program that is nowhere, as without /proc, has nothing to find: what lies in
-// the current folder is none of it.
+// once installed.
 static bool find_beside(char *path, size_t size)
 {
-    char program[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
+    char folder[PATH_MAX];
+    if (!own_folder(folder))
         return false;
-    program[length] = '\0';
-    const char *folder = dirname(program);
     snprintf(path, size, "%s/clrt-foreign", folder);
     if (access(path, X_OK) == 0)
         return true;
