@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct {
     const char *start;
@@ -60,13 +61,27 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     return image_reader_run(image, path, format, cause);
 }
 
+// A pipe cannot be gone back in, once its format is known, and one that nobody writes to never
+// ends.
+static FILE *open_file(const char *path, Error *cause)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        error_set(cause, "it is not a file");
+        return NULL;
+    }
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        error_set(cause, "%s", strerror(errno));
+    return stream;
+}
+
 bool image_read(StoredImage *image, const char *path, Error *error)
 {
     *image = (StoredImage){0};
     Error cause = {0};
-    FILE *stream = fopen(path, "rb");
-    const bool ok = stream != NULL ? read_stream(image, stream, path, &cause)
-                                   : error_set(&cause, "%s", strerror(errno));
+    FILE *stream = open_file(path, &cause);
+    const bool ok = stream != NULL && read_stream(image, stream, path, &cause);
     if (stream != NULL)
         fclose(stream);
     if (ok)

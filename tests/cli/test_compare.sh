@@ -75,6 +75,8 @@ check "map and report share no stream" refuses 2 \
 check "other sizes are exit 3" refuses 3 "a.pfm has 4 x 1 pixels and long.pfm has 5 x 1" compare a.pfm long.pfm
 check "no file is exit 3" refuses 3 "none.pfm: cannot be read: No such file or directory" compare a.pfm none.pfm
 check "a folder is exit 3" refuses 3 ".: cannot be read: Is a directory" compare a.pfm .
+mkfifo pipe
+check "a pipe is exit 3, and nobody waits for it" refuses 3 "pipe: cannot be read: it is not a file" compare a.pfm pipe
 check "NaN is exit 3" refuses 3 "nan.pfm: R of pixel 2,0 is not finite" compare a.pfm nan.pfm
 check "so is infinity" refuses 3 "inf.pfm: R of pixel 1,0 is not finite" compare inf.pfm a.pfm
 check "a map that cannot be written is exit 5" run 5 compare a.pfm b.pfm -o none/map.png
