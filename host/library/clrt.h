@@ -80,7 +80,7 @@ typedef struct {
 CLRT_API bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material,
                                       uint32_t *number, ClrtError *error);
 
-// Coordinates are at most 1e30 in size, all radii above 1e-30 and at most 1e30.
+// Coordinates are at most 1e30 in size, radii in [1e-30, 1e30].
 CLRT_API bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], double radius,
                                     uint32_t material, ClrtError *error);
 
@@ -107,7 +107,7 @@ typedef struct {
     size_t size;
     double eye[3], look_at[3];
     double up[3];       // 0 0 0 stands for 0 0 1
-    double fov_degrees; // vertical, above 0 and below 180
+    double fov_degrees; // vertical, in [1e-6, 179.9999]
 } ClrtCamera;
 
 // The scene's next view.
