@@ -4,8 +4,6 @@
 // 2007).  A node becomes a leaf where no plane is cheaper than testing its triangles.
 #include "accel/split.h"
 
-#include <stdlib.h>
-
 #define BINS 16
 
 // Small nodes are many, and theirs are as good with fewer.

@@ -4,7 +4,6 @@
 
 #include "cli/json_file.h"
 
-#include <inttypes.h>
 #include <math.h>
 
 #define SCHEMA_VERSION 1

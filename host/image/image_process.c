@@ -7,7 +7,6 @@
 #include "image/open_module.h"
 #include "image/socket.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdint.h>

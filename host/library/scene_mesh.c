@@ -4,7 +4,6 @@
 #include "library/scene_handle.h"
 #include "scene/limits.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 // An array of no elements may be NULL.

@@ -5,8 +5,6 @@
 
 #include "device/upload.h"
 
-#include <string.h>
-
 #define LAUNCH_RAYS 65536
 
 // The fewest lanes of wide kernels, whose number the host may not know.

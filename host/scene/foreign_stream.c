@@ -5,7 +5,6 @@
 #include "scene/limits.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include <stb/stb_easy_font.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define TEXT_SIZE     8192
 #define QUADS_MAX     16384

@@ -5,7 +5,6 @@
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 // What a picture says that began so many seconds ago.

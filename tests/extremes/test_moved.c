@@ -9,8 +9,6 @@
 #include "support/tier.h"
 #include "support/varied_scene.h"
 
-#include <string.h>
-
 typedef struct {
     int axis[3];    // which old axis becomes each new one
     double sign[3]; // and with which sign

@@ -6,8 +6,6 @@
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
 
-#include <string.h>
-
 // Every builder with every kind of leaves.
 static const BvhSettings settings[] = {{BVH_SAH, LEAVES_SINGLE},
                                        {BVH_SAH, LEAVES_BLOCKS},

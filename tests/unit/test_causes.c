@@ -5,7 +5,6 @@
 #include "unit/cmocka_all.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define CHANNELS 7

@@ -6,7 +6,6 @@
 #include "unit/cmocka_all.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define PIXELS 4

@@ -3,8 +3,6 @@
 #include "render/outline.h"
 #include "unit/cmocka_all.h"
 
-#include <math.h>
-
 #define TRIALS 3000
 #define GRID   12
 

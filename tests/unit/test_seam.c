@@ -3,8 +3,6 @@
 #include "render/seam.h"
 #include "unit/cmocka_all.h"
 
-#include <string.h>
-
 #define SIDE  27u
 #define LINE  (GROUP_SIDE * SIDE)
 #define AREA  (2.0 * SIDE * SIDE) // of a cell, in the sums' unit

@@ -9,7 +9,6 @@
 #include <dirent.h>
 #include <malloc.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define CYCLES     200
 #define WARMING_UP 20 // cycles after which drivers have all they keep

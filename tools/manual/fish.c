@@ -6,8 +6,6 @@
 #include "command_names.h"
 #include "value.h"
 
-#include <string.h>
-
 static void write_quoted(FILE *stream, const char *text)
 {
     fputc('\'', stream);
