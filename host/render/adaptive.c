@@ -4,7 +4,6 @@
 #include "render/adaptive.h"
 
 #include "render/adaptive_pass.h"
-#include "render/contrast.h"
 
 #include <stdlib.h>
 
@@ -14,6 +13,7 @@
 // What one marking works on.
 typedef struct {
     const RefineTree *tree;
+    const PixelContrasts *pixel_contrasts;
     const Footprints *footprints;
     const ThinParts *thin_parts;
     float threshold;
@@ -41,15 +41,12 @@ static PixelMark mark_of_pixel(const Marking *marking, uint32_t x, uint32_t y)
     const float threshold = marking->threshold;
     const size_t pixel = (size_t)y * tree->width + x;
     const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
-    if (tree->pixel_groups[pixel] != 0)
+    const CellContrast contrast = pixel_contrast(marking->pixel_contrasts, x, y);
+    const bool is_thin = thin_parts_cut(marking->thin_parts, place, 0);
+    if ((contrast.value <= threshold && !is_thin) || tree->pixel_groups[pixel] != 0)
         return PIXEL_LEAVE;
-    if (thin_parts_cut(marking->thin_parts, place, 0))
+    if (is_thin)
         return PIXEL_CUT;
-    if (!contrast_may_exceed(tree, x, y, threshold))
-        return PIXEL_LEAVE;
-    const CellContrast contrast = contrast_of_pixel(tree, x, y);
-    if (contrast.value <= threshold)
-        return PIXEL_LEAVE;
     if (!contrast.is_step || contrast_past_seams(contrast.value) > threshold)
         return PIXEL_CUT;
     return tree->pixel_seams[pixel] == 0 ? PIXEL_OPEN : PIXEL_LEAVE;
@@ -65,12 +62,16 @@ static void mark_rows(void *context, uint32_t task, uint32_t worker)
             marking->marks[(size_t)y * tree->width + x] = (uint16_t)mark_of_pixel(marking, x, y);
 }
 
-// What a group's outer cells saw may reach into the cells around it: a bit for each side.
+// What a group's outer cells saw may reach into the cells around it: a bit for each side.  Cells
+// of the size that was cut stay as they were, or are cut.
 static unsigned marks_around(const Marking *marking, const CellGroup *group)
 {
     unsigned marks = 0;
     for (CellSide side = 0; side < SIDE_COUNT; side++) {
         CellName name;
+        const bool is_known = group->beyond_levels[side] + 1u == group->level;
+        if (is_known && group->across[side] <= marking->threshold)
+            continue;
         if (refine_tree_neighbor(marking->tree, group, side, &name) &&
             contrast_across(group, side, refine_tree_sample(marking->tree, &name), name.level) >
                 marking->threshold)
@@ -82,15 +83,13 @@ static unsigned marks_around(const Marking *marking, const CellGroup *group)
 static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
 {
     const float threshold = marking->threshold;
-    CellContrast contrast[GROUP_CELLS];
     unsigned marks = marks_around(marking, group) << GROUP_CELLS;
     if (group->level == REFINE_LEVELS)
         return (uint16_t)marks;
     marks |=
         footprints_marks(marking->footprints, group) | thin_parts_marks(marking->thin_parts, group);
-    contrast_of_group(group, contrast);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-        if (group->groups[cell] == 0 && contrast[cell].value > threshold)
+        if (group->groups[cell] == 0 && contrast_read(group->contrasts[cell]).value > threshold)
             marks |= 1u << cell;
     return (uint16_t)marks;
 }
@@ -188,6 +187,7 @@ static void mark_footprints(const Marking *marking)
 static Marking marking_of(const Adaptive *adaptive, float threshold)
 {
     return (Marking){.tree = &adaptive->tree,
+                     .pixel_contrasts = &adaptive->pixel_contrasts,
                      .footprints = &adaptive->footprints,
                      .thin_parts = &adaptive->thin_parts,
                      .threshold = threshold};
@@ -308,6 +308,7 @@ void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 
 void adaptive_close(Adaptive *adaptive)
 {
+    pixel_contrasts_free(&adaptive->pixel_contrasts);
     footprints_free(&adaptive->footprints);
     thin_parts_free(&adaptive->thin_parts);
     refine_tree_free(&adaptive->tree);

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "render/footprint.h"
+#include "render/pixel_contrast.h"
 #include "render/renderer.h"
 #include "render/thin_parts.h"
 
@@ -19,6 +20,7 @@ typedef struct {
     Crew *crew;         // borrowed
     FrameData frame;
     RefineTree tree;
+    PixelContrasts pixel_contrasts;
     Footprints footprints; // of small spheres, whose cells are cut in any case
     ThinParts thin_parts;  // of meshes, the same
     uint64_t samples;      // taken

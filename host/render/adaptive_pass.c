@@ -3,6 +3,7 @@
 // asks.
 #include "render/adaptive_pass.h"
 
+#include "render/contrast.h"
 #include "render/sampler.h"
 
 #include <stdlib.h>
@@ -52,10 +53,13 @@ static void take_samples(void *context, uint32_t task, uint32_t worker)
     RefineTree *tree = exchange->tree;
     const size_t count = tree->groups.count - exchange->first;
     const SampleData *samples = exchange->samples + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
-    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++) {
+        CellGroup *group = &tree->groups.data[exchange->first + i];
         for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
             if (cell != GROUP_MIDDLE)
-                tree->groups.data[exchange->first + i].cells[cell] = *samples++;
+                group->cells[cell] = *samples++;
+        contrast_keep(group);
+    }
 }
 
 bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
@@ -125,5 +129,5 @@ bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Err
     const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     adaptive->samples = (uint64_t)tree->width * tree->height;
     free(places);
-    return ok;
+    return ok && pixel_contrasts_make(&adaptive->pixel_contrasts, tree, adaptive->crew, error);
 }

@@ -5,8 +5,6 @@
 // anywhere between the two samples of its seam.
 #include "render/cell_sums.h"
 
-#include "render/contrast.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +22,7 @@
 
 typedef struct {
     const RefineTree *tree;
+    const PixelContrasts *pixel_contrasts;
     const ThinParts *thin_parts;
     CellSums *parts; // of each task
     uint32_t row_tasks;
@@ -134,7 +133,7 @@ static void sum_rows(const Summing *summing, uint32_t task, CellSums *sums)
     for (uint32_t y = task * ROWS_OF_TASK; y < end; y++)
         for (uint32_t x = 0; x < tree->width; x++) {
             const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
-            Part pixel = {.contrast = contrast_of_pixel(tree, x, y),
+            Part pixel = {.contrast = pixel_contrast(summing->pixel_contrasts, x, y),
                           .group = tree->pixel_groups[(size_t)y * tree->width + x]};
             if (tree->pixel_seams[(size_t)y * tree->width + x] != 0 && pixel.group == 0)
                 add_pixel_seams(tree, tree->pixel_seams[(size_t)y * tree->width + x],
@@ -149,13 +148,11 @@ static void sum_rows(const Summing *summing, uint32_t task, CellSums *sums)
 static void add_cells(const Summing *summing, const CellGroup *group, CellSums *sums)
 {
     const uint32_t side = refine_tree_cell_side(group->level);
-    CellContrast contrast[GROUP_CELLS];
     ColorSum known[GROUP_CELLS];
-    contrast_of_group(group, contrast);
     refine_tree_cells(summing->tree, group, known);
     for (uint32_t i = 0; i < GROUP_CELLS; i++) {
         uint32_t middle[2];
-        Part cell = {contrast[i], group->level, group->groups[i], {0}};
+        Part cell = {contrast_read(group->contrasts[i]), group->level, group->groups[i], {0}};
         for (int channel = 0; channel < 3; channel++)
             cell.color[channel] = (float)known[i][channel] / (float)(2 * side * side) * 0x1p-32f;
         refine_tree_cell_place(group, i, middle);
@@ -218,6 +215,7 @@ bool cell_sums_make(CellSums *sums, const Adaptive *adaptive, Error *error)
 {
     const RefineTree *tree = &adaptive->tree;
     Summing summing = {.tree = tree,
+                       .pixel_contrasts = &adaptive->pixel_contrasts,
                        .thin_parts = &adaptive->thin_parts,
                        .row_tasks = tasks_of(tree->height, ROWS_OF_TASK)};
     const uint32_t tasks = summing.row_tasks + tasks_of(tree->groups.count - 1, GROUPS_OF_TASK);

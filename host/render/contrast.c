@@ -4,12 +4,6 @@
 // difference itself.  In groups seams tell where steps lie, and contrast what they may have missed.
 #include "render/contrast.h"
 
-#include <math.h>
-#include <string.h>
-
-// Two pixels may agree in color by chance where an outline runs between them.
-#define OUTLINE_WEIGHT 2
-
 // Beside a seam, and in a pixel that has one.
 #define STEP_WEIGHT  0.5f
 #define BEND_WEIGHT  0.25f
@@ -43,67 +37,9 @@ static float step(const SampleData *at, const SampleData *other)
     return most;
 }
 
-CellContrast contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y)
-{
-    const SampleData *pixels = tree->pixels, *at = &pixels[refine_tree_place(tree, x, y)];
-    const bool is_left = x == 0, is_right = x + 1 == tree->width;
-    const bool is_top = y == 0, is_bottom = y + 1 == tree->height;
-    const SampleData *left = is_left ? at : &pixels[refine_tree_place(tree, x - 1, y)];
-    const SampleData *right = is_right ? at : &pixels[refine_tree_place(tree, x + 1, y)];
-    const SampleData *above = is_top ? at : &pixels[refine_tree_place(tree, x, y - 1)];
-    const SampleData *below = is_bottom ? at : &pixels[refine_tree_place(tree, x, y + 1)];
-    const float steps =
-        larger(larger(step(at, left), step(at, right)), larger(step(at, above), step(at, below)));
-    CellContrast contrast = {OUTLINE_WEIGHT * steps, steps > 0};
-    if (!is_left && !is_right)
-        contrast.value = larger(contrast.value, bend(left, at, right, 0.5f));
-    if (!is_top && !is_bottom)
-        contrast.value = larger(contrast.value, bend(above, at, below, 0.5f));
-    return contrast;
-}
-
-// The three channels and the signature of a sample, which processors compare at once.
-typedef float Channels __attribute__((vector_size(16)));
-typedef int32_t Bits __attribute__((vector_size(16)));
-
-static inline Channels channels_of(const SampleData *sample)
-{
-    Channels channels;
-    memcpy(&channels, sample, sizeof channels);
-    return channels;
-}
-
-static inline bool may_bend(Channels before, Channels at, Channels after, float threshold)
-{
-    const Channels bend = before + after - 2 * at;
-    const Bits beyond = (bend > threshold) | (bend < -threshold);
-    return (beyond[0] | beyond[1] | beyond[2]) != 0;
-}
-
-static inline bool saw_another(const SampleData *at, const SampleData *other)
-{
-    return at->signature != other->signature;
-}
-
 float contrast_past_seams(float contrast)
 {
     return PIXEL_WEIGHT * contrast;
-}
-
-bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold)
-{
-    if (x == 0 || y == 0 || x + 1 == tree->width || y + 1 == tree->height)
-        return true;
-    const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];
-    const SampleData *left = &tree->pixels[refine_tree_place(tree, x - 1, y)];
-    const SampleData *right = &tree->pixels[refine_tree_place(tree, x + 1, y)];
-    const SampleData *above = &tree->pixels[refine_tree_place(tree, x, y - 1)];
-    const SampleData *below = &tree->pixels[refine_tree_place(tree, x, y + 1)];
-    const float least = 0.999f * threshold; // the sums are rounded in another order
-    return saw_another(at, left) || saw_another(at, right) || saw_another(at, above) ||
-           saw_another(at, below) ||
-           may_bend(channels_of(left), channels_of(at), channels_of(right), least) ||
-           may_bend(channels_of(above), channels_of(at), channels_of(below), least);
 }
 
 // What lies beyond a line is twice as far away.
@@ -153,16 +89,22 @@ float contrast_across(const CellGroup *group, CellSide side, const SampleData *o
         const SampleData *cell = &group->cells[first[side] + i * stride[side]];
         most = larger(most, step(cell, other));
     }
-    return (level == 0 ? PIXEL_WEIGHT * OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] * most;
+    return (level == 0 ? PIXEL_WEIGHT * CONTRAST_OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] *
+           most;
 }
 
-void contrast_of_group(const CellGroup *group, CellContrast contrast[GROUP_CELLS])
+void contrast_keep(CellGroup *group)
 {
-    memset(contrast, 0, GROUP_CELLS * sizeof *contrast);
+    CellContrast contrast[GROUP_CELLS] = {0};
     for (uint32_t i = 0; i < GROUP_SIDE; i++) {
         add_line(group, i * GROUP_SIDE, 1, contrast);
         add_line(group, i, GROUP_SIDE, contrast);
     }
-    for (uint32_t i = 0; i < GROUP_CELLS; i++)
+    for (uint32_t i = 0; i < GROUP_CELLS; i++) {
         contrast[i].value *= parts[group->level];
+        group->contrasts[i] = contrast_kept(contrast[i]);
+    }
+    for (CellSide side = 0; side < SIDE_COUNT; side++)
+        group->across[side] =
+            contrast_across(group, side, &group->beyond[side], group->beyond_levels[side]);
 }

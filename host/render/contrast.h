@@ -5,25 +5,37 @@
 
 #include "render/refine_tree.h"
 
+#include <math.h>
+
+// Of what a pixel and its neighbors saw: two may agree in color by chance where an outline runs
+// between them.
+#define CONTRAST_OUTLINE_WEIGHT 2
+
 // Of one kind or the other as its neighbors show: colors that step say less of what is left.
 typedef struct {
     float value;
     bool is_step;
 } CellContrast;
 
-// Of a pixel; what differs from a neighbor that met another surface or light counts twice.
-CellContrast contrast_of_pixel(const RefineTree *tree, uint32_t x, uint32_t y);
+// Contrasts are kept as floats, with a sign where they are of steps.
+static inline CellContrast contrast_read(float kept)
+{
+    return (CellContrast){fabsf(kept), signbit(kept) != 0};
+}
+
+static inline float contrast_kept(CellContrast contrast)
+{
+    return contrast.is_step ? -contrast.value : contrast.value;
+}
 
 // What is left of a pixel's steps once its seams are placed.
 float contrast_past_seams(float contrast);
-
-// Whether that may be above a threshold: false for most pixels, at a fraction of the cost.
-bool contrast_may_exceed(const RefineTree *tree, uint32_t x, uint32_t y, float threshold);
 
 // Of a cell beside a group, across the side that they share; zero where all that meets there saw
 // the same.
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
                       uint32_t level);
 
-// Of a group's cells, with no regard to which are cut.
-void contrast_of_group(const CellGroup *group, CellContrast contrast[GROUP_CELLS]);
+// Keeps those of a group that has its samples: of its cells, with no regard to which are cut, and
+// of those beyond its sides as they were when it was made.
+void contrast_keep(CellGroup *group);

@@ -125,16 +125,18 @@ const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t p
     return refine_tree_sample(tree, &name);
 }
 
-// What was seen beyond a side of the cell that a group cuts, from the nearest cell no smaller than
-// that; its own where the picture ends.
-static SampleData sample_beyond(const RefineTree *tree, const CellGroup *group, CellSide side)
+// Takes over what was seen beyond a side of the cell that a group cuts, from the nearest cell no
+// smaller than that; its own where the picture ends.
+static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
 {
-    CellName name;
     uint32_t place[2];
-    if (!place_beyond(tree, group, side, place))
-        return group->cells[GROUP_MIDDLE];
-    descend(tree, place, group->level - 1, tree->traced, &name);
-    return *refine_tree_sample(tree, &name);
+    CellName name = {.level = group->level - 1};
+    group->beyond[side] = group->cells[GROUP_MIDDLE];
+    if (place_beyond(tree, group, side, place)) {
+        descend(tree, place, group->level - 1, tree->traced, &name);
+        group->beyond[side] = *refine_tree_sample(tree, &name);
+    }
+    group->beyond_levels[side] = (uint8_t)name.level;
 }
 
 // Fills a new group with what is known before it is traced.
@@ -142,7 +144,7 @@ static void begin_group(const RefineTree *tree, CellGroup *group, const SampleDa
 {
     group->cells[GROUP_MIDDLE] = *middle;
     for (CellSide side = 0; side < SIDE_COUNT; side++)
-        group->beyond[side] = sample_beyond(tree, group, side);
+        look_beyond(tree, group, side);
 }
 
 bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error)

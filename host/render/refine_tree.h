@@ -20,9 +20,12 @@ typedef struct {
     uint32_t x, y;                 // of its middle, in cells of the last level
     uint32_t level;                // of its cells, from 1
     SampleData beyond[SIDE_COUNT]; // from the next cells of the size that was cut, or larger ones
+    uint8_t beyond_levels[SIDE_COUNT]; // of those; of the size that was cut where there are none
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // that its cells are cut into, 0 where they are not
     uint32_t seams;               // the first, 0 for none
+    float contrasts[GROUP_CELLS]; // of its cells, as contrast_read reads them
+    float across[SIDE_COUNT];     // of the cells beyond, with those of the group beside them
 } CellGroup;
 
 typedef struct {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Contrasts of pixels, compared several at once, are those that one pixel after the other has.
+#include "render/pixel_contrast.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <string.h>
+
+static uint32_t next_number(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+static void fill(RefineTree *tree)
+{
+    uint32_t state = 1;
+    for (uint32_t y = 0; y < tree->height; y++)
+        for (uint32_t x = 0; x < tree->width; x++) {
+            SampleData *sample = &tree->pixels[refine_tree_place(tree, x, y)];
+            for (int channel = 0; channel < 3; channel++)
+                sample->color[channel] = (float)next_number(&state) * 0x1p-24f;
+            sample->signature = next_number(&state) % 2;
+        }
+}
+
+static const SampleData *sample_at(const RefineTree *tree, uint32_t x, uint32_t y)
+{
+    return &tree->pixels[refine_tree_place(tree, x, y)];
+}
+
+static float bend(const SampleData *before, const SampleData *at, const SampleData *after)
+{
+    float most = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const float line = 0.5f * before->color[channel] + 0.5f * after->color[channel];
+        most = fmaxf(most, 2 * fabsf(at->color[channel] - line));
+    }
+    return most;
+}
+
+static float step(const SampleData *at, const SampleData *other)
+{
+    return at->signature == other->signature ? 0 : seam_difference(at, other);
+}
+
+// Across the picture for a stride of 1 and 0, down it for 0 and 1.
+static void add_axis(const RefineTree *tree, const uint32_t place[2], const uint32_t stride[2],
+                     float *steps, float *bends)
+{
+    const uint32_t x = place[0], y = place[1];
+    const SampleData *at = sample_at(tree, x, y), *before = NULL, *after = NULL;
+    if (x >= stride[0] && y >= stride[1])
+        before = sample_at(tree, x - stride[0], y - stride[1]);
+    if (x + stride[0] < tree->width && y + stride[1] < tree->height)
+        after = sample_at(tree, x + stride[0], y + stride[1]);
+    *steps = before == NULL ? *steps : fmaxf(*steps, step(at, before));
+    *steps = after == NULL ? *steps : fmaxf(*steps, step(at, after));
+    if (before != NULL && after != NULL)
+        *bends = fmaxf(*bends, bend(before, at, after));
+}
+
+static void check_pixel(const RefineTree *tree, const PixelContrasts *contrasts, uint32_t x,
+                        uint32_t y)
+{
+    float steps = 0, bends = 0;
+    const uint32_t place[2] = {x, y}, across[2] = {1, 0}, down[2] = {0, 1};
+    add_axis(tree, place, across, &steps, &bends);
+    add_axis(tree, place, down, &steps, &bends);
+    const CellContrast kept = pixel_contrast(contrasts, x, y);
+    const float value = fmaxf(CONTRAST_OUTLINE_WEIGHT * steps, bends);
+    assert_memory_equal(&kept.value, &value, sizeof value);
+    assert_int_equal(kept.is_step, steps > 0);
+}
+
+static void check_size(uint32_t width, uint32_t height)
+{
+    Error error = {0};
+    RefineTree tree;
+    PixelContrasts contrasts;
+    assert_true(refine_tree_make(&tree, width, height, &error));
+    fill(&tree);
+    assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            check_pixel(&tree, &contrasts, x, y);
+    pixel_contrasts_free(&contrasts);
+    refine_tree_free(&tree);
+}
+
+static void contrasts_of_strips_are_those_of_single_pixels(void **state)
+{
+    (void)state;
+    check_size(1, 1);
+    check_size(1, 7);
+    check_size(5, 1);
+    check_size(64, 16);
+    check_size(65, 17);
+    check_size(199, 35);
+}
+
+static void a_step_between_equal_colors_is_none(void **state)
+{
+    (void)state;
+    Error error = {0};
+    RefineTree tree;
+    PixelContrasts contrasts;
+    assert_true(refine_tree_make(&tree, 2, 1, &error));
+    memset(tree.pixels, 0, refine_tree_places(&tree) * sizeof *tree.pixels);
+    tree.pixels[1].signature = 1;
+    assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
+    assert_false(pixel_contrast(&contrasts, 0, 0).is_step);
+    pixel_contrasts_free(&contrasts);
+    refine_tree_free(&tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contrasts_of_strips_are_those_of_single_pixels),
+        cmocka_unit_test(a_step_between_equal_colors_is_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
