@@ -4,6 +4,7 @@
 #include "render/adaptive.h"
 
 #include "render/adaptive_pass.h"
+#include "render/pixel_marks.h"
 
 #include <stdlib.h>
 
@@ -13,12 +14,11 @@
 // What one marking works on.
 typedef struct {
     const RefineTree *tree;
-    const PixelContrasts *pixel_contrasts;
     const Footprints *footprints;
     const ThinParts *thin_parts;
     float threshold;
     uint32_t first, end; // of groups
-    uint16_t *marks;     // a bit for each cell of a group and each side, or for a pixel
+    uint16_t *marks;     // a bit for each cell of a group and each side
 } Marking;
 
 static uint32_t tasks_of(size_t whole, uint32_t part)
@@ -30,36 +30,6 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
 {
     const size_t end = (size_t)(task + 1) * part;
     return (uint32_t)(end < whole ? end : whole);
-}
-
-// What to do with a pixel.
-typedef enum { PIXEL_LEAVE, PIXEL_CUT, PIXEL_OPEN } PixelMark;
-
-static PixelMark mark_of_pixel(const Marking *marking, uint32_t x, uint32_t y)
-{
-    const RefineTree *tree = marking->tree;
-    const float threshold = marking->threshold;
-    const size_t pixel = (size_t)y * tree->width + x;
-    const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
-    const CellContrast contrast = pixel_contrast(marking->pixel_contrasts, x, y);
-    const bool is_thin = thin_parts_cut(marking->thin_parts, place, 0);
-    if ((contrast.value <= threshold && !is_thin) || tree->pixel_groups[pixel] != 0)
-        return PIXEL_LEAVE;
-    if (is_thin)
-        return PIXEL_CUT;
-    if (!contrast.is_step || contrast_past_seams(contrast.value) > threshold)
-        return PIXEL_CUT;
-    return tree->pixel_seams[pixel] == 0 ? PIXEL_OPEN : PIXEL_LEAVE;
-}
-
-static void mark_rows(void *context, uint32_t task, uint32_t worker)
-{
-    (void)worker;
-    const Marking *marking = context;
-    const RefineTree *tree = marking->tree;
-    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
-        for (uint32_t x = 0; x < tree->width; x++)
-            marking->marks[(size_t)y * tree->width + x] = (uint16_t)mark_of_pixel(marking, x, y);
 }
 
 // What a group's outer cells saw may reach into the cells around it: a bit for each side.  Cells
@@ -102,31 +72,6 @@ static void mark_groups(void *context, uint32_t task, uint32_t worker)
     const size_t count = marking->end - marking->first;
     for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
         marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
-}
-
-static bool cut_pixels_of_block(RefineTree *tree, const uint16_t *marks, uint32_t left,
-                                uint32_t top, Error *error)
-{
-    const uint32_t right = end_of(left / PACKET_SIDE, PACKET_SIDE, tree->width);
-    const uint32_t bottom = end_of(top / PACKET_SIDE, PACKET_SIDE, tree->height);
-    for (uint32_t y = top; y < bottom; y++)
-        for (uint32_t x = left; x < right; x++) {
-            const PixelMark mark = marks[(size_t)y * tree->width + x];
-            if ((mark == PIXEL_CUT && !refine_tree_cut_pixel(tree, x, y, error)) ||
-                (mark == PIXEL_OPEN && !refine_tree_open_pixel(tree, x, y, error)))
-                return false;
-        }
-    return true;
-}
-
-// Block by block, so that samples which follow each other in a list are near each other too.
-static bool cut_pixels(RefineTree *tree, const uint16_t *marks, Error *error)
-{
-    for (uint32_t top = 0; top < tree->height; top += PACKET_SIDE)
-        for (uint32_t left = 0; left < tree->width; left += PACKET_SIDE)
-            if (!cut_pixels_of_block(tree, marks, left, top, error))
-                return false;
-    return true;
 }
 
 static bool cut_named(RefineTree *tree, const CellName *name, Error *error)
@@ -175,19 +120,20 @@ bool adaptive_is_whole(const Adaptive *adaptive)
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
 
-static void mark_footprints(const Marking *marking)
+static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error *error)
 {
-    for (size_t i = 0; i < marking->footprints->list.count; i++) {
-        const uint32_t pixel = marking->footprints->list.data[i].pixel;
-        if (marking->tree->pixel_groups[pixel] == 0)
-            marking->marks[pixel] = PIXEL_CUT;
+    for (size_t i = 0; i < footprints->list.count; i++) {
+        const uint32_t pixel = footprints->list.data[i].pixel;
+        if (tree->pixel_groups[pixel] == 0 &&
+            !refine_tree_cut_pixel(tree, pixel % tree->width, pixel / tree->width, error))
+            return false;
     }
+    return true;
 }
 
 static Marking marking_of(const Adaptive *adaptive, float threshold)
 {
     return (Marking){.tree = &adaptive->tree,
-                     .pixel_contrasts = &adaptive->pixel_contrasts,
                      .footprints = &adaptive->footprints,
                      .thin_parts = &adaptive->thin_parts,
                      .threshold = threshold};
@@ -195,16 +141,9 @@ static Marking marking_of(const Adaptive *adaptive, float threshold)
 
 static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
 {
-    RefineTree *tree = &adaptive->tree;
-    Marking marking = marking_of(adaptive, threshold);
-    marking.marks = memory_raw((size_t)tree->width * tree->height, sizeof *marking.marks, error);
-    if (marking.marks == NULL)
-        return false;
-    crew_run(adaptive->crew, tasks_of(tree->height, ROWS_OF_TASK), mark_rows, &marking);
-    mark_footprints(&marking);
-    const bool ok = cut_pixels(tree, marking.marks, error);
-    free(marking.marks);
-    return ok;
+    const PixelWants wants = {&adaptive->pixel_contrasts, &adaptive->thin_parts, threshold};
+    return cut_footprints(&adaptive->tree, &adaptive->footprints, error) &&
+           pixel_marks_take(&adaptive->tree, &wants, adaptive->crew, error);
 }
 
 // Looks at the groups from `first` up to `end`.

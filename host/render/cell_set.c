@@ -138,6 +138,12 @@ bool pixel_set_has_all(const CellSet *set, uint32_t row, uint32_t first, uint32_
     return missing == 0;
 }
 
+uint32_t pixel_set_bits(const CellSet *set, uint32_t left, uint32_t row)
+{
+    return atomic_load_explicit(&set->words[row * words_of_row(set) + left / WORD_BITS],
+                                memory_order_relaxed);
+}
+
 void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom)
 {
     const size_t row = words_of_row(set) * sizeof *set->words;

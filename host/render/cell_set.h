@@ -56,6 +56,9 @@ void cell_set_clear_pixel(CellSet *set, uint32_t column, uint32_t row);
 void pixel_set_add_range(CellSet *set, uint32_t row, uint32_t first, uint32_t end);
 bool pixel_set_has_all(const CellSet *set, uint32_t row, uint32_t first, uint32_t end);
 
+// Of the 32 pixels of a row from `left` on, a multiple of 32, those in the set: a bit for each.
+uint32_t pixel_set_bits(const CellSet *set, uint32_t left, uint32_t row);
+
 // Takes out the pixels of rows from `top` to before `bottom`.
 void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom);
 

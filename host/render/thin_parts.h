@@ -49,5 +49,11 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
            cell_set_has(&parts->cut[level], place[0] / side, place[1] / side);
 }
 
+// The same of 32 pixels of a row from `left` on, a multiple of 32: a bit for each.
+static inline uint32_t thin_parts_pixels(const ThinParts *parts, uint32_t left, uint32_t row)
+{
+    return parts->levels == 0 ? 0 : pixel_set_bits(&parts->cut[0], left, row);
+}
+
 // The cells of a group that must be cut: a bit for each.
 unsigned thin_parts_marks(const ThinParts *parts, const CellGroup *group);
