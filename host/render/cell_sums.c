@@ -67,39 +67,39 @@ static double square(double value)
     return value * value;
 }
 
-// What may be cut: a pixel or a cell.
+// What is cut: a pixel or a cell.
 typedef struct {
     CellContrast contrast;
     uint32_t level, group; // into which it is cut
     float color[3];        // known of it before that
 } Part;
 
-static void add_left(CellSums *sums, const Part *part, KindSums *kind)
+static KindSums *kind_of(CellSums *sums, CellContrast contrast, uint32_t level)
 {
-    kind->left += square((double)part->contrast.value);
-    if (part->level < REFINE_LEVELS)
-        sums->counts[bin_of(part->contrast.value)] += ADAPTIVE_CUT;
+    return contrast.is_step ? &sums->steps[level] : &sums->bends[level];
 }
 
-static void add_cut(const RefineTree *tree, const Part *part, KindSums *kind)
+// What has no contrast is nowhere cut for any.
+static inline void add_left(CellSums *sums, CellContrast contrast, uint32_t level)
+{
+    if (contrast.value <= 0)
+        return;
+    kind_of(sums, contrast, level)->left += square((double)contrast.value);
+    if (level < REFINE_LEVELS)
+        sums->counts[bin_of(contrast.value)] += ADAPTIVE_CUT;
+}
+
+static void add_cut(const RefineTree *tree, const Part *part, CellSums *sums)
 {
     static const double areas[REFINE_LEVELS + 1] = {1, 1 / 9.0, 1 / 81.0, 1 / 729.0, 1 / 6561.0};
     const double area = areas[part->level];
+    KindSums *kind = kind_of(sums, part->contrast, part->level);
     float mean[3];
     refine_tree_mean(tree, part->group, mean);
     kind->cut += square((double)part->contrast.value);
     kind->cuts++;
     for (int channel = 0; channel < 3; channel++)
         kind->changed += square(area * ((double)mean[channel] - (double)part->color[channel])) / 3;
-}
-
-static void add_part(const RefineTree *tree, const Part *part, CellSums *sums)
-{
-    KindSums *kinds = part->contrast.is_step ? sums->steps : sums->bends;
-    if (part->group == 0)
-        add_left(sums, part, &kinds[part->level]);
-    else
-        add_cut(tree, part, &kinds[part->level]);
 }
 
 static void add_seam(const Seam *seam, CellSums *sums)
@@ -111,19 +111,41 @@ static void add_seam(const Seam *seam, CellSums *sums)
         sums->counts[bin_of((float)contrast / ADAPTIVE_SEAM_PART)]++;
 }
 
-static void add_pixel_seams(const RefineTree *tree, uint32_t seam, CellContrast *contrast,
+static void add_pixel_seams(const RefineTree *tree, size_t pixel, CellContrast contrast,
                             CellSums *sums)
 {
-    contrast->value = contrast_past_seams(contrast->value);
-    for (; seam != 0; seam = tree->seams.data[seam].next)
+    contrast.value = contrast_past_seams(contrast.value);
+    add_left(sums, contrast, 0);
+    for (uint32_t seam = tree->pixel_seams[pixel]; seam != 0; seam = tree->seams.data[seam].next)
         add_seam(&tree->seams.data[seam], sums);
 }
 
-// What was cut for what contrast does not show tells nothing of contrasts.
-static bool is_told(const ThinParts *thin_parts, uint32_t group, const uint32_t place[2],
-                    uint32_t level)
+static void add_cut_pixel(const Summing *summing, uint32_t x, uint32_t y, CellSums *sums)
 {
-    return group == 0 || !thin_parts_cut(thin_parts, place, level);
+    const RefineTree *tree = summing->tree;
+    const SampleData *sample = &tree->pixels[refine_tree_place(tree, x, y)];
+    const Part pixel = {.contrast = pixel_contrast(summing->pixel_contrasts, x, y),
+                        .group = tree->pixel_groups[(size_t)y * tree->width + x],
+                        .color = {sample->color[0], sample->color[1], sample->color[2]}};
+    const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
+    if (!thin_parts_cut(summing->thin_parts, place, 0))
+        add_cut(tree, &pixel, sums);
+}
+
+// What was cut for thin parts tells nothing of contrasts.
+static void sum_row(const Summing *summing, uint32_t y, CellSums *sums)
+{
+    const RefineTree *tree = summing->tree;
+    const size_t row = (size_t)y * tree->width;
+    for (uint32_t x = 0; x < tree->width; x++) {
+        const CellContrast contrast = contrast_read(summing->pixel_contrasts->values[row + x]);
+        if (tree->pixel_groups[row + x] != 0)
+            add_cut_pixel(summing, x, y, sums);
+        else if (tree->pixel_seams[row + x] != 0)
+            add_pixel_seams(tree, row + x, contrast, sums);
+        else
+            add_left(sums, contrast, 0);
+    }
 }
 
 static void sum_rows(const Summing *summing, uint32_t task, CellSums *sums)
@@ -131,34 +153,40 @@ static void sum_rows(const Summing *summing, uint32_t task, CellSums *sums)
     const RefineTree *tree = summing->tree;
     const uint32_t end = (uint32_t)end_of(task, ROWS_OF_TASK, tree->height);
     for (uint32_t y = task * ROWS_OF_TASK; y < end; y++)
-        for (uint32_t x = 0; x < tree->width; x++) {
-            const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
-            Part pixel = {.contrast = pixel_contrast(summing->pixel_contrasts, x, y),
-                          .group = tree->pixel_groups[(size_t)y * tree->width + x]};
-            if (tree->pixel_seams[(size_t)y * tree->width + x] != 0 && pixel.group == 0)
-                add_pixel_seams(tree, tree->pixel_seams[(size_t)y * tree->width + x],
-                                &pixel.contrast, sums);
-            memcpy(pixel.color, tree->pixels[refine_tree_place(tree, x, y)].color,
-                   sizeof pixel.color);
-            if (is_told(summing->thin_parts, pixel.group, place, 0))
-                add_part(tree, &pixel, sums);
-        }
+        sum_row(summing, y, sums);
+}
+
+static void add_cut_cell(const Summing *summing, const CellGroup *group, uint32_t cell,
+                         const ColorSum known, CellSums *sums)
+{
+    const uint32_t side = refine_tree_cell_side(group->level);
+    uint32_t middle[2];
+    Part part = {contrast_read(group->contrasts[cell]), group->level, group->groups[cell], {0}};
+    for (int channel = 0; channel < 3; channel++)
+        part.color[channel] = (float)known[channel] / (float)(2 * side * side) * 0x1p-32f;
+    refine_tree_cell_place(group, cell, middle);
+    if (!thin_parts_cut(summing->thin_parts, middle, group->level))
+        add_cut(summing->tree, &part, sums);
+}
+
+static bool has_cut_cells(const CellGroup *group)
+{
+    uint32_t any = 0;
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        any |= group->groups[cell];
+    return any != 0;
 }
 
 static void add_cells(const Summing *summing, const CellGroup *group, CellSums *sums)
 {
-    const uint32_t side = refine_tree_cell_side(group->level);
     ColorSum known[GROUP_CELLS];
-    refine_tree_cells(summing->tree, group, known);
-    for (uint32_t i = 0; i < GROUP_CELLS; i++) {
-        uint32_t middle[2];
-        Part cell = {contrast_read(group->contrasts[i]), group->level, group->groups[i], {0}};
-        for (int channel = 0; channel < 3; channel++)
-            cell.color[channel] = (float)known[i][channel] / (float)(2 * side * side) * 0x1p-32f;
-        refine_tree_cell_place(group, i, middle);
-        if (is_told(summing->thin_parts, cell.group, middle, group->level))
-            add_part(summing->tree, &cell, sums);
-    }
+    if (has_cut_cells(group))
+        refine_tree_cells(summing->tree, group, known);
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if (group->groups[cell] != 0)
+            add_cut_cell(summing, group, cell, known[cell], sums);
+        else
+            add_left(sums, contrast_read(group->contrasts[cell]), group->level);
 }
 
 // Whether the cell that the seam passes in is cut: then the group within tells of the step.

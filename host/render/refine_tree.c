@@ -300,13 +300,35 @@ static void pixel_color(const RefineTree *tree, uint32_t x, uint32_t y, float co
     mean_of(sum, REFINE_GRID, color);
 }
 
+static void store_pixel(const RefineTree *tree, uint32_t x, uint32_t y, float color[3])
+{
+    const uint32_t group = tree->pixel_groups[(size_t)y * tree->width + x];
+    if (group != 0)
+        refine_tree_mean(tree, group, color);
+    else
+        pixel_color(tree, x, y, color);
+}
+
+// Whether the pixels of a block's row have one sample each.
+static bool is_plain(const RefineTree *tree, size_t first)
+{
+    uint32_t more = 0;
+    for (uint32_t i = 0; i < PACKET_SIDE; i++)
+        more |= tree->pixel_groups[first + i] | tree->pixel_seams[first + i];
+    return more == 0;
+}
+
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3])
 {
-    for (uint32_t x = 0; x < tree->width; x++) {
-        const uint32_t group = tree->pixel_groups[(size_t)y * tree->width + x];
-        if (group != 0)
-            refine_tree_mean(tree, group, colors[x]);
+    for (uint32_t left = 0; left < tree->width; left += PACKET_SIDE) {
+        const SampleData *pixels = &tree->pixels[refine_tree_place(tree, left, y)];
+        const uint32_t beyond = tree->width - left;
+        const uint32_t count = beyond < PACKET_SIDE ? beyond : PACKET_SIDE;
+        if (count == PACKET_SIDE && is_plain(tree, (size_t)y * tree->width + left))
+            for (uint32_t i = 0; i < PACKET_SIDE; i++)
+                memcpy(colors[left + i], pixels[i].color, sizeof pixels[i].color);
         else
-            pixel_color(tree, x, y, colors[x]);
+            for (uint32_t i = 0; i < count; i++)
+                store_pixel(tree, left + i, y, colors[left + i]);
     }
 }
