@@ -115,6 +115,11 @@ static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
     return true;
 }
 
+bool adaptive_has_small_parts(const Adaptive *adaptive)
+{
+    return adaptive->footprints.list.count > 0 || adaptive->thin_parts.levels > 0;
+}
+
 bool adaptive_is_whole(const Adaptive *adaptive)
 {
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;

@@ -49,6 +49,9 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *
 bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                           Error *error);
 
+// Whether anything is smaller than a pixel, so that cells are cut whatever the threshold.
+bool adaptive_has_small_parts(const Adaptive *adaptive);
+
 // Whether the observer has not stopped it.
 bool adaptive_is_whole(const Adaptive *adaptive);
 

@@ -13,10 +13,12 @@
 // Contrasts in this relation to the error leave about that error; the threshold starts above.
 #define CONTRAST_OF_ERROR 60
 #define LEAST_THRESHOLD   1e-7f
+#define MOST_THRESHOLD    2 // which no contrast is above
 
-// A step of the threshold.
+// A step of the threshold: where details are many, errors fall with its power of 0.7.
 #define FALL_MOST  0.3
-#define FALL_LEAST 0.85
+#define FALL_LEAST 0.92
+#define FALL_POWER 1.5
 
 // Spending time.  Thresholds fall slowly, since cells that a pass makes may be worth more than
 // others that it could afford.
@@ -39,7 +41,7 @@ static bool estimate(const Adaptive *adaptive, CellSums *sums, GoalOutcome *outc
 
 static float lower_threshold(float threshold, double estimate, double most)
 {
-    const double fall = pow(most / estimate, 1.2);
+    const double fall = pow(most / estimate, FALL_POWER);
     return (float)((double)threshold * fmin(fmax(fall, FALL_MOST), FALL_LEAST));
 }
 
@@ -47,17 +49,21 @@ bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *obs
                       GoalOutcome *outcome, Error *error)
 {
     CellSums sums;
-    *outcome = (GoalOutcome){.threshold = (float)(CONTRAST_OF_ERROR * most)};
-    for (;;) {
-        if (!adaptive_refine(adaptive, outcome->threshold, observer, error) ||
+    float threshold = (float)(CONTRAST_OF_ERROR * most);
+    *outcome = (GoalOutcome){.threshold = MOST_THRESHOLD};
+    if (!estimate(adaptive, &sums, outcome, error))
+        return false;
+    outcome->reached = outcome->estimate <= most && !adaptive_has_small_parts(adaptive);
+    while (!outcome->reached && adaptive_is_whole(adaptive) &&
+           outcome->threshold >= LEAST_THRESHOLD) {
+        outcome->threshold = threshold;
+        if (!adaptive_refine(adaptive, threshold, observer, error) ||
             !estimate(adaptive, &sums, outcome, error))
             return false;
         outcome->reached = outcome->estimate <= most;
-        if (outcome->reached || !adaptive_is_whole(adaptive) ||
-            outcome->threshold < LEAST_THRESHOLD)
-            return true;
-        outcome->threshold = lower_threshold(outcome->threshold, outcome->estimate, most);
+        threshold = lower_threshold(threshold, outcome->estimate, most);
     }
+    return true;
 }
 
 // Time being spent, and what passes are known to take of it.

@@ -11,7 +11,8 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the estimate is at most that, from strong contrasts to weak ones.
+// Refines until the estimate is at most that, from strong contrasts to weak ones: not at all where
+// one sample a pixel does.
 bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *observer,
                       GoalOutcome *outcome, Error *error);
 
