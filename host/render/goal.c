@@ -51,9 +51,11 @@ bool goal_reach_error(Adaptive *adaptive, double most, const RenderObserver *obs
     CellSums sums;
     float threshold = (float)(CONTRAST_OF_ERROR * most);
     *outcome = (GoalOutcome){.threshold = MOST_THRESHOLD};
-    if (!estimate(adaptive, &sums, outcome, error))
-        return false;
-    outcome->reached = outcome->estimate <= most && !adaptive_has_small_parts(adaptive);
+    if (!adaptive_has_small_parts(adaptive)) {
+        if (!estimate(adaptive, &sums, outcome, error))
+            return false;
+        outcome->reached = outcome->estimate <= most;
+    }
     while (!outcome->reached && adaptive_is_whole(adaptive) &&
            outcome->threshold >= LEAST_THRESHOLD) {
         outcome->threshold = threshold;
