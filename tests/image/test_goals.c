@@ -83,10 +83,37 @@ static void errors_asked_for_are_held_but_for_one_of_forty(void **state)
     }
 }
 
+static uint64_t samples_for(const char *path, double goal)
+{
+    uint64_t count = 0;
+    PictureRequest request = picture_request(path, 1);
+    request.width = request.height = SIDE;
+    request.error_goal = goal;
+    request.sample_count = &count;
+    Framebuffer picture = rendered(&request);
+    framebuffer_free(&picture);
+    return count;
+}
+
+static void no_more_than_one_sample_a_pixel_is_taken_where_that_does(void **state)
+{
+    (void)state;
+    assert_int_equal(samples_for(SCENES "simple.scn", 0.025), SIDE * SIDE);
+    assert_true(samples_for(SCENES "simple.scn", 0.022) > SIDE * SIDE);
+}
+
+static void parts_smaller_than_a_pixel_are_looked_for_whatever_the_error(void **state)
+{
+    (void)state;
+    assert_true(samples_for(CLRT_SOURCE_FOLDER "/tests/bench/cables.scn", 0.5) > SIDE * SIDE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_asked_for_are_held_but_for_one_of_forty),
+        cmocka_unit_test(no_more_than_one_sample_a_pixel_is_taken_where_that_does),
+        cmocka_unit_test(parts_smaller_than_a_pixel_are_looked_for_whatever_the_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
