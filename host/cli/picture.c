@@ -18,6 +18,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // What is told of every tile.
 typedef struct {
@@ -277,6 +278,20 @@ static bool begin_picture(Run *run, Error *error)
     return ok;
 }
 
+static ExitCode tell_stopped(const Run *run, Error *error)
+{
+    const RenderProgress *progress = &run->renderer.progress;
+    const char *path = run->output_path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
+    if (run->report.complete)
+        error_set(error, "stopped: %s is whole", name);
+    else if (progress->tiles_done == progress->tiles)
+        error_set(error, "stopped: %s is incomplete", name);
+    else
+        error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,
+                  (unsigned long long)progress->tiles_done, (unsigned long long)progress->tiles);
+    return (ExitCode)(128 + run->stopped_by);
+}
+
 static ExitCode finish(Run *run, double start, Error *error)
 {
     if (!write_picture(run, error) || !write_reference(run, error) ||
@@ -284,7 +299,7 @@ static ExitCode finish(Run *run, double start, Error *error)
         return EXIT_OUTPUT;
     resume_close(&run->resume, run->report.complete);
     if (run->stopped_by > 0)
-        return (ExitCode)(128 + run->stopped_by);
+        return tell_stopped(run, error);
     if (!provenance_tell_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
@@ -297,7 +312,7 @@ static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error
     if (!begin_picture(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
     tell_beginning(run);
-    stop_watch();
+    stop_wait_for_tiles();
     if (!draw(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
     if (!certify(run, error) || !draw_layers(run, error) || !measure_error(run, error))
@@ -313,8 +328,10 @@ static ExitCode make_frames(Run *run, double start, Error *error)
     const uint32_t count = frames_count(frames);
     for (uint32_t place = 0; place < count && outcome <= EXIT_FAULTS; place++) {
         const uint32_t number = frames_at(frames, place);
-        if (stop_signal() != 0)
+        if (stop_signal() != 0) {
+            error_set(error, "stopped: %u of %u pictures are drawn", place, count);
             return (ExitCode)(128 + stop_signal());
+        }
         char *name = frames_name(run->options->output_path, number, error);
         if (name == NULL)
             return EXIT_OUTPUT;
@@ -330,6 +347,7 @@ ExitCode picture_make(Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
+    stop_watch();
     ExitCode code = check_files(run, error);
     if (code == EXIT_DONE)
         code = prepare(run, error);

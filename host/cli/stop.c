@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The handlers stay while the picture is written: one signal never loses what was traced.
+// The handlers stay while the picture is written: one signal never loses what was traced.  Nothing
+// waits for the drivers' compiler, which cannot be asked to stop.
 #include "cli/stop.h"
 
 #include <signal.h>
 #include <stddef.h>
+#include <unistd.h>
 
-static volatile sig_atomic_t stopped_by;
+static volatile sig_atomic_t stopped_by, waits_for_tiles;
+static pid_t watcher;
 
-static void stop(int signal_number)
+// Processes that read or write pictures are this one's forks, and have nothing to say.
+static void end_process(int number)
 {
-    stopped_by = signal_number;
+    static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";
+    if (getpid() == watcher && write(STDERR_FILENO, sentence, sizeof sentence - 1) < 0)
+        _exit(128 + number);
+    _exit(128 + number);
+}
+
+static void stop(int number)
+{
+    if (!waits_for_tiles)
+        end_process(number);
+    stopped_by = number;
 }
 
 // A signal that is ignored, as in a background job, stays so.
@@ -26,8 +40,14 @@ static void take_signal(int number)
 
 void stop_watch(void)
 {
+    watcher = getpid();
     take_signal(SIGINT);
     take_signal(SIGTERM);
+}
+
+void stop_wait_for_tiles(void)
+{
+    waits_for_tiles = 1;
 }
 
 int stop_signal(void)

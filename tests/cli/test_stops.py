@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Ctrl-C at any moment: while kernels are compiled, which no driver can be asked to stop, and while
+# tiles are drawn.  One sentence, 128 + the signal, and a picture that is marked incomplete or none.
+# Usage: test_stops.py CLRT FORMATS
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from read_exr import read_header
+
+CLRT = pathlib.Path(sys.argv[1]).resolve()
+NAME = "a.exr" if "exr" in sys.argv[2] else "a.pfm"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+# Minutes of many tiles; one tile that takes as long.
+LONG = [SCENE, "-s", "3000x3000", "--aa=16"]
+ONE_TILE = [*LONG, "--tile", "3000x3000"]
+EARLY = "clrt: stopped before the first tile: no picture is written\n"
+LATE = rf"^clrt: stopped: {NAME} is incomplete, with \d+ of 576 tiles\n$"
+
+
+class Stops(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = pathlib.Path(folder.name)
+        self.chance = random.Random(1)
+        self.caches = 0
+
+    def start(self, *words, cold, **more):
+        """Starts a picture, and waits until signals are no longer the system's."""
+        environment = dict(os.environ)
+        if cold:
+            self.caches += 1
+            environment["XDG_CACHE_HOME"] = f"{self.work}/caches/{self.caches}"
+            environment.pop("POCL_CACHE_DIR", None)
+        (self.work / "out").mkdir(exist_ok=True)
+        process = subprocess.Popen([CLRT, *words, "-o", NAME, "-q"], cwd=self.work / "out", text=True,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, env=environment, **more)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.kill)
+        while not self.catches(process):
+            self.assertIsNone(process.poll())
+        return process
+
+    @staticmethod
+    def catches(process):
+        lines = pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines()
+        caught = next(line for line in lines if line.startswith("SigCgt:"))
+        return int(caught.split()[1], 16) >> signal.SIGINT - 1 & 1
+
+    def expect_stopped(self, process, number):
+        """Returns whether there is a picture."""
+        talk = process.communicate(timeout=30)[1]
+        self.assertEqual(process.returncode, 128 + number, talk)
+        if talk == EARLY:
+            self.assertEqual(os.listdir(self.work / "out"), [])
+            return False
+        self.assertRegex(talk, LATE)
+        self.assertEqual(os.listdir(self.work / "out"), [NAME])
+        picture = self.work / "out" / NAME
+        if NAME.endswith(".exr"):
+            texts = read_header(picture.read_bytes())[0]
+            self.assertEqual(texts["clrt:complete"], b"no")
+            done = json.loads(texts["clrt:settings"])["tiles_done"]
+            self.assertIn(f"with {done} of 576 tiles", talk)
+        picture.unlink()
+        return True
+
+    def stop_often(self, moments, **more):
+        pictures = 0
+        for moment in moments:
+            number = self.chance.choice((signal.SIGINT, signal.SIGTERM))
+            process = self.start(*LONG, **more)
+            time.sleep(moment)
+            process.send_signal(number)
+            pictures += self.expect_stopped(process, number)
+        return pictures
+
+    def test_while_kernels_are_compiled_it_ends_at_once_without_a_picture(self):
+        self.assertEqual(self.stop_often((0, 0.02, 0.1, 0.2), cold=True), 0)
+
+    def test_at_any_moment_of_a_cold_start_under_load(self):
+        load = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+        try:
+            self.stop_often([self.chance.uniform(0, 3) for _ in range(6)], cold=True)
+        finally:
+            for process in load:
+                process.kill()
+                process.wait()
+
+    def test_once_tiles_are_drawn_there_is_a_picture(self):
+        subprocess.run([CLRT, *LONG, "-s", "8x8", "-o", "/dev/null", "--format", "pfm"], check=True)
+        while self.stop_often([2], cold=False) == 0:  # by chance, on a machine that stands still
+            continue
+        self.stop_often([self.chance.uniform(0, 0.3) for _ in range(10)], cold=False)
+
+    def test_a_second_signal_ends_it_at_once_at_any_moment(self):
+        for moment in 0, 0.05, 0.3, 1, 2:
+            process = self.start(*ONE_TILE, cold=moment < 1)
+            time.sleep(moment)
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.05)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=20)
+            self.assertIn(process.returncode, (128 + signal.SIGINT, -signal.SIGINT))
+            self.assertEqual(os.listdir(self.work / "out"), [])
+
+    def test_a_terminals_signal_to_all_processes_is_told_once(self):
+        for moment in 0, 0.05, 1:
+            process = self.start(*LONG, cold=moment < 1, start_new_session=True)
+            time.sleep(moment)
+            os.killpg(process.pid, signal.SIGINT)
+            self.expect_stopped(process, signal.SIGINT)
+
+    def test_between_the_pictures_of_a_turntable_it_tells_how_many_there_are(self):
+        words = [SCENE, "-s", "8x8", "--turntable", "100000"]
+        process = self.start(*words, cold=False)
+        out = self.work / "out"
+        while len(os.listdir(out)) < 3:
+            self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        talk = process.communicate(timeout=30)[1]
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        self.assertRegex(talk, r"^clrt: stopped: (\d+ of 100000 pictures are drawn|a\.\d+\.\w+ is whole)\n$")
+
+
+if __name__ == "__main__":
+    # What is ignored here, as in a background job, would be ignored there.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
