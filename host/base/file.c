@@ -5,14 +5,13 @@
 #include "base/array.h"
 
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
 // Pipes have no size to believe, so the buffer grows with what really arrives.
-static bool read_stream(File *file, FILE *stream, size_t expected, Error *error)
+static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
 {
     void *memory = NULL;
     size_t capacity = 0;
@@ -29,6 +28,16 @@ static bool read_stream(File *file, FILE *stream, size_t expected, Error *error)
     return ok;
 }
 
+static bool read_stream(File *file, FILE *stream, size_t expected, const char *name, Error *error)
+{
+    bool ok = read_all(file, stream, expected, error);
+    if (ok && ferror(stream))
+        ok = error_set(error, "%s: cannot be read: %s", name, strerror(errno));
+    if (!ok)
+        file_free(file);
+    return ok;
+}
+
 bool file_read(File *file, const char *path, Error *error)
 {
     *file = (File){0};
@@ -42,13 +51,15 @@ bool file_read(File *file, const char *path, Error *error)
     if (stream == NULL)
         return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
     const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;
-    bool ok = read_stream(file, stream, expected, error);
-    if (ok && ferror(stream))
-        ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+    const bool ok = read_stream(file, stream, expected, path, error);
     fclose(stream);
-    if (!ok)
-        file_free(file);
     return ok;
+}
+
+bool file_read_stream(File *file, FILE *stream, const char *name, Error *error)
+{
+    *file = (File){0};
+    return read_stream(file, stream, 0, name, error);
 }
 
 void file_free(File *file)

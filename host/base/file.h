@@ -5,6 +5,7 @@
 #include "base/error.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 typedef struct {
     char *bytes; // size bytes and a terminating zero beyond them; owned
@@ -14,6 +15,10 @@ typedef struct {
 // Reads all of path, a regular file or a pipe.  The message of a failure names the path and the
 // system's reason.
 bool file_read(File *file, const char *path, Error *error);
+
+// The same of a stream, to its end; name is what messages call it.
+bool file_read_stream(File *file, FILE *stream, const char *name, Error *error);
+
 void file_free(File *file);
 
 // Whether path ends in ending, ".mtl" for one, in letters of either case, behind something else.

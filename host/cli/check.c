@@ -4,9 +4,9 @@
 
 #include "base/clock.h"
 #include "cli/check_report.h"
+#include "cli/scene_source.h"
 #include "cli/threads.h"
 #include "scene/bad_geometry.h"
-#include "scene/scn.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,7 +118,7 @@ static void tell_notes(const Options *options, const Scene *scene)
 static ExitCode run(Check *check, const Cache *cache, Error *error)
 {
     const double start = clock_seconds();
-    if (!scn_load_tolerantly(&check->scene, check->options->scene_path, error))
+    if (!scene_source_load_tolerantly(&check->scene, check->options, error))
         return EXIT_SCENE;
     check->normalization = normalization_of(&check->scene);
     normalization_check(&check->normalization, &check->scene, &check->frame_fault);

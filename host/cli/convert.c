@@ -5,9 +5,9 @@
 #include "base/file.h"
 #include "base/output_file.h"
 #include "cli/check.h"
+#include "cli/scene_source.h"
 #include "scene/mesh_join.h"
 #include "scene/ply_write.h"
-#include "scene/scn.h"
 #include "scene/scn_write.h"
 
 #include <errno.h>
@@ -170,7 +170,7 @@ static ExitCode write_text(Conversion *conversion, Error *error)
 static ExitCode run(Conversion *conversion, Error *error)
 {
     const Options *options = conversion->options;
-    if (!scn_load(&conversion->scene, options->scene_path, error) ||
+    if (!scene_source_load(&conversion->scene, options, error) ||
         !check_geometry(options, &conversion->scene, error))
         return EXIT_SCENE;
     return file_has_ending(options->other_path, ".ply") ? write_joined(conversion, error)

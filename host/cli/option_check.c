@@ -2,6 +2,8 @@
 // Options that would have no effect are refused, so that none is given in vain.
 #include "cli/option_check.h"
 
+#include "cli/scene_source.h"
+
 #include <string.h>
 
 #ifdef CLRT_WITH_WINDOW
@@ -30,6 +32,9 @@ static bool check_window(Options *options, Error *error)
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
         if (refused[i].is_given)
             return error_set(error, "%s for files: give one with -o FILE", refused[i].names);
+    if (scene_source_is_input(options))
+        return error_set(error, "the window reads its scene again and again, and standard input "
+                                "can be read once: give -o FILE");
     return options->aovs == 0 || error_set(error, "--aov is for files: give one with -o FILE.exr");
 }
 #else

@@ -75,7 +75,8 @@ static void write_usage(FILE *stream)
     for (size_t i = 0; i < command_count; i++)
         fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,
                 command_table[i].operands);
-    fputs("Traces a scene (.scn, or a mesh alone) with OpenCL.\n", stream);
+    fputs("Traces a scene (.scn, or a mesh alone) with OpenCL; - is one on standard input.\n",
+          stream);
     fputs("\nCommands:\n", stream);
     for (size_t i = 0; i < command_count; i++) {
         char name[64];

@@ -4,10 +4,10 @@
 
 #include "base/clock.h"
 #include "cli/check.h"
+#include "cli/scene_source.h"
 #include "cli/threads.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
-#include "scene/scn.h"
 #include "scene/truncation.h"
 
 #include <stdlib.h>
@@ -62,7 +62,7 @@ bool run_load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
     const Options *options = run->options;
-    bool ok = scn_load(&run->scene, options->scene_path, error);
+    bool ok = scene_source_load(&run->scene, options, error);
     const Frames *frames = &options->frames;
     const bool are_views = frames->turntable == 0 && frames->last > 0;
     const uint32_t view = are_views ? frames->last : options->view;

@@ -241,17 +241,21 @@ static bool load_text(Parser *parser, const File *file, const char *path)
     return false;
 }
 
+static bool take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh,
+                 Error *error)
+{
+    Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
+    return mesh_scene_is_mesh(file->bytes, file->size)
+               ? mesh_scene_parse(scene, file, name, parse_mesh, error)
+               : load_text(&parser, file, name);
+}
+
 static bool load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
 {
     File file = {0};
-    Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
     if (foreign_format_is(path))
         return mesh_scene_read_foreign(scene, path, parse_mesh, error);
-    bool ok = file_read(&file, path, error);
-    if (ok && mesh_scene_is_mesh(file.bytes, file.size))
-        ok = mesh_scene_parse(scene, &file, path, parse_mesh, error);
-    else
-        ok = ok && load_text(&parser, &file, path);
+    const bool ok = file_read(&file, path, error) && take(scene, &file, path, parse_mesh, error);
     file_free(&file);
     return ok;
 }
@@ -264,4 +268,14 @@ bool scn_load(Scene *scene, const char *path, Error *error)
 bool scn_load_tolerantly(Scene *scene, const char *path, Error *error)
 {
     return load(scene, path, ply_parse_tolerantly, error);
+}
+
+bool scn_take(Scene *scene, const File *file, const char *name, Error *error)
+{
+    return take(scene, file, name, ply_parse, error);
+}
+
+bool scn_take_tolerantly(Scene *scene, const File *file, const char *name, Error *error)
+{
+    return take(scene, file, name, ply_parse_tolerantly, error);
 }

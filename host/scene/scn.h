@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/file.h"
 #include "scene/scene.h"
 
 // Parses the size bytes of a scene file; meshes are read from beside the file called name.
@@ -15,3 +16,7 @@ bool scn_load(Scene *scene, const char *path, Error *error);
 
 // The same with meshes read by ply_parse_tolerantly.
 bool scn_load_tolerantly(Scene *scene, const char *path, Error *error);
+
+// Both of what file holds, wherever it was read from; its meshes are beside a file of that name.
+bool scn_take(Scene *scene, const File *file, const char *name, Error *error);
+bool scn_take_tolerantly(Scene *scene, const File *file, const char *name, Error *error);

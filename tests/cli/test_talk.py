@@ -80,6 +80,42 @@ class Streams(Run):
         self.assertNotEqual(self.clrt("none.scn", "-o", "a.pfm", "-q").stderr, b"")
 
 
+class StandardInput(Run):
+    def feed(self, content, *words):
+        return subprocess.run([CLRT, "-", *words], cwd=self.work, input=content,
+                              capture_output=True, timeout=120)
+
+    def test_a_scene_on_standard_input_is_the_picture_of_its_file(self):
+        folder = ROOT / "scenes"
+        (self.work / "cube.ply").write_bytes((folder / "cube.ply").read_bytes())
+        (self.work / "a.scn").write_text("light 4 -4 4 1\nmesh cube.ply\nsphere 2 0 0 1\n")
+        for name in "a.scn", "cube.ply":
+            content = (self.work / name).read_bytes()
+            words = ["-s", "16x12", "-o", "-", "--format", "pfm"]
+            told = self.feed(content, *words)
+            self.assertEqual((told.returncode, told.stderr), (0, b""))
+            self.assertTrue(told.stdout == self.clrt(name, *words).stdout, name)
+
+    def test_check_and_convert_read_it_too(self):
+        content = (ROOT / "scenes/cube.ply").read_bytes()
+        for command in ["check", "-", "-q"], ["convert", "-", "b.ply"]:
+            done = subprocess.run([CLRT, *command], cwd=self.work, input=content,
+                                  capture_output=True, timeout=120)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.assertTrue((self.work / "b.ply").read_bytes().startswith(b"ply"))
+
+    def test_its_faults_are_told_by_name_and_line(self):
+        told = self.feed(b"light 0 0 5 1\nspheer 0 0 0 1\n", "-o", "a.pfm")
+        self.assertEqual(told.returncode, 3)
+        self.assertEqual(told.stderr, b"clrt: standard input:2:1: unknown statement, perhaps 'sphere': "
+                                      b"found 'spheer'\n")
+
+    def test_the_window_does_not_take_it(self):
+        told = self.feed(b"")
+        self.assertEqual(told.returncode, 2)
+        self.assertIn(b"-o FILE", told.stderr)
+
+
 class Terminals(Run):
     def talk_on_terminal(self, **environment):
         """What a picture that is stopped says on a terminal."""
@@ -230,4 +266,4 @@ class ExitStatus(Run):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
