@@ -193,7 +193,7 @@ void jobs_load(Worker *worker, const Job *job)
 {
     Error error = {0};
     tell_busy(worker, "reading the scene");
-    Model *model = model_load(worker->setup.path, worker->setup.options->threads, &error);
+    Model *model = model_load(job->wish.path, worker->setup.options->threads, &error);
     const BvhSettings tree = tracer_tree(&worker->tracer);
     if (model != NULL && model_build_tree(model, &tree, worker->setup.options->threads, &error)) {
         Error cause = {0};
@@ -221,7 +221,7 @@ bool jobs_begin(Worker *worker)
     pthread_mutex_lock(&worker->mutex);
     const Job job = {.kind = JOB_LOAD, .wish = worker->wish};
     pthread_mutex_unlock(&worker->mutex);
-    Model *model = model_load(worker->setup.path, worker->setup.options->threads, &error);
+    Model *model = model_load(job.wish.path, worker->setup.options->threads, &error);
     if (model == NULL) {
         tell_fault(worker, FAULT_SCENE, &error);
         return false;

@@ -27,6 +27,7 @@ Model *model_load(const char *path, uint32_t threads, Error *error)
     if (model == NULL)
         return NULL;
     atomic_init(&model->holders, 1);
+    model->path = path;
     if (load(model, path, threads, error))
         return model;
     model_release(model);

@@ -9,14 +9,15 @@
 
 typedef struct {
     atomic_uint holders;
+    const char *path; // that it was loaded from, as it was given
     Scene scene;
     Normalization normalization;
     Triangles triangles;
     Bvh bvh; // without nodes until the tree is built
 } Model;
 
-// Reads the scene or mesh at path; the caller holds the model.  NULL with the reason where it
-// cannot be read.
+// Reads the scene or mesh at path, a string that outlives the model; the caller holds the model.
+// NULL with the reason where it cannot be read.
 Model *model_load(const char *path, uint32_t threads, Error *error);
 
 // Builds the tree of a model that nobody else holds, or whose tree nobody else looks at yet.

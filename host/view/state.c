@@ -151,6 +151,13 @@ void state_adopt(State *state, const StateScene *scene)
         choose_view(state, scene, state->view <= scene->viewpoint_count ? state->view : 1);
 }
 
+void state_open(State *state, const StateScene *scene)
+{
+    state->view = 1;
+    state->moved = false;
+    state_adopt(state, scene);
+}
+
 double state_gain(const State *state)
 {
     return exp2(state->exposure / 2.0);

@@ -59,5 +59,8 @@ void state_advance(State *state, double seconds);
 // Goes on with a scene that was read again: a camera that has not moved follows the file's.
 void state_adopt(State *state, const StateScene *scene);
 
+// Goes on with another scene, through its first camera.
+void state_open(State *state, const StateScene *scene);
+
 // The factor that the exposure multiplies colors by.
 double state_gain(const State *state);

@@ -112,7 +112,7 @@ static bool step(Viewer *viewer, Error *error)
 {
     window_wait(&viewer->window, rest(viewer));
     if (!viewer_follow_worker(viewer, error) || !take_events(viewer, error) ||
-        !play_script(viewer, error))
+        !viewer_take_drop(viewer, error) || !play_script(viewer, error))
         return false;
     viewer_follow_saver(viewer);
     viewer_follow_files(viewer);
@@ -186,6 +186,9 @@ static void close_viewer(Viewer *viewer)
     window_close(&viewer->window);
     if (viewer->worker != NULL && !worker_stop(viewer->worker, viewer->settings.patience))
         return;
+    for (size_t i = 0; i < viewer->dropped.count; i++)
+        free(viewer->dropped.data[i]);
+    free(viewer->dropped.memory);
     window_disconnect();
     canvas_close(&viewer->canvas);
     free(viewer);
@@ -202,11 +205,11 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
     viewer->script = (Script){settings->keys, settings->quit_after};
-    viewer->wish = (WorkerWish){.loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
+    viewer->wish = (WorkerWish){
+        .path = settings->scene_path, .loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
     viewer->news.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
-    const WorkerSetup setup = {settings->scene_path, &viewer->settings.tracer, &viewer->canvas,
-                               window_wake};
+    const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
     ViewerEnd end = VIEWER_NO_DEVICE;
     // What changes while it is read the first time has changed.
     if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&

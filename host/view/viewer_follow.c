@@ -4,6 +4,8 @@
 
 #include "base/clock.h"
 
+#include <stdlib.h>
+
 static void describe_scene(Viewer *viewer)
 {
     const Scene *scene = &viewer->model->scene;
@@ -24,7 +26,8 @@ static bool follow_files(Viewer *viewer, Error *error)
 
 bool viewer_adopt_model(Viewer *viewer, Error *error)
 {
-    const bool is_first = viewer->model == NULL;
+    const char *before = viewer->model == NULL ? NULL : viewer->model->path;
+    const bool is_first = before == NULL;
     const ViewerSettings *settings = &viewer->settings;
     model_release(viewer->model);
     viewer->model = worker_model(viewer->worker);
@@ -36,7 +39,7 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
         viewer->state =
             state_begin(&viewer->scene, settings->view, settings->smooth, settings->uses_bvh);
     else
-        state_adopt(&viewer->state, &viewer->scene);
+        (viewer->model->path == before ? state_adopt : state_open)(&viewer->state, &viewer->scene);
     viewer->wish.subject++;
     return views_load(&viewer->views, viewer->model, error) && follow_files(viewer, error);
 }
@@ -60,6 +63,22 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
     const bool failed = news.scene_failure.text[0] != '\0';
     return viewer->model == NULL || failed == viewer->is_failure_followed ||
            follow_files(viewer, error);
+}
+
+bool viewer_take_drop(Viewer *viewer, Error *error)
+{
+    char *path = window_take_drop(&viewer->window);
+    if (path == NULL)
+        return true;
+    if (!array_push(&viewer->dropped, path, error)) {
+        free(path);
+        return false;
+    }
+    viewer->settings.scene_path = viewer->wish.path = path;
+    viewer->wish.loads++;
+    viewer->notice[0] = '\0';
+    viewer->is_dirty = true;
+    return follow_files(viewer, error);
 }
 
 void viewer_follow_files(Viewer *viewer)

@@ -27,6 +27,7 @@ typedef struct {
     Model *model; // held; NULL until the first is read
     StateScene scene;
     State state;
+    ARRAY(char *) dropped; // paths, owned: the worker may be reading any of them
     Reload reload;
     bool is_failure_followed; // the scene's failure, by the files watched
     Script script;
@@ -47,6 +48,9 @@ bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Shows the latest model that was read.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
+
+// Goes on with a file that was dropped on the window.
+bool viewer_take_drop(Viewer *viewer, Error *error);
 
 // Wishes for files that have changed to be read again.
 void viewer_follow_files(Viewer *viewer);

@@ -7,6 +7,9 @@
 
 #include <GLFW/glfw3.h>
 
+#include <stdlib.h>
+#include <string.h>
+
 typedef struct {
     int major, minor, profile;
 } Version;
@@ -70,6 +73,17 @@ static void take_scroll(GLFWwindow *handle, double right, double down)
     add_event(handle, (Event){.kind = EVENT_WHEEL, .right = right, .down = down});
 }
 
+// Of several files the first is taken: there is one scene at a time.
+static void take_drop(GLFWwindow *handle, int count, const char **paths)
+{
+    Window *window = glfwGetWindowUserPointer(handle);
+    if (count < 1)
+        return;
+    free(window->dropped);
+    window->dropped = strdup(paths[0]);
+    window->is_touched = true;
+}
+
 static void take_touch(GLFWwindow *handle)
 {
     Window *window = glfwGetWindowUserPointer(handle);
@@ -89,6 +103,7 @@ static void listen(Window *window)
     glfwSetKeyCallback(window->handle, take_key);
     glfwSetCursorPosCallback(window->handle, take_motion);
     glfwSetScrollCallback(window->handle, take_scroll);
+    glfwSetDropCallback(window->handle, take_drop);
     glfwSetWindowRefreshCallback(window->handle, take_touch);
     glfwSetWindowCloseCallback(window->handle, take_touch);
     glfwSetFramebufferSizeCallback(window->handle, take_size);
@@ -152,6 +167,7 @@ void window_close(Window *window)
 {
     if (window->handle != NULL)
         glfwDestroyWindow(window->handle);
+    free(window->dropped);
     *window = (Window){0};
 }
 
@@ -178,6 +194,13 @@ bool window_take_event(Window *window, Event *event)
     for (int i = 0; i < window->event_count; i++)
         window->events[i] = window->events[i + 1];
     return true;
+}
+
+char *window_take_drop(Window *window)
+{
+    char *path = window->dropped;
+    window->dropped = NULL;
+    return path;
 }
 
 void window_measure(const Window *window, uint32_t *width, uint32_t *height)

@@ -11,6 +11,7 @@ typedef struct {
     void *handle; // GLFW's
     Event events[WINDOW_EVENTS];
     int event_count;
+    char *dropped;           // the path of a file; owned, NULL where none was dropped
     double mouse_x, mouse_y; // as far as drags were told
     bool is_touched;         // it must be drawn again
 } Window;
@@ -32,6 +33,9 @@ void window_wake(void);
 
 // Takes the next event; false where there is none.
 bool window_take_event(Window *window, Event *event);
+
+// The path of the file that was dropped on it last, which the caller frees; NULL where none was.
+char *window_take_drop(Window *window);
 
 // The size in pixels; zeros while it is minimised.
 void window_measure(const Window *window, uint32_t *width, uint32_t *height);

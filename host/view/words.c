@@ -158,6 +158,7 @@ const char *words_help(void)
            "] [  boxes of inner nodes, deeper and back\n"
            "n  normals\n"
            "+ -  exposure\n"
+           "a file dropped here  the scene shown instead\n"
            "c  print the camera\n"
            "s  save the picture\n"
            "R  read everything again\n"

@@ -8,6 +8,7 @@
 
 // What the window wants.
 typedef struct {
+    const char *path; // of the scene; the string outlives the worker
     bool is_traced;   // the ray-traced view is shown
     uint64_t subject; // ascending, from 1: another one with every camera and size
     Viewpoint camera;
@@ -42,7 +43,6 @@ typedef struct Worker Worker;
 
 // What a worker stands on, which outlives it.
 typedef struct {
-    const char *path; // of the scene
     const TracerOptions *options;
     Canvas *canvas;
     void (*wake)(void); // called whenever there are news

@@ -229,6 +229,20 @@ static void a_scene_read_again_moves_only_a_camera_at_its_place(void **state)
     scene_free(&again.scene);
 }
 
+static void another_scene_is_seen_through_its_first_camera(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("camera 5 0 0 0 0 0 45\ncamera 6 0 0 0 0 0 45");
+    Fixture other = opened("camera 7 0 0 0 0 0 45\ncamera 8 0 0 0 0 0 45");
+    press(&fixture, "2rn");
+    happen(&fixture, EVENT_TURN, 4, 0);
+    state_open(&fixture.state, &other.facts);
+    assert_true(fixture.state.camera.eye.x == 7 && fixture.state.view == 1);
+    assert_true(!fixture.state.moved && fixture.state.traced && fixture.state.normals);
+    scene_free(&fixture.scene);
+    scene_free(&other.scene);
+}
+
 static void the_printed_camera_is_read_back_to_the_bit(void **state)
 {
     (void)state;
@@ -302,6 +316,7 @@ int main(void)
         cmocka_unit_test(commands_are_given_and_change_nothing),
         cmocka_unit_test(turning_moves_the_camera_with_time_alone),
         cmocka_unit_test(a_scene_read_again_moves_only_a_camera_at_its_place),
+        cmocka_unit_test(another_scene_is_seen_through_its_first_camera),
         cmocka_unit_test(the_printed_camera_is_read_back_to_the_bit),
         cmocka_unit_test(the_title_tells_view_and_progress),
         cmocka_unit_test(the_overlay_tells_figures_failures_and_help),
