@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# tools/manual/peers.md keeps its word: whatever it says clrt does is shown by tests that exist.
+# Usage: test_peers.py CTEST BUILD_FOLDER
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+CTEST, BUILD = sys.argv[1:3]
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "tools/manual/peers.md"
+PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", "OSPRay Studio", "Embree",
+         "F3D", "Radiance", "tinybvh", "appleseed", "nobody", "all but"]
+
+
+def rows():
+    """The cells of every row below the heads of the tables."""
+    lines = [line for line in PAGE.read_text().splitlines() if line.startswith("|")]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return [row for row in cells if row[0] != "what" and set(row[0]) != {"-"}]
+
+
+class Table(unittest.TestCase):
+    def test_every_row_says_what_who_and_whether(self):
+        self.assertGreater(len(rows()), 60)
+        for row in rows():
+            self.assertEqual(len(row), 4, row)
+            what, who, answer, tests = row
+            self.assertTrue(what, row)
+            self.assertTrue(any(peer in who for peer in PEERS), row)
+            self.assertRegex(answer, r"^yes$|^(yes|no|by design not): \S")
+            self.assertEqual(answer.startswith("yes"), bool(tests), row)
+            self.assertRegex(tests, r"^(`\w+`(, `\w+`)*)?$")
+
+    def test_no_row_comes_twice(self):
+        names = [row[0] for row in rows()]
+        self.assertEqual(sorted(set(names)), sorted(names))
+
+    def test_every_test_that_is_named_exists(self):
+        command = [CTEST, "--test-dir", BUILD, "--show-only=json-v1"]
+        listed = json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
+        existing = {test["name"] for test in listed["tests"]}
+        for row in rows():
+            missing = set(re.findall(r"`(\w+)`", row[3])) - existing
+            self.assertFalse(missing, f"{row[0]}: there is no such test")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
