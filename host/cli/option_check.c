@@ -79,12 +79,14 @@ static bool check_aovs(const Options *options, Error *error)
                      options->format);
 }
 
-// What refining does depends on the pixels around.
-static bool check_crop(const Options *options, Error *error)
+// What refining does depends on all pixels around.
+static bool check_unrefined(const Options *options, const char *name, Error *error)
 {
-    return !options->crop.is_given || !options_are_adaptive(options) ||
-           error_set(error, "--crop is of the samples of --aa: leave out --aa-adaptive, --error "
-                            "and --time");
+    return !options_are_adaptive(options) ||
+           error_set(error,
+                     "%s does not go with --aa-adaptive, --error and --time, which refine "
+                     "the picture as a whole: give --aa",
+                     name);
 }
 
 static bool check_part(const Options *options, Error *error)
@@ -93,10 +95,8 @@ static bool check_part(const Options *options, Error *error)
         return true;
     if (!image_format_takes_layers(options->format))
         return error_set(error, "--part needs an EXR file (-o FILE.exr), which clrt merge reads");
-    if (options_are_adaptive(options))
-        return error_set(error,
-                         "--part is of the samples of --aa: leave out --aa-adaptive, --error "
-                         "and --time");
+    if (!check_unrefined(options, "--part", error))
+        return false;
     if (options->reference)
         return error_set(error, "--reference is of whole pictures: leave out --part");
     return !options->no_metadata ||
@@ -109,11 +109,8 @@ static bool check_resume(const Options *options, Error *error)
         return true;
     if (strcmp(options->output_path, "-") == 0)
         return error_set(error, "--resume goes on with a file: standard output is none");
-    if (options_are_adaptive(options))
-        return error_set(error, "--resume is of the samples of --aa: leave out --aa-adaptive, "
-                                "--error and --time");
-    if (options->statistics)
-        return error_set(error, "--stats counts the rays of whole pictures: leave out --resume");
+    if (!check_unrefined(options, "--resume", error))
+        return false;
     return options->repeat == 1 ||
            error_set(error, "--repeat times whole pictures: leave out --resume");
 }
@@ -190,9 +187,10 @@ bool options_check_purpose(Options *options, Error *error)
     if (options->keys != NULL || options->quit_after > 0)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
-           check_crop(options, error) && check_part(options, error) &&
-           check_resume(options, error) && check_frames(options, error) &&
-           check_certainty(options, error) && check_streams(options, error);
+           (!options->crop.is_given || check_unrefined(options, "--crop", error)) &&
+           check_part(options, error) && check_resume(options, error) &&
+           check_frames(options, error) && check_certainty(options, error) &&
+           check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

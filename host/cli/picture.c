@@ -42,8 +42,6 @@ static bool draw_frame(Run *run, const CameraData *camera, Error *error)
     double moment = clock_seconds();
     Watch watch = {run, progress_begin(run->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
-    const RenderSettings *settings = &run->settings;
-    run->report.samples = tile_pixels(settings) * settings->samples * settings->samples;
     const bool ok =
         options_are_adaptive(run->options)
             ? refined_picture_draw(run, camera, &observer, error)
@@ -62,6 +60,21 @@ static CameraData camera_of(const Run *run, uint32_t samples)
                        samples);
 }
 
+// What refining has sampled, it tells itself.
+static void count_samples(Run *run)
+{
+    Report *report = &run->report;
+    const RenderSettings *settings = &run->settings;
+    report->pixels = options_are_adaptive(run->options) ? tile_pixels(settings) : 0;
+    if (report->pixels > 0)
+        return;
+    for (uint64_t number = settings->ready_tiles; number < report->tiles_done; number++) {
+        const Tile tile = tile_at(settings, number);
+        report->pixels += (uint64_t)tile.width * tile.height;
+    }
+    report->samples = report->pixels * settings->samples * settings->samples;
+}
+
 static bool draw(Run *run, Error *error)
 {
     const RenderSettings *settings = &run->settings;
@@ -78,6 +91,7 @@ static bool draw(Run *run, Error *error)
     run->report.complete = ok && done->tiles_done == done->tiles;
     for (int kind = 0; kind < TALLY_KINDS; kind++)
         run->report.tallies[kind] = done->tallies[kind];
+    count_samples(run);
     return ok;
 }
 
@@ -284,7 +298,7 @@ static ExitCode tell_stopped(const Run *run, Error *error)
     const char *path = run->output_path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
     if (run->report.complete)
         error_set(error, "stopped: %s is whole", name);
-    else if (progress->tiles_done == progress->tiles)
+    else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
         error_set(error, "stopped: %s is incomplete", name);
     else
         error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,

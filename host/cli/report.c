@@ -26,8 +26,7 @@ static double per_ray(const Report *report, TallyKind kind)
 
 static double samples_per_pixel(const Report *report)
 {
-    const uint64_t pixels = tile_pixels(report->settings);
-    return pixels == 0 ? 0 : (double)report->samples / (double)pixels;
+    return report->pixels == 0 ? 0 : (double)report->samples / (double)report->pixels;
 }
 
 static const char *tree_name(const Report *report)
@@ -55,6 +54,10 @@ void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
 
 void report_write_text(const Report *report, FILE *stream)
 {
+    if (report->options->resume)
+        fprintf(stream,
+                "%" PRIu64 " of %" PRIu64 " tiles were there: time and counts are of the others\n",
+                report->settings->ready_tiles, tile_count(report->settings));
     fprintf(stream, "%.3f seconds\n", report->trace);
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
             samples_per_pixel(report));
@@ -188,6 +191,16 @@ static json_t *samples_json(const Report *report)
                      report->estimate, "goal_reached", !report->goal_missed);
 }
 
+// Refining goes over the picture as often as it needs to.
+static json_t *tiles_json(const Report *report)
+{
+    const uint64_t found = report->settings->ready_tiles;
+    if (options_are_adaptive(report->options))
+        return json_null();
+    return json_pack("{s:o, s:o, s:o}", "total", integer(tile_count(report->settings)), "found",
+                     integer(found), "drawn", integer(report->tiles_done - found));
+}
+
 static json_t *reference_json(const Report *report)
 {
     const ReferenceResult *result = &report->reference;
@@ -218,6 +231,7 @@ static void add_parts(json_t *json, const Report *report)
     json_object_set_new(json, "scene", scene_json(report));
     json_object_set_new(json, "bvh", tree_json(report));
     json_object_set_new(json, "settings", settings_json(report));
+    json_object_set_new(json, "tiles", tiles_json(report));
     json_object_set_new(json, "samples", samples_json(report));
     json_object_set_new(json, "rays", rays_json(report));
     json_object_set_new(json, "tests", tests_json(report));

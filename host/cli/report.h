@@ -40,7 +40,8 @@ typedef struct {
     double estimate;   // of the error, with the bound of the truncation; 0 where there is none
     bool goal_missed;  // of --error or --time
     double truncation; // bound of the error that max_level makes
-    uint64_t samples;  // of all pixels together
+    uint64_t pixels;   // that this run has drawn
+    uint64_t samples;  // of all of them together
     bool specialized;
     bool complete;
     uint64_t tiles_done;

@@ -123,8 +123,8 @@ class Crop(Work):
     def test_what_depends_on_the_pixels_around_is_refused(self):
         for words in (["--aa-adaptive"], ["--error", "1%"], ["--time", "1"]):
             self.assertEqual(self.clrt(*WHOLE, "-o", "a.pfm", "--crop", "0,0,9,9", *words, code=2),
-                             "clrt: --crop is of the samples of --aa: leave out --aa-adaptive, "
-                             "--error and --time\n")
+                             "clrt: --crop does not go with --aa-adaptive, --error and --time, which "
+                             "refine the picture as a whole: give --aa\n")
         self.assertEqual(self.clrt(*WHOLE, "--explain-pixel", "3,3", "--crop", "0,0,9,9", code=2),
                          "clrt: clrt --explain-pixel takes no --crop\n")
 

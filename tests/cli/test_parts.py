@@ -141,7 +141,8 @@ class Parts(Work):
         for words, sentence in (
             (["-o", "a.png"], "--part needs an EXR file (-o FILE.exr), which clrt merge reads"),
             (["-o", "a.exr", "--error", "1%"],
-             "--part is of the samples of --aa: leave out --aa-adaptive, --error and --time"),
+             "--part does not go with --aa-adaptive, --error and --time, which refine the picture as a "
+             "whole: give --aa"),
             (["-o", "a.exr", "--reference"], "--reference is of whole pictures: leave out --part"),
             (["-o", "a.exr", "--no-metadata"], "--part needs the metadata: leave out --no-metadata"),
         ):

@@ -141,6 +141,30 @@ class Kills(Resume):
             self.assertTrue(self.bytes_of(NAME) == whole, more)
             (self.work / NAME).unlink()
 
+    def test_statistics_count_what_this_run_draws(self):
+        def statistics(*words):
+            self.clrt(*LONG, "--stats=a.json", *words)
+            return json.loads((self.work / "a.json").read_text())
+
+        whole = statistics("-o", f"whole-{NAME}")
+        self.assertEqual(whole["tiles"], {"total": TILES, "found": 0, "drawn": TILES})
+        self.kill_in_the_middle(*LONG)
+        rest = statistics("-o", NAME, "--resume")
+        self.assertTrue(self.bytes_of(NAME) == self.bytes_of(f"whole-{NAME}"))
+        drawn = rest["tiles"]["drawn"]
+        self.assertEqual(rest["tiles"], {"total": TILES, "found": TILES - drawn, "drawn": drawn})
+        self.assertLess(drawn, TILES - 39)
+        self.assertEqual(rest["rays"]["camera"], drawn * TILE * TILE * 64)
+        self.assertEqual(rest["samples"]["total"], rest["rays"]["camera"])
+        self.assertEqual(rest["samples"]["per_pixel"], 64)
+
+    def test_statistics_as_text_say_what_they_leave_out(self):
+        self.clrt(*SMALL, "-o", NAME)
+        talk = self.clrt(*SMALL, "-o", NAME, "--resume", "--stats").splitlines()
+        found = 24 if HAS_EXR else 0
+        self.assertEqual(talk[0], f"{found} of 24 tiles were there: time and counts are of the others")
+        self.assertIn(f"{0 if HAS_EXR else 2623} samples, ", talk[2])
+
     def test_any_format_goes_on(self):
         for name in "b.png", "b.pfm":
             self.clrt(*LONG, "-o", f"whole-{name}")
@@ -267,8 +291,8 @@ class Refusals(Resume):
         for words, sentence in (
             (["-o", "-"], "--resume goes on with a file: standard output is none"),
             (["-o", "a.pfm", "--aa-adaptive"],
-             "--resume is of the samples of --aa: leave out --aa-adaptive, --error and --time"),
-            (["-o", "a.pfm", "--stats"], "--stats counts the rays of whole pictures: leave out --resume"),
+             "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as a "
+             "whole: give --aa"),
             (["-o", "a.pfm", "--repeat", "2"], "--repeat times whole pictures: leave out --resume"),
         ):
             self.assertEqual(self.clrt(*SMALL, "--resume", *words, code=2), f"clrt: {sentence}\n")

@@ -174,7 +174,8 @@ class Schemas(Run):
         jsonschema.validate(json.loads(text), schema, cls=jsonschema.Draft202012Validator)
 
     def test_statistics_are_as_their_schema_says(self):
-        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"]):
+        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"],
+                      ["--aa-adaptive"]):
             done = self.clrt(*SMALL, "-o", "a.pfm", "--stats=-", *words)
             self.validate("statistics", done.stdout)
         mesh = ["open.ply", "-s", "8x8", "-o", "a.pfm", "--stats=-"]
