@@ -57,6 +57,15 @@ static json_t *samples_json(const Report *report)
                                                  : integer(report->settings->samples);
 }
 
+// Counts of tests are of one tree, whatever the colors are the same with.
+static void add_tree(json_t *json, const Report *report)
+{
+    if (!aov_needs(report->options->aovs, AOV_NEEDS_TESTS))
+        return;
+    json_object_set_new(json, "bvh", json_string(report_tree_name(report)));
+    json_object_set_new(json, "nodes", json_string(kernel_nodes_name(report->choice->nodes)));
+}
+
 static json_t *settings_json(const Report *report)
 {
     const RenderSettings *settings = report->settings;
@@ -68,6 +77,7 @@ static json_t *settings_json(const Report *report)
                              samples_json(report), "max_level", integer(settings->max_level),
                              "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw",
                              "precision", kernel_precision_name(report->choice->precision));
+    add_tree(json, report);
     if (report->turned > 0)
         json_object_set_new(json, "turned", json_real(report->turned));
     if (render_is_part(settings))

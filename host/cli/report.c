@@ -29,7 +29,7 @@ static double samples_per_pixel(const Report *report)
     return report->pixels == 0 ? 0 : (double)report->samples / (double)report->pixels;
 }
 
-static const char *tree_name(const Report *report)
+const char *report_tree_name(const Report *report)
 {
     if (report->bvh_nodes == 0)
         return "none";
@@ -163,7 +163,7 @@ static json_t *inner_nodes_json(const Report *report)
 
 static json_t *tree_json(const Report *report)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", tree_name(report), "nodes",
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", report_tree_name(report), "nodes",
                      integer(report->bvh_nodes), "leaves", integer(report->bvh_leaves), "depth",
                      integer(report->bvh_depth), "inner_nodes", inner_nodes_json(report),
                      "largest_leaf", integer(report->bvh_largest_leaf));

@@ -58,6 +58,9 @@ typedef struct {
 // Takes what there is to tell of a scene and its tree.
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
 
+// The tree's builder, as --bvh has it, or none.
+const char *report_tree_name(const Report *report);
+
 // The error of a picture that was measured against a reference, on stream.
 void report_write_error(const Report *report, FILE *stream);
 

@@ -44,6 +44,20 @@ class Parts(Work):
                      ["--aov", "certainty"]):
             self.expect_whole(self.draw(*SMALL, *more, of=2), *SMALL, *more)
 
+    def test_parts_of_other_trees_and_kernels_make_the_same_file(self):
+        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q"]
+        ways = ["--bvh=sah"], ["--bvh=midpoint"], ["--no-bvh"], ["--kernel=ray"], ["--nodes=pair"]
+        names = [self.draw(*scene, *way, of=5, parts=[part])[0] for part, way in enumerate(ways, 1)]
+        self.expect_whole(names, *scene)
+
+    def test_counts_of_tests_are_of_one_tree(self):
+        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--bvh"]
+        self.expect_whole(self.draw(*scene, "sah", of=2), *scene, "sah")
+        for other in ["--bvh", "midpoint"], ["--nodes", "pair"]:
+            names = self.draw(*scene, "sah", of=2, parts=[1])
+            names += self.draw(*scene, "sah", *other, of=2, parts=[2])
+            self.refuses("part2.exr: is of another set of settings than part1.exr", *names)
+
     def test_each_part_draws_its_tiles_alone(self):
         names, rays = self.draw(of=7), 0
         whole = read_exr(self.work / self.whole())[1]
