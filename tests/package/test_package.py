@@ -105,6 +105,11 @@ class Package(unittest.TestCase):
         ]
         self.assertEqual(*without_folder)
 
+    def test_they_name_the_maintainer_that_the_build_was_told(self):
+        told = re.search(r"CLRT_MAINTAINER:STRING=(.*)\n", CACHE)[1]
+        for package in self.packages.values():
+            self.assertEqual(run("dpkg-deb", "-f", package, "Maintainer"), told + "\n")
+
     def test_they_run_no_scripts_when_they_are_installed(self):
         for name, package in self.packages.items():
             data = ["shlibs", "triggers"] if name == "libclrt0" else []

@@ -18,7 +18,9 @@ foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian"
 endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# Debian's archive has no wish for the package that its changelog could close.
+# Debian's archive has no wish for the package that its changelog could close.  Of what lintian -I
+# tells beside errors and warnings, CPack's strip leaves the compilers' names (.comment) in, versions
+# of symbols are told by shlibs, and "ment" is a piece of a word that the compiler has cut.
 file(WRITE ${folder}/clrt "clrt: initial-upload-closes-no-bugs\n")
 install(FILES ${folder}/clrt DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides)
 
@@ -31,7 +33,10 @@ install(FILES ${examples} DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The clrt authors")
-set(CPACK_PACKAGE_CONTACT "The clrt authors <maintainers@clrt.example>")
+# Who makes a package for others is its maintainer; the authors have no address, and so it says.
+set(CLRT_MAINTAINER "The clrt authors <nobody@clrt.invalid>" CACHE STRING
+    "Name and address of whoever maintains the Debian packages")
+set(CPACK_PACKAGE_CONTACT ${CLRT_MAINTAINER})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
