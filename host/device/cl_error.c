@@ -9,6 +9,7 @@
     X(CL_MEM_OBJECT_ALLOCATION_FAILURE)                                                            \
     X(CL_OUT_OF_RESOURCES)                                                                         \
     X(CL_OUT_OF_HOST_MEMORY)                                                                       \
+    X(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST)                                                \
     X(CL_BUILD_PROGRAM_FAILURE)                                                                    \
     X(CL_INVALID_VALUE)                                                                            \
     X(CL_INVALID_DEVICE)                                                                           \

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # What goes wrong around clrt - disks that are full or read-only, files that change while they are
 # read, memory that runs out - ends with one sentence, its exit status and no half-written file.
-# Usage: test_faults.py CLRT FORMATS FAIL_MEMORY, the last as tests/cli/fail_memory.c is built
+# Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], as tests/cli/fail_memory.c
+# and fail_device.c are built
 import os
 import pathlib
 import resource
@@ -14,7 +15,7 @@ import unittest
 
 CLRT = pathlib.Path(sys.argv[1]).resolve()
 FORMATS = sys.argv[2].split(", ")
-FAIL_MEMORY = pathlib.Path(sys.argv[3]).resolve()
+FAIL_MEMORY, FAIL_DEVICE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 # In every format more than a disk holds here; with kernels that are the same each time.
@@ -140,6 +141,47 @@ class Inputs(Faults):
                 self.assert_fails(run, 3, "mesh.ply")
 
 
+class Device(Faults):
+    TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
+
+    def fail(self, name, call, *words):
+        environment = {"LD_PRELOAD": str(FAIL_DEVICE), "CLRT_FAIL_NAME": name,
+                       "CLRT_FAIL_CALL": str(call)}
+        return self.clrt(*words, environment=environment)
+
+    def count_failures(self, name, sentence, *words):
+        for call in range(1, 1000):
+            run = self.fail(name, call, *words)
+            if run.returncode == 0:
+                return call - 1
+            self.assert_fails(run, 4, sentence)
+            self.assertEqual(os.listdir(self.target), [], call)
+        return None
+
+    def test_a_device_without_memory_left_is_told_wherever_it_is_asked_for_some(self):
+        sentence = r"cannot (allocate|upload) [\w' ]+: CL_MEM_OBJECT_ALLOCATION_FAILURE \(-4\)$"
+        count = self.count_failures("clCreateBuffer", sentence, *self.TILES, "-o", "target/a.pfm")
+        self.assertGreater(count, 5)
+
+    def test_a_device_that_is_lost_at_any_tile_is_told_and_leaves_no_picture(self):
+        for name, sentence in (
+            ("clEnqueueNDRangeKernel", r"cannot run the kernel: CL_OUT_OF_RESOURCES \(-5\)$"),
+            ("clWaitForEvents", r"cannot trace a tile: CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"),
+        ):
+            count = self.count_failures(name, sentence, *self.TILES, "-o", "target/a.pfm")
+            self.assertGreaterEqual(count, 12)
+            os.remove(self.target / "a.pfm")
+
+    def test_what_was_drawn_before_it_was_lost_is_gone_on_with(self):
+        words = [*self.TILES, "-o", "a.pfm", "--resume"]
+        self.clrt(*self.TILES, "-o", "whole.pfm")
+        self.assert_fails(self.fail("clWaitForEvents", 9, *words), 4, "cannot trace a tile: ")
+        talk = self.clrt(*words[:5], *words[6:], "-v").stderr.decode()
+        self.assertIn("resumed: 8 of 12 tiles are there", talk)
+        pictures = [(self.work / name).read_bytes() for name in ("a.pfm", "whole.pfm")]
+        self.assertTrue(pictures[0] == pictures[1])
+
+
 class Memory(Faults):
     # The first allocations one by one are the first to fail, later ones in larger steps.
     def count_failures(self, *words):
@@ -170,4 +212,4 @@ class Memory(Faults):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[5:])

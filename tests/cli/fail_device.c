@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Preloaded, makes the device fail: from the CLRT_FAIL_CALL-th call on, counted from 1, of the
+// function of OpenCL that CLRT_FAIL_NAME names, none succeeds, as where a device runs out of memory
+// or is lost.
+#include <CL/cl.h>
+#include <dlfcn.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+static atomic_long calls;
+
+static bool fails(const char *name)
+{
+    const char *wanted = getenv("CLRT_FAIL_NAME"), *first = getenv("CLRT_FAIL_CALL");
+    return wanted != NULL && first != NULL && strcmp(wanted, name) == 0 &&
+           atomic_fetch_add(&calls, 1) + 1 >= atol(first);
+}
+
+cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void *host,
+                      cl_int *status)
+{
+    cl_mem (*real)(cl_context, cl_mem_flags, size_t, void *, cl_int *);
+    *(void **)&real = dlsym(RTLD_NEXT, "clCreateBuffer");
+    if (!fails("clCreateBuffer"))
+        return real(context, flags, size, host, status);
+    if (status != NULL)
+        *status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    return NULL;
+}
+
+cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
+                              const size_t *offset, const size_t *grid, const size_t *group,
+                              cl_uint count, const cl_event *events, cl_event *event)
+{
+    cl_int (*real)(cl_command_queue, cl_kernel, cl_uint, const size_t *, const size_t *,
+                   const size_t *, cl_uint, const cl_event *, cl_event *);
+    *(void **)&real = dlsym(RTLD_NEXT, "clEnqueueNDRangeKernel");
+    return fails("clEnqueueNDRangeKernel")
+               ? CL_OUT_OF_RESOURCES
+               : real(queue, kernel, dimensions, offset, grid, group, count, events, event);
+}
+
+cl_int clWaitForEvents(cl_uint count, const cl_event *events)
+{
+    cl_int (*real)(cl_uint, const cl_event *);
+    *(void **)&real = dlsym(RTLD_NEXT, "clWaitForEvents");
+    const cl_int status = real(count, events);
+    return fails("clWaitForEvents") ? CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST : status;
+}
