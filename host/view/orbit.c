@@ -7,6 +7,7 @@
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
 #define WHEEL_FACTOR       0.9
+#define COURSE_HEIGHT      512.0
 #define AZIMUTH_LIMIT      89.99
 #define NEAREST            0.5
 #define FARTHEST           100.0
@@ -75,6 +76,20 @@ static void set_distance(Orbit *orbit, double distance)
 void orbit_zoom(Orbit *orbit, double down)
 {
     set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
+}
+
+void orbit_pan(Orbit *orbit, double right, double down)
+{
+    const Viewpoint view = orbit_viewpoint(orbit);
+    const Vec3 ahead = vec3_normalize(vec3_sub(view.look_at, view.eye));
+    const Vec3 across = vec3_normalize(vec3_cross(ahead, view.up));
+    const double half = orbit->fov_degrees / 2;
+    const double height =
+        2 * orbit->distance * sine_of_degrees(half) / cosine_of_degrees(half) / COURSE_HEIGHT;
+    const Vec3 step = vec3_add(vec3_scale(across, -height * right),
+                               vec3_scale(vec3_cross(across, ahead), height * down));
+    orbit->pivot = vec3_add(orbit->pivot, step);
+    orbit->look_at = vec3_add(orbit->look_at, step);
 }
 
 void orbit_wheel(Orbit *orbit, double notches)

@@ -26,5 +26,8 @@ Viewpoint orbit_viewpoint(const Orbit *orbit);
 void orbit_turn(Orbit *orbit, double right, double down);
 void orbit_zoom(Orbit *orbit, double down);
 
+// What is at the pivot follows the pointer, in a window as high as the course's.
+void orbit_pan(Orbit *orbit, double right, double down);
+
 // What turning the wheel by so many notches does, away from the user being positive.
 void orbit_wheel(Orbit *orbit, double notches);

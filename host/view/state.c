@@ -130,6 +130,9 @@ unsigned state_apply(State *state, const Event *event, const StateScene *scene)
     case EVENT_ZOOM:
         orbit_zoom(&state->orbit, event->down);
         break;
+    case EVENT_PAN:
+        orbit_pan(&state->orbit, event->right, event->down);
+        break;
     case EVENT_WHEEL:
         orbit_wheel(&state->orbit, event->down);
         break;

@@ -12,6 +12,7 @@ typedef enum {
     EVENT_KEY,
     EVENT_TURN, // the mouse was dragged to turn the scene
     EVENT_ZOOM, // or to come nearer
+    EVENT_PAN,  // or to move it sideways
     EVENT_WHEEL
 } EventKind;
 

@@ -56,16 +56,27 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
             add_event(handle, (Event){.kind = EVENT_KEY, .key = keys[i][1]});
 }
 
+// What dragging does with the buttons and keys that are held, false where it does nothing.
+static bool find_drag(GLFWwindow *handle, EventKind *kind)
+{
+    const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+    const bool middle = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
+    const bool right = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+    const bool shift = glfwGetKey(handle, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+                       glfwGetKey(handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+    *kind = middle || (left && shift) ? EVENT_PAN : left ? EVENT_TURN : EVENT_ZOOM;
+    return left || middle || right;
+}
+
 static void take_motion(GLFWwindow *handle, double x, double y)
 {
+    EventKind kind;
     Window *window = glfwGetWindowUserPointer(handle);
     const double right = x - window->mouse_x, down = y - window->mouse_y;
     window->mouse_x = x;
     window->mouse_y = y;
-    if (glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
-        add_event(handle, (Event){.kind = EVENT_TURN, .right = right, .down = down});
-    else if (glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS)
-        add_event(handle, (Event){.kind = EVENT_ZOOM, .right = right, .down = down});
+    if (find_drag(handle, &kind))
+        add_event(handle, (Event){.kind = kind, .right = right, .down = down});
 }
 
 static void take_scroll(GLFWwindow *handle, double right, double down)

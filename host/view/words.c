@@ -151,6 +151,7 @@ const char *words_help(void)
            "1-9  the scene's cameras\n"
            "left drag, arrows  turn\n"
            "right drag, wheel  come nearer\n"
+           "middle or Shift drag  move sideways\n"
            "o  turn by itself\n"
            "a  anti-aliasing\n"
            "b  tree or brute force\n"

@@ -168,6 +168,27 @@ def the_mouse_turns_and_zooms(screen):
     window.close()
 
 
+def the_middle_button_or_shift_moves_sideways(screen):
+    window = opened(screen)
+    place = ("moved", "azimuth -40.00, rotation 25.00, distance 6.5")
+    for mode in ("OpenGL", "ray traced"):
+        before = window.read()
+        window.drag(2, 40, 10)
+        window.wait(mode, *place)
+        aside = window.read()
+        assert aside != before, "nothing has moved"
+        window.press("1", mode, "view 1,")
+        screen.do("keydown", "shift")
+        window.drag(1, 40, 10)
+        screen.do("keyup", "shift")
+        window.wait(mode, *place)
+        assert window.read() == aside, "Shift does something else"
+        window.press("1", mode, "view 1,")
+        window.press("r")
+        window.wait("view 1,")
+    window.close()
+
+
 def c_prints_the_camera(screen):
     window = opened(screen)
     window.press("c")
@@ -258,8 +279,9 @@ if __name__ == "__main__":
                digits_choose_the_scenes_cameras, b_turns_the_tree_off_and_draws_the_same_picture,
                boxes_are_blue_at_the_leaves_and_red_above, n_shows_normals_in_red,
                plus_and_minus_change_the_exposure, h_and_t_show_and_hide_text,
-               o_turns_the_camera_by_itself, the_mouse_turns_and_zooms, c_prints_the_camera,
-               s_saves_the_picture, s_holds_a_turning_camera_still, r_in_capitals_reads_everything_again, q_and_escape_quit,
+               o_turns_the_camera_by_itself, the_mouse_turns_and_zooms,
+               the_middle_button_or_shift_moves_sideways, c_prints_the_camera, s_saves_the_picture,
+               s_holds_a_turning_camera_still, r_in_capitals_reads_everything_again, q_and_escape_quit,
                keys_are_played_in_order_and_frames_counted, stats_tell_the_times_of_frames,
                options_choose_what_the_window_opens_with, without_a_display_it_says_so],
               Screen())

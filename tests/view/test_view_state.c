@@ -108,6 +108,34 @@ static void dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole(void **state)
     scene_free(&fixture.scene);
 }
 
+// Where a point is seen in a window of 512 x 512, from its middle.
+static void see(const Viewpoint *camera, Vec3 point, double place[2])
+{
+    const Vec3 ahead = vec3_normalize(vec3_sub(camera->look_at, camera->eye));
+    const Vec3 across = vec3_normalize(vec3_cross(ahead, camera->up));
+    const Vec3 arm = vec3_sub(point, camera->eye);
+    const double pixel = vec3_dot(arm, ahead) * tan(camera->fov_degrees / 360 * M_PI) / 256;
+    place[0] = vec3_dot(arm, across) / pixel;
+    place[1] = vec3_dot(arm, vec3_cross(ahead, across)) / pixel;
+}
+
+static void what_is_looked_at_follows_a_drag_sideways(void **state)
+{
+    (void)state;
+    double place[2];
+    Fixture fixture = opened("camera 5 4 3  1 0 2  30");
+    const Viewpoint before = fixture.state.camera;
+    happen(&fixture, EVENT_PAN, 40, -25);
+    const Viewpoint *after = &fixture.state.camera;
+    see(after, before.look_at, place);
+    assert_true(near(place[0], 40) && near(place[1], -25) && fixture.state.moved);
+    assert_true(
+        same_place(vec3_sub(after->look_at, after->eye), vec3_sub(before.look_at, before.eye)));
+    happen(&fixture, EVENT_PAN, -40, 25);
+    assert_true(same_place(fixture.state.camera.eye, before.eye));
+    scene_free(&fixture.scene);
+}
+
 static void zooming_keeps_to_the_courses_distances(void **state)
 {
     (void)state;
@@ -308,6 +336,7 @@ int main(void)
         cmocka_unit_test(a_camera_that_has_not_moved_is_the_scenes_to_the_bit),
         cmocka_unit_test(an_orbit_gives_back_the_camera_it_was_made_of),
         cmocka_unit_test(dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole),
+        cmocka_unit_test(what_is_looked_at_follows_a_drag_sideways),
         cmocka_unit_test(zooming_keeps_to_the_courses_distances),
         cmocka_unit_test(scenes_of_any_size_zoom_alike),
         cmocka_unit_test(every_switch_has_a_key_that_turns_it_back),
