@@ -13,7 +13,7 @@ import time
 from screen import ROOT, Screen, Window, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
-GONE_SECONDS = 0.1
+GONE_SECONDS = 0.1  # beyond what the same window takes that is at rest, which is up to the machine
 
 
 def write_large(folder):
@@ -48,13 +48,14 @@ def a_million_triangles_open_orbit_and_close(screen):
         window.close()
 
 
-def close_while_it_traces(screen, scene, *options):
-    """Seconds from the key to the end of the process."""
+def seconds_to_close(screen, scene, *options, is_tracing):
+    """From the key to the end of the process."""
     window = Window(screen, scene, *options, size=(500, 400))
     window.wait("OpenGL, view 1")
-    window.press("r")
-    time.sleep(1.5)
-    assert not any("ray traced" in line for line in list(window.lines.queue)), "it is finished"
+    if is_tracing:
+        window.press("r")
+        time.sleep(1.5)
+        assert not any("ray traced" in line for line in list(window.lines.queue)), "it is finished"
     screen.do("key", "q")
     start = time.monotonic()
     window.end()
@@ -67,9 +68,11 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen):
         if LARGE.exists():
             cases.append((write_large(pathlib.Path(folder)), ["--no-bvh"]))
         for scene, options in cases:
-            seconds = close_while_it_traces(screen, scene, *options)
-            print(f"         {scene.stem} {options}: gone after {1e3 * seconds:.0f} ms")
-            assert seconds < GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
+            rest = seconds_to_close(screen, scene, *options, is_tracing=False)
+            seconds = seconds_to_close(screen, scene, *options, is_tracing=True)
+            print(f"         {scene.stem} {options}: gone after {1e3 * seconds:.0f} ms, at rest "
+                  f"after {1e3 * rest:.0f} ms")
+            assert seconds < rest + GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
 
 
 def camera_moves_while_a_picture_is_traced(screen):
