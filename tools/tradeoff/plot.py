@@ -3,6 +3,7 @@
 others hollow; a line across shows how far the reference is to be trusted."""
 
 import io
+import math
 
 import matplotlib
 
@@ -12,6 +13,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 from tradeoff import front, grid, labels  # noqa: E402
 
+COLUMNS = 3
 KINDS = [("uniform", "uniform samples", "#0b62c4", "o"),
          ("levels", "rays followed less far", "#c2410c", "v"),
          ("fp64", "fp64", "#6b7280", "s"), ("adaptive", "adaptive samples", "#15803d", "D"),
@@ -84,17 +86,21 @@ def draw_scene(axes, scene):
 
 
 def svg(scenes):
-    """All scenes beside each other, as the text of an SVG."""
+    """All scenes in rows of three, as the text of an SVG."""
+    columns = min(len(scenes), COLUMNS)
+    lines = math.ceil(len(scenes) / columns)
     with pyplot.rc_context({"svg.hashsalt": "clrt", "svg.fonttype": "none",
                             "font.family": "sans-serif"}):
-        figure, axes = pyplot.subplots(1, len(scenes), figsize=(7.2 * len(scenes), 6),
+        figure, axes = pyplot.subplots(lines, columns, figsize=(7.2 * columns, 6 * lines),
                                        squeeze=False, layout="constrained")
-        for place, scene in zip(axes[0], scenes):
+        for place, scene in zip(axes.flat, scenes):
             draw_scene(place, scene)
-        axes[0][0].legend(fontsize=8, framealpha=1, loc="lower left")
+        for place in axes.flat[len(scenes):]:
+            place.set_axis_off()
+        axes.flat[0].legend(fontsize=8, framealpha=1, loc="lower left")
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
-        for place, scene in zip(axes[0], scenes):
+        for place, scene in zip(axes.flat, scenes):
             name_rows(place, scene["rows"])
         text = io.StringIO()
         figure.savefig(text, format="svg", metadata={"Date": None})
