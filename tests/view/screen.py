@@ -160,6 +160,21 @@ def render(scene, *options, size=(320, 240)):
         return planes_of_pfm(pathlib.Path(path).read_bytes(), size)
 
 
+def opened(screen, scene):
+    """A window that shows the scene ray traced, without text."""
+    window = Window(screen, scene)
+    window.wait("OpenGL, view 1")
+    window.press("t", "text off")
+    window.press("r", "ray traced")
+    return window
+
+
+def expect(window, scene, what):
+    """Waits until the window shows what -o writes of the scene."""
+    picture = render(scene)
+    window.until(lambda shown: planes_of(shown) == picture, what)
+
+
 def planes_of_pfm(content, size):
     values = array.array("f", content[-12 * size[0] * size[1]:])
     bytes_up = bytes(int(value * 255 + 0.5) for value in values)

@@ -9,15 +9,7 @@ import subprocess
 import tempfile
 
 from drag import Drag
-from screen import ROOT, Screen, Window, planes_of, render, run_tests
-
-
-def opened(screen, scene):
-    window = Window(screen, scene)
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    window.press("r", "ray traced")
-    return window
+from screen import ROOT, Screen, expect, opened, run_tests
 
 
 def drop(screen, *paths):
@@ -26,11 +18,6 @@ def drop(screen, *paths):
     drag = Drag(screen.name)
     drag.drop(int(found.stdout.split()[-1]), *paths)
     drag.close()
-
-
-def expect(window, scene, what):
-    picture = render(scene)
-    window.until(lambda shown: planes_of(shown) == picture, what)
 
 
 def a_dropped_scene_or_mesh_is_shown_through_its_first_camera(screen):

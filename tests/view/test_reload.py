@@ -8,7 +8,7 @@ import pathlib
 import shutil
 import tempfile
 
-from screen import ROOT, Screen, Window, planes_of, render, run_tests
+from screen import ROOT, Screen, expect, opened, render, run_tests
 
 
 def in_folder(test):
@@ -18,19 +18,6 @@ def in_folder(test):
             test(screen, pathlib.Path(name))
     run.__name__ = test.__name__
     return run
-
-
-def opened(screen, scene):
-    window = Window(screen, scene)
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    window.press("r", "ray traced")
-    return window
-
-
-def expect(window, scene, what):
-    picture = render(scene)
-    window.until(lambda shown: planes_of(shown) == picture, what)
 
 
 def make_scene(folder):
