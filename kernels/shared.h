@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The vocabulary host and kernels share: compiled twice, as C17 and as OpenCL C, and meaning the
-// same bytes in both.  Members are float, uint and arrays of them; every struct is a multiple of
-// 8 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout on the
-// device.  All positions are in the normalized frame (host/scene/normalize.h).
+// same bytes in both.  Members are float, uint, ulong and arrays of them; every struct is a
+// multiple of 8 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout
+// on the device.  All positions are in the normalized frame (host/scene/normalize.h).
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
 
@@ -11,6 +11,7 @@
 #else
 #include <stdint.h>
 typedef uint32_t uint;
+typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
@@ -152,6 +153,30 @@ typedef struct {
     uint signature;
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
+
+// Sub-pixels along a side of a pixel whose samples are summed.  A power of two: the sample at the
+// center is then that of a picture with one sample a pixel, bit for bit.
+#define LADDER_GRID 1024
+
+// Samples that a request takes of its pixel, of which it can have LADDER_GRID.
+#define LADDER_SAMPLES 16
+
+// Samples wanted of a pixel: LADDER_SAMPLES of its sequence from the first on, or with NOTHING for
+// the first the one at its center.
+typedef struct {
+    uint x, y;
+    uint scramble; // of the places; LADDER_GRID * LADDER_GRID values
+    uint first;
+} PixelRequest;
+CLRT_SAME_SIZE(PixelRequest, 16)
+
+// Sums over these samples: of colors in steps of 2^-32, and of the squares of all three values in
+// steps of 2^-48.
+typedef struct {
+    ulong colors[3];
+    ulong squares;
+} PixelSums;
+CLRT_SAME_SIZE(PixelSums, 32)
 
 // How sure the decisions of a pixel's ray trees are: what is met, and which lights are seen.
 typedef enum {

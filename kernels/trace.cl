@@ -10,19 +10,25 @@ static inline Real3 load_private3(const float *components)
     return real3_of(components[0], components[1], components[2]);
 }
 
-// sample_x and sample_y count sub-pixels across the whole picture.
-static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sample_y, Truth active)
+// x and y are places in the whole picture, in halves of a sub-pixel.
+static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Truth active)
 {
-    const Real x = to_real(to_int(2 * sample_x + 1) - (int)(frame->width * frame->samples));
-    const Real y = to_real(to_int(2 * sample_y + 1) - (int)(frame->height * frame->samples));
+    const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
+    const Real along = to_real(to_int(y) - (int)(frame->height * frame->samples));
     const Real3 eye = load_private3(frame->camera.eye);
     const Real3 right = load_private3(frame->camera.right_step);
     const Real3 down = load_private3(frame->camera.down_step);
     const Real3 forward = load_private3(frame->camera.forward);
-    const Real3 direction = {fma(x, right.x, fma(y, down.x, forward.x)),
-                             fma(x, right.y, fma(y, down.y, forward.y)),
-                             fma(x, right.z, fma(y, down.z, forward.z))};
+    const Real3 direction = {fma(across, right.x, fma(along, down.x, forward.x)),
+                             fma(across, right.y, fma(along, down.y, forward.y)),
+                             fma(across, right.z, fma(along, down.z, forward.z))};
     return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, active};
+}
+
+// sample_x and sample_y count sub-pixels across the whole picture.
+static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sample_y, Truth active)
+{
+    return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);
 }
 
 static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)

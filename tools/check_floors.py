@@ -18,9 +18,10 @@ BELOW = {
     "accel": ["base", "scene"],
     "device": ["base", "scene", "accel"],
     "render": ["base", "scene", "accel", "device", "image"],
+    "refine": ["base", "scene", "accel", "device", "image", "render"],
     "library": ["base", "scene", "accel", "device", "image", "render"],
     "view": ["base", "scene", "accel", "device", "image", "render"],
-    "cli": ["base", "scene", "accel", "device", "image", "compare", "render", "view"],
+    "cli": ["base", "scene", "accel", "device", "image", "compare", "render", "refine", "view"],
 }
 
 # The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.

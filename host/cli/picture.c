@@ -11,6 +11,7 @@
 #include "cli/stop.h"
 #include "image/image_file.h"
 #include "render/aov_pass.h"
+#include "render/refine_tree.h"
 #include "render/tile.h"
 #include "scene/camera.h"
 #include "scene/turn.h"
@@ -60,6 +61,14 @@ static CameraData camera_of(const Run *run, uint32_t samples)
                        samples);
 }
 
+// Places along a pixel's side that samples may have.
+static uint32_t samples_across(const Run *run)
+{
+    if (run->options->contrast > 0)
+        return REFINE_GRID;
+    return options_are_adaptive(run->options) ? LADDER_GRID : run->settings.samples;
+}
+
 // What refining has sampled, it tells itself.
 static void count_samples(Run *run)
 {
@@ -77,9 +86,7 @@ static void count_samples(Run *run)
 
 static bool draw(Run *run, Error *error)
 {
-    const RenderSettings *settings = &run->settings;
-    const CameraData camera =
-        camera_of(run, options_are_adaptive(run->options) ? REFINE_GRID : settings->samples);
+    const CameraData camera = camera_of(run, samples_across(run));
     bool ok = true;
     double moment = clock_seconds();
     for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->repeat; frame++)
@@ -229,7 +236,7 @@ static ExitCode goal_missed(const Run *run, Error *error)
                   report->trace);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
-                  100 * fmax(report->estimate, report->truncation));
+                  100 * fmax(report->bound, report->truncation));
     return EXIT_FAULTS;
 }
 

@@ -4,7 +4,8 @@
 
 #include "base/clock.h"
 #include "cli/threads.h"
-#include "render/goal.h"
+#include "refine/goal.h"
+#include "render/adaptive.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,58 +23,81 @@ static double error_left(const Run *run)
     return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
 }
 
-static bool refine(Run *run, Adaptive *adaptive, double start, const RenderObserver *observer,
-                   Error *error)
-{
-    const Options *options = run->options;
-    Report *report = &run->report;
-    const GoalTime time = {start, options->time_goal};
-    GoalOutcome outcome = {.threshold = (float)options->contrast, .reached = true};
-    bool ok = true;
-    if (options->contrast > 0)
-        ok = adaptive_refine(adaptive, outcome.threshold, observer, error);
-    else if (options->time_goal > 0)
-        ok = goal_spend_time(adaptive, &time, observer, &outcome, error);
-    else if (error_left(run) > 0)
-        ok = goal_reach_error(adaptive, error_left(run), observer, &outcome, error);
-    else
-        outcome.reached = false;
-    report->contrast = options->contrast > 0 ? options->contrast : (double)outcome.threshold;
-    report->estimate = outcome.estimate > 0 ? hypot(outcome.estimate, truncation_of(run)) : 0;
-    report->goal_missed = !outcome.reached;
-    report->samples = adaptive->samples;
-    return ok;
-}
-
 // Keeps how many samples each pixel has, where channels may ask for it.
-static bool keep_counts(Run *run, const RefineTree *tree, Error *error)
+static bool keep_counts(Run *run, Error *error)
 {
+    const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
     if (run->options->aovs == 0 || run->samples != NULL)
         return true;
-    run->samples = memory_raw((size_t)tree->width * tree->height, sizeof *run->samples, error);
+    run->samples = memory_raw(pixels, sizeof *run->samples, error);
+    return run->samples != NULL;
+}
+
+static void count_tree(Run *run, const RefineTree *tree)
+{
     if (run->samples == NULL)
-        return false;
+        return;
     for (uint32_t y = 0; y < tree->height; y++)
         for (uint32_t x = 0; x < tree->width; x++)
             run->samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
-    return true;
+}
+
+static bool draw_adaptively(Run *run, const CameraData *camera, Crew *crew,
+                            const RenderObserver *observer, Error *error)
+{
+    Adaptive adaptive;
+    const AdaptiveSetup setup = {&run->renderer, &run->flat,  camera,
+                                 crew,           &run->scene, &run->normalization};
+    const bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
+                    adaptive_refine(&adaptive, (float)run->options->contrast, observer, error);
+    if (ok) {
+        adaptive_store(&adaptive, &run->framebuffer);
+        count_tree(run, &adaptive.tree);
+    }
+    run->report.contrast = run->options->contrast;
+    run->report.samples = adaptive.samples;
+    adaptive_close(&adaptive);
+    return ok;
+}
+
+// Refines as the options say; an error that too few levels make alone is not refined.
+static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *outcome, Error *error)
+{
+    const GoalTime time = {start, run->options->time_goal};
+    if (run->options->time_goal > 0)
+        return goal_spend_time(ladder, &time, outcome, error);
+    return error_left(run) <= 0 || goal_reach_error(ladder, error_left(run), outcome, error);
+}
+
+static bool draw_for_goal(Run *run, const CameraData *camera, Crew *crew,
+                          const RenderObserver *observer, Error *error)
+{
+    Ladder ladder;
+    GoalOutcome outcome = {0};
+    Report *report = &run->report;
+    const double start = clock_seconds();
+    const LadderSetup setup = {&run->renderer, camera, crew, &run->framebuffer, observer};
+    if (!ladder_open(&ladder, &setup, error))
+        return false;
+    const bool ok = refine(run, &ladder, start, &outcome, error);
+    report->estimate = hypot(outcome.estimate, truncation_of(run));
+    report->bound = hypot(outcome.bound, truncation_of(run));
+    report->goal_missed = !outcome.reached;
+    report->samples = ladder.samples;
+    for (size_t pixel = 0; run->samples != NULL && pixel < ladder.statistics.pixels; pixel++)
+        run->samples[pixel] = ladder_pixel_samples(&ladder, pixel);
+    ladder_close(&ladder);
+    return ok;
 }
 
 bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserver *observer,
                           Error *error)
 {
-    Adaptive adaptive;
-    const double start = clock_seconds();
+    if (!keep_counts(run, error))
+        return false;
     Crew *crew = crew_open(threads_allowed(run->options->threads));
-    const AdaptiveSetup setup = {&run->renderer, &run->flat,  camera,
-                                 crew,           &run->scene, &run->normalization};
-    bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
-              refine(run, &adaptive, start, observer, error);
-    if (ok) {
-        adaptive_store(&adaptive, &run->framebuffer);
-        ok = keep_counts(run, &adaptive.tree, error);
-    }
-    adaptive_close(&adaptive);
+    const bool ok = run->options->contrast > 0 ? draw_adaptively(run, camera, crew, observer, error)
+                                               : draw_for_goal(run, camera, crew, observer, error);
     crew_close(crew);
     return ok;
 }

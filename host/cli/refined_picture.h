@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cli/run.h"
-#include "render/adaptive.h"
 
 // Draws the run's picture, and leaves in its report what that took.
 bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserver *observer,

@@ -62,8 +62,11 @@ void report_write_text(const Report *report, FILE *stream)
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
             samples_per_pixel(report));
     if (report->estimate > 0)
-        fprintf(stream, "%.2g %% error estimated, of which at most %.2g %% for %u levels\n",
-                100 * report->estimate, 100 * report->truncation, report->settings->max_level);
+        fprintf(stream,
+                "error: about %.2g %%, at most %.2g %% with 95 %% confidence, of which at most "
+                "%.2g %% for %u levels\n",
+                100 * report->estimate, 100 * report->bound, 100 * report->truncation,
+                report->settings->max_level);
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
             ray_count(report), report->tallies[TALLY_CAMERA_RAYS],
@@ -186,9 +189,10 @@ static json_t *settings_json(const Report *report)
 
 static json_t *samples_json(const Report *report)
 {
-    return json_pack("{s:o, s:f, s:f, s:f, s:b}", "total", integer(report->samples), "per_pixel",
-                     samples_per_pixel(report), "contrast", report->contrast, "error_estimate",
-                     report->estimate, "goal_reached", !report->goal_missed);
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", integer(report->samples),
+                     "per_pixel", samples_per_pixel(report), "contrast", report->contrast,
+                     "error_estimate", report->estimate, "error_bound", report->bound,
+                     "goal_reached", !report->goal_missed);
 }
 
 // Refining goes over the picture as often as it needs to.

@@ -38,6 +38,7 @@ typedef struct {
     size_t upload_size;
     double contrast;   // that refining left, 0 where nothing was refined
     double estimate;   // of the error, with the bound of the truncation; 0 where there is none
+    double bound;      // likewise, that exceeds it with a confidence of 95 %
     bool goal_missed;  // of --error or --time
     double truncation; // bound of the error that max_level makes
     uint64_t pixels;   // that this run has drawn

@@ -149,7 +149,10 @@ static bool open_renderer(Run *run, Error *error)
 
 void run_begin(Run *run)
 {
-    const KernelEntry entry = options_are_adaptive(run->options) ? KERNEL_SAMPLES : KERNEL_TILE;
+    const Options *options = run->options;
+    const KernelEntry entry = options->contrast > 0           ? KERNEL_SAMPLES
+                              : options_are_adaptive(options) ? KERNEL_LADDER
+                                                              : KERNEL_TILE;
     const RendererSetup setup = {
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};

@@ -12,12 +12,19 @@
 
 #define OPTIONS_SIZE 2048
 
-// kernels/samples.cl, made at build time.
-extern const char samples_source[];
+// kernels/samples.cl and kernels/ladder.cl, made at build time.
+extern const char samples_source[], ladder_source[];
+
+// Each kernel with the source that is compiled behind the tile's, NULL for none.
+static const struct {
+    const char *name, *source;
+} entries[] = {[KERNEL_TILE] = {"render_tile", NULL},
+               [KERNEL_SAMPLES] = {"trace_samples", samples_source},
+               [KERNEL_LADDER] = {"trace_pixels", ladder_source}};
 
 const char *program_entry_name(KernelEntry entry)
 {
-    return entry == KERNEL_SAMPLES ? "trace_samples" : "render_tile";
+    return entries[entry].name;
 }
 
 static bool write_options(char options[OPTIONS_SIZE], const Device *device,
@@ -56,8 +63,8 @@ static bool create_program(Program *program, const Device *device, const Program
         return false;
     const char *texts[3] = {embedded ? kernel_source : include};
     cl_uint count = 1;
-    if (source->entry == KERNEL_SAMPLES)
-        texts[count++] = samples_source;
+    if (entries[source->entry].source != NULL)
+        texts[count++] = entries[source->entry].source;
     if (source->appended != NULL)
         texts[count++] = source->appended;
     cl_int status;
@@ -106,11 +113,11 @@ void program_free(Program *program)
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE])
 {
-    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + 4];
+    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + 24];
     char options[OPTIONS_SIZE] = "";
     write_options(options, device, source, traits);
-    const int length =
-        snprintf(text, sizeof text, "%s|%s|%s", device->name, device->version, options);
+    const int length = snprintf(text, sizeof text, "%s|%s|%s|%s", device->name, device->version,
+                                program_entry_name(source->entry), options);
     const XXH128_hash_t code = XXH3_128bits(kernel_source, kernel_source_size);
     const XXH128_hash_t hash =
         XXH3_128bits_withSeed(text, (size_t)length, code.low64 ^ code.high64);

@@ -12,8 +12,9 @@ extern const size_t kernel_source_size;
 
 // Which of the kernels is wanted; the first is in every program.
 typedef enum {
-    KERNEL_TILE,   // render_tile
-    KERNEL_SAMPLES // trace_samples
+    KERNEL_TILE,    // render_tile
+    KERNEL_SAMPLES, // trace_samples
+    KERNEL_LADDER   // trace_pixels
 } KernelEntry;
 
 typedef struct {

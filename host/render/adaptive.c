@@ -115,11 +115,6 @@ static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
     return true;
 }
 
-bool adaptive_has_small_parts(const Adaptive *adaptive)
-{
-    return adaptive->footprints.list.count > 0 || adaptive->thin_parts.levels > 0;
-}
-
 bool adaptive_is_whole(const Adaptive *adaptive)
 {
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
@@ -176,19 +171,6 @@ static bool cut_all(Adaptive *adaptive, float threshold, Error *error)
     return !adaptive_is_whole(adaptive) ||
            (mark_and_cut_pixels(adaptive, threshold, error) &&
             mark_and_cut_groups(adaptive, threshold, 1, end, error));
-}
-
-bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
-                          Error *error)
-{
-    const uint32_t first = (uint32_t)adaptive->tree.groups.count;
-    SeamSearch search = {.seen = 1};
-    const bool ok =
-        cut_all(adaptive, threshold, error) &&
-        seam_search_ask(&search, &adaptive->tree, ADAPTIVE_SEAM_PART * threshold, error) &&
-        adaptive_pass_trace(adaptive, first, &search, observer, error);
-    seam_search_free(&search);
-    return ok;
 }
 
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,

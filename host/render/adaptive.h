@@ -45,13 +45,6 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
-// The same in one pass, which leaves the cells that it makes as they are.
-bool adaptive_refine_once(Adaptive *adaptive, float threshold, const RenderObserver *observer,
-                          Error *error);
-
-// Whether anything is smaller than a pixel, so that cells are cut whatever the threshold.
-bool adaptive_has_small_parts(const Adaptive *adaptive);
-
 // Whether the observer has not stopped it.
 bool adaptive_is_whole(const Adaptive *adaptive);
 

@@ -26,11 +26,12 @@ static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error
                                       .group_width = ready->group_width,
                                       .group_height = ready->group_height},
                          .nodes = setup->source.choice.nodes,
+                         .entry = setup->source.entry,
                          .kernel = ready->handle};
     for (int place = 0; place < RENDERER_ARRAYS; place++)
         renderer.arrays[place] = nothing;
-    const bool ok = setup->source.entry == KERNEL_SAMPLES ? sampler_warm_up(&renderer, error)
-                                                          : draw_warm_up(&renderer, error);
+    const bool ok = renderer.entry == KERNEL_TILE ? draw_warm_up(&renderer, error)
+                                                  : sampler_warm_up(&renderer, error);
     clReleaseMemObject(nothing);
     return ok;
 }

@@ -112,6 +112,7 @@ bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatSce
     *renderer = (Renderer){.device = setup->device,
                            .settings = *settings,
                            .nodes = setup->source.choice.nodes,
+                           .entry = setup->source.entry,
                            .frame = frame_of(flat, settings)};
     const SceneTraits special = traits_of(flat, settings->statistics);
     renderer->is_special = specialization_pays(setup, &special, settings);

@@ -65,6 +65,7 @@ typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;
     NodeLayout nodes;
+    KernelEntry entry; // of the kernel
     FrameData frame;
     Program program;
     cl_kernel kernel;

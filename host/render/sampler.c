@@ -8,23 +8,23 @@
 
 #define LAUNCH_ITEMS 16384
 
-// ITEM_SAMPLES of the kernel.
-static uint32_t item_samples(const Renderer *renderer)
+// ITEM_SAMPLES and ITEM_REQUESTS of the kernels.
+static uint32_t item_requests(const Renderer *renderer)
 {
     return renderer->nodes == NODES_WIDE ? PACKET_SIDE * PACKET_SIDE : 1;
 }
 
-static uint32_t launch_samples(const Renderer *renderer)
+static uint32_t launch_requests(const Renderer *renderer)
 {
-    return LAUNCH_ITEMS * item_samples(renderer);
+    return LAUNCH_ITEMS * item_requests(renderer);
 }
 
 typedef struct {
     Renderer *renderer;
     const SampleList *list;
-    cl_mem places, samples, tallies;
+    cl_mem requests, results, tallies;
     uint32_t *host_tallies;
-    cl_event done[2]; // of launches by turns
+    cl_event done[2]; // of alternate launches
 } Sampling;
 
 // Memory of the host that the device uses in place.
@@ -33,6 +33,16 @@ typedef struct {
     const void *data;
     size_t size;
 } Shared;
+
+static size_t request_size(const Renderer *renderer)
+{
+    return renderer->entry == KERNEL_LADDER ? sizeof(PixelRequest) : sizeof(SamplePlace);
+}
+
+static size_t result_size(const Renderer *renderer)
+{
+    return renderer->entry == KERNEL_LADDER ? sizeof(PixelSums) : sizeof(SampleData);
+}
 
 static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer, Error *error)
 {
@@ -51,12 +61,14 @@ static bool open_buffers(Sampling *sampling, Error *error)
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
     if (sampling->host_tallies == NULL)
         return false;
-    const Shared places = {CL_MEM_READ_ONLY, list->places, list->count * sizeof *list->places};
-    const Shared samples = {CL_MEM_READ_WRITE, list->samples, list->count * sizeof *list->samples};
+    const Shared requests = {CL_MEM_READ_ONLY, list->requests,
+                             list->count * request_size(sampling->renderer)};
+    const Shared results = {CL_MEM_READ_WRITE, list->results,
+                            list->count * result_size(sampling->renderer)};
     const Shared counts = {CL_MEM_READ_WRITE, sampling->host_tallies,
                            tallies * sizeof *sampling->host_tallies};
-    return share(sampling, &places, &sampling->places, error) &&
-           share(sampling, &samples, &sampling->samples, error) &&
+    return share(sampling, &requests, &sampling->requests, error) &&
+           share(sampling, &results, &sampling->results, error) &&
            share(sampling, &counts, &sampling->tallies, error);
 }
 
@@ -67,7 +79,7 @@ static void close_buffers(Sampling *sampling)
     for (int i = 0; i < 2; i++)
         if (sampling->done[i] != NULL)
             clReleaseEvent(sampling->done[i]);
-    const cl_mem buffers[] = {sampling->places, sampling->samples, sampling->tallies};
+    const cl_mem buffers[] = {sampling->requests, sampling->results, sampling->tallies};
     for (int i = 0; i < 3; i++)
         if (buffers[i] != NULL)
             clReleaseMemObject(buffers[i]);
@@ -81,8 +93,8 @@ static bool set_arguments(const Sampling *sampling, const FrameData *frame, Erro
     cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
     for (cl_uint place = 0; place < RENDERER_ARRAYS; place++)
         status |= clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &sampling->places);
-    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 4, sizeof(cl_mem), &sampling->samples);
+    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &sampling->requests);
+    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 4, sizeof(cl_mem), &sampling->results);
     status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 5, sizeof(cl_mem), &sampling->tallies);
     return cl_succeeded(status, "set the kernel's arguments", error);
 }
@@ -90,12 +102,12 @@ static bool set_arguments(const Sampling *sampling, const FrameData *frame, Erro
 static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
-    const uint32_t most = launch_samples(renderer);
+    const uint32_t most = launch_requests(renderer);
     const cl_uint first = number * most, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
     const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
-    const size_t samples = item_samples(renderer);
-    const size_t grid = ((count + samples - 1) / samples + group - 1) / group * group;
+    const size_t requests = item_requests(renderer);
+    const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
     cl_int status = clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof first, &first);
     status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 3, sizeof end, &end);
     if (status == CL_SUCCESS)
@@ -103,7 +115,7 @@ static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
                                         &group, 0, NULL, &sampling->done[number % 2]);
     if (status == CL_SUCCESS)
         status = clFlush(renderer->device->queue);
-    return cl_succeeded(status, "run the kernel trace_samples", error);
+    return cl_succeeded(status, "run the kernel for samples", error);
 }
 
 static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
@@ -125,7 +137,7 @@ static bool observed(const RenderObserver *observer, const RenderProgress *progr
 static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
 {
     RenderProgress *progress = &sampling->renderer->progress;
-    const uint32_t most = launch_samples(sampling->renderer), count = sampling->list->count;
+    const uint32_t most = launch_requests(sampling->renderer), count = sampling->list->count;
     const uint32_t launches = count / most + (count % most > 0);
     uint32_t started = 0, finished = 0;
     bool wanted = true;
@@ -176,7 +188,7 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
         return true;
     bool ok = open_buffers(&sampling, error) && set_arguments(&sampling, frame, error) &&
               run_launches(&sampling, observer, error) && read_tallies(&sampling, error) &&
-              read_back(&sampling, sampling.samples, list->count * sizeof *list->samples, error);
+              read_back(&sampling, sampling.results, list->count * result_size(renderer), error);
     close_buffers(&sampling);
     return ok;
 }
@@ -184,7 +196,11 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 bool sampler_warm_up(Renderer *renderer, Error *error)
 {
     static const SamplePlace nowhere = {NOTHING, 0};
+    static const PixelRequest outside = {.x = NOTHING, .first = NOTHING};
     SampleData sample;
-    const SampleList list = {&nowhere, &sample, 1};
+    PixelSums sums;
+    const bool is_ladder = renderer->entry == KERNEL_LADDER;
+    const SampleList list = {is_ladder ? (const void *)&outside : &nowhere,
+                             is_ladder ? (void *)&sums : &sample, 1};
     return sampler_trace(renderer, &renderer->frame, &list, NULL, error);
 }

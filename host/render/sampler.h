@@ -9,15 +9,18 @@ typedef struct {
     uint32_t x, y;
 } SamplePlace;
 
+// Requests as the renderer's kernel reads them, and as many results: SamplePlace and SampleData for
+// KERNEL_SAMPLES, PixelRequest and PixelSums for KERNEL_LADDER.
 typedef struct {
-    const SamplePlace *places;
-    SampleData *samples; // are left here; those left out hold anything
+    const void *requests;
+    void *results; // are left here; those of requests left out hold anything
     uint32_t count;
 } SampleList;
 
-// Takes the samples of the list with a renderer whose kernel is of KERNEL_SAMPLES.  A tile of the
-// progress is a launch here: the list's are added to those there are, and so are the tallies.
-// Where the observer stops it, fewer tiles are done than there are, and samples are missing.
+// Answers the requests of the list by a renderer's kernel, KERNEL_SAMPLES or KERNEL_LADDER.  A tile
+// of the progress is a launch here: the list's are added to those there are, and so are the
+// tallies.  Where the observer stops it, fewer tiles are done than there are, and results are
+// missing.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);
 

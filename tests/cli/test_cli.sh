@@ -110,20 +110,22 @@ check "a contrast is a part of one" refuses 2 \
   "--aa-adaptive wants a number above 0 and up to 1, not '2'" --aa-adaptive=2 "$scene" -o a.pfm
 check "an error is asked for" pixels b.pfm --error 0.5% --stats=b.json
 check "... held as far as one can tell" json b.json \
-  "d['samples']['goal_reached'] and 0 < d['samples']['error_estimate'] <= 0.005"
+  "d['samples']['goal_reached'] and 0 < d['samples']['error_estimate'] < d['samples']['error_bound'] <= 0.005"
 check "... with the levels that it takes" json b.json "d['settings']['truncation_bound'] <= 0.00125"
 check "... and is told" pixels b.pfm --error 0.005 --stats
-check "... in percent" says "% error estimated, of which at most 0.098 % for 5 levels$"
+check "... in percent" says "with 95 % confidence, of which at most 0.098 % for 5 levels$"
 check "a smaller error takes more samples" pixels c.pfm --error 0.001 --stats=c.json
 check "... says the JSON" json c.json \
-  "d['samples']['total'] > 1600 and d['samples']['error_estimate'] <= 0.001"
+  "d['samples']['total'] > 1600 and d['samples']['error_bound'] <= 0.001"
 printf 'define it matte reflectivity 1\nmaterial it\nsphere 0 0 0 1\n' >mirror.scn
 check "an error that no levels hold is exit 1" run 1 mirror.scn -s 8x8 --error 1% -o a.pfm
 check "... and says so" says "clrt: the error may be 1e+02 %, more than --error allows"
 check "an error is a number" refuses 2 \
   "--error wants a number above 0 and up to 1, or 100%, not 'low'" --error low "$scene" -o a.pfm
-check "a tiny error takes doubles" pixels b.pfm --error 0.01% --stats=b.json
-check "... says the JSON" json b.json "d['settings']['precision'] == 'fp64'"
+check "an error too small for the ladder is exit 1" run 1 "$scene" -s 48x32 --error 0.01% -o b.pfm --stats=b.json
+check "... and says so" says "clrt: the error may be 0.0[0-9]* %, more than --error allows"
+check "... in the statistics too" json b.json "not d['samples']['goal_reached'] and d['samples']['error_bound'] > 0.0001"
+check "... and takes doubles" json b.json "d['settings']['precision'] == 'fp64'"
 check "time is spent" pixels b.pfm --time 0.5 --stats=b.json
 check "... on samples" json b.json "d['samples']['goal_reached'] and d['samples']['total'] > 10000"
 check "... and no more" json b.json "d['seconds']['trace'] < 2"

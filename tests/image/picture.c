@@ -91,11 +91,7 @@ static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
 
 static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
 {
-    GoalOutcome outcome;
     bool ok = true;
-    if (request->error_goal > 0)
-        return goal_reach_error(adaptive, request->error_goal, NULL, &outcome, error) &&
-               (outcome.reached || error_set(error, "the goal is missed"));
     for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
         ok = adaptive_refine(adaptive, request->contrasts[step], NULL, error);
     }
@@ -119,6 +115,48 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
     adaptive_close(&adaptive);
     crew_close(crew);
     return ok;
+}
+
+static bool draw_for_goal(Pipeline *pipeline, const CameraData *camera, Framebuffer *framebuffer,
+                          Error *error)
+{
+    Ladder ladder;
+    GoalOutcome outcome;
+    const PictureRequest *request = pipeline->request;
+    Crew *crew = crew_open(request->threads);
+    const LadderSetup setup = {&pipeline->renderer, camera, crew, framebuffer, NULL};
+    const bool ok = ladder_open(&ladder, &setup, error) &&
+                    goal_reach_error(&ladder, request->error_goal, &outcome, error) &&
+                    (outcome.reached || error_set(error, "the goal is missed"));
+    if (ok && request->sample_count != NULL)
+        *request->sample_count = ladder.samples;
+    ladder_close(&ladder);
+    crew_close(crew);
+    return ok;
+}
+
+static KernelEntry entry_of(const PictureRequest *request)
+{
+    if (request->contrasts[0] > 0)
+        return KERNEL_SAMPLES;
+    return request->error_goal > 0 ? KERNEL_LADDER : KERNEL_TILE;
+}
+
+static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
+{
+    const PictureRequest *request = pipeline->request;
+    CameraData camera;
+    switch (entry_of(request)) {
+    case KERNEL_SAMPLES:
+        camera = camera_of(pipeline, REFINE_GRID);
+        return draw_adaptively(pipeline, &camera, framebuffer, error);
+    case KERNEL_LADDER:
+        camera = camera_of(pipeline, LADDER_GRID);
+        return draw_for_goal(pipeline, &camera, framebuffer, error);
+    default:
+        camera = camera_of(pipeline, request->samples);
+        return renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error);
+    }
 }
 
 static bool draw_layers(const Pipeline *pipeline, const RendererSetup *setup, Error *error)
@@ -168,20 +206,17 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
-    const bool is_adaptive = request->contrasts[0] > 0 || request->error_goal > 0;
     const RendererSetup setup = {.device = &pipeline->device,
                                  .cache = &pipeline->cache,
                                  .source = {.extra_options = request->extra_options,
                                             .choice = request->choice,
-                                            .entry = is_adaptive ? KERNEL_SAMPLES : KERNEL_TILE}};
+                                            .entry = entry_of(request)}};
     if (!device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) ||
         !renderer_open(&pipeline->renderer, &setup, &pipeline->flat, &settings, error))
         return false;
-    const CameraData camera = camera_of(pipeline, is_adaptive ? REFINE_GRID : settings.samples);
     return framebuffer_make(framebuffer, settings.width, settings.height, error) &&
-           (is_adaptive ? draw_adaptively(pipeline, &camera, framebuffer, error)
-                        : renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error)) &&
-           draw_layers(pipeline, &setup, error) && visit(pipeline, &setup, framebuffer, error);
+           draw_colors(pipeline, framebuffer, error) && draw_layers(pipeline, &setup, error) &&
+           visit(pipeline, &setup, framebuffer, error);
 }
 
 bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)

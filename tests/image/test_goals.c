@@ -1,120 +1,106 @@
 // SPDX-License-Identifier: MIT
-// Errors that were asked for are held, at a fraction of what samples everywhere would cost.
+// Pictures with an error that was asked for: that they are one picture, and the ends of the scale.
+// tests/goals measures whether errors are held.
+#include "image/form.h"
 #include "image/rendered.h"
+#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
-#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 #define SCENES CLRT_SOURCE_FOLDER "/scenes/"
-#define SIDE   200
 
-static const struct {
-    const char *path;
-    uint32_t view;
-} pictures[] = {
-    {SCENES "simple.scn", 1},      {SCENES "simple.scn", 4},
-    {SCENES "reflections.scn", 1}, {SCENES "reflections.scn", 3},
-    {SCENES "blinn_phong.scn", 2}, {SCENES "matte.scn", 1},
-    {SCENES "silhouette.scn", 5},  {SCENES "creature.scn", 1},
-    {SCENES "creature.scn", 3},    {CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1}};
-#define PICTURE_COUNT (sizeof pictures / sizeof pictures[0])
-
-static const double goals[] = {0.02, 0.01, 0.005, 0.002};
-#define GOAL_COUNT (sizeof goals / sizeof goals[0])
-
-// Returns whether the error is within a tenth of the goal, and adds the samples that it took.
-static bool holds(const PictureRequest *request, double goal, const Framebuffer *reference,
-                  uint64_t *samples)
+static PictureRequest request_for(const char *scene, double goal)
 {
-    uint64_t count;
-    PictureRequest wanted = *request;
-    wanted.error_goal = goal;
-    wanted.sample_count = &count;
-    Framebuffer picture = rendered(&wanted);
-    const double reached = rendered_error(&picture, reference);
-    framebuffer_free(&picture);
-    *samples += count;
-    if (reached > 1.1 * goal)
-        print_message("%s, view %u: %g instead of %g\n", request->scene_path, request->view,
-                      reached, goal);
-    return reached <= 1.1 * goal;
-}
-
-// The fewest samples of a grid, along a side, whose error is no larger than the goal.
-static uint32_t side_that_holds(const PictureRequest *request, double goal,
-                                const Framebuffer *reference)
-{
-    for (uint32_t side = 1;; side++) {
-        PictureRequest uniform = *request;
-        uniform.samples = side;
-        Framebuffer picture = rendered(&uniform);
-        const double reached = rendered_error(&picture, reference);
-        framebuffer_free(&picture);
-        if (reached <= goal)
-            return side;
-    }
-}
-
-static void errors_asked_for_are_held_but_for_one_of_forty(void **state)
-{
-    (void)state;
-    unsigned held = 0;
-    uint64_t samples[GOAL_COUNT] = {0}, uniform[GOAL_COUNT] = {0};
-    for (size_t i = 0; i < PICTURE_COUNT; i++) {
-        PictureRequest request = picture_request(pictures[i].path, pictures[i].view);
-        request.width = request.height = SIDE;
-        PictureRequest many = request;
-        many.samples = 20;
-        Framebuffer reference = rendered(&many);
-        for (size_t goal = 0; goal < GOAL_COUNT; goal++) {
-            const uint32_t side = side_that_holds(&request, goals[goal], &reference);
-            held += holds(&request, goals[goal], &reference, &samples[goal]);
-            uniform[goal] += (uint64_t)SIDE * SIDE * side * side;
-        }
-        framebuffer_free(&reference);
-    }
-    assert_true(held + 1 >= PICTURE_COUNT * GOAL_COUNT);
-    for (size_t goal = 0; goal < GOAL_COUNT; goal++) {
-        print_message("%g: %.1f times fewer samples\n", goals[goal],
-                      (double)uniform[goal] / (double)samples[goal]);
-        assert_true(2 * samples[goal] <= uniform[goal]);
-        assert_true(goals[goal] > 0.005 || 6 * samples[goal] <= uniform[goal]);
-        assert_true(goals[goal] > 0.002 || 18 * samples[goal] <= uniform[goal]);
-    }
-}
-
-static uint64_t samples_for(const char *path, double goal)
-{
-    uint64_t count = 0;
-    PictureRequest request = picture_request(path, 1);
-    request.width = request.height = SIDE;
+    PictureRequest request = picture_request(scene, 1);
+    request.width = 97;
+    request.height = 61;
     request.error_goal = goal;
-    request.sample_count = &count;
+    return request;
+}
+
+static void every_form_threads_and_tree_refine_the_same(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {SCENES "reflections.scn", SCENES "blinn_phong.scn",
+                                         CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
+    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
+    for (size_t scene = 0; scene < sizeof scenes / sizeof scenes[0]; scene++) {
+        const PictureRequest usual = request_for(scenes[scene], 0.003);
+        for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+            PictureRequest other = usual;
+            other.choice = choices[i];
+            other.group_width = other.group_height = form_group(&choices[i]);
+            other.threads = (uint32_t)i;
+            other.builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
+            other.specialization = i == 4 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+            rendered_expect_same(&usual, &other);
+        }
+    }
+}
+
+// Pixels are chosen at random to see whether their centers deceive: 24, or what there is, of each
+// of the twelve strata that a picture may have.
+static void all_but_some_controls_keep_their_center_where_any_error_will_do(void **state)
+{
+    (void)state;
+    uint64_t samples;
+    PictureRequest request = request_for(SCENES "reflections.scn", 1);
+    request.sample_count = &samples;
     Framebuffer picture = rendered(&request);
+    request.error_goal = 0;
+    Framebuffer centers = rendered(&request);
+    const size_t pixels = (size_t)picture.width * picture.height;
+    size_t changed = 0;
+    for (size_t i = 0; i < pixels; i++)
+        changed += memcmp(picture.pixels[i], centers.pixels[i], sizeof picture.pixels[i]) != 0;
+    assert_true(changed > 0);
+    assert_true(samples > pixels && samples < 2 * pixels);
+    assert_true(changed <= (samples - pixels) / LADDER_SAMPLES);
     framebuffer_free(&picture);
-    return count;
+    framebuffer_free(&centers);
 }
 
-// With one, an error of 0.0229 is estimated.
-static void no_more_than_one_sample_a_pixel_is_taken_where_that_does(void **state)
+static void a_picture_of_one_color_keeps_it(void **state)
 {
     (void)state;
-    assert_int_equal(samples_for(SCENES "simple.scn", 0.025), SIDE * SIDE);
-    assert_true(samples_for(SCENES "simple.scn", 0.022) > SIDE * SIDE);
+    char path[TEMPORARY_PATH];
+    FILE *scene = temporary_open(path);
+    fprintf(scene, "up 0 1 0\ncamera 0 0 0 0 0 1 60\nbackground 0.1 0.3 0.7\nsphere 0 0 -5 1\n");
+    temporary_close(scene);
+    const PictureRequest request = request_for(path, 0.001);
+    Framebuffer picture = rendered(&request);
+    const size_t pixels = (size_t)picture.width * picture.height;
+    for (size_t i = 0; i < pixels; i++)
+        assert_memory_equal(picture.pixels[i], ((float[3]){0.1f, 0.3f, 0.7f}), 3 * sizeof(float));
+    framebuffer_free(&picture);
+    unlink(path);
 }
 
-static void parts_smaller_than_a_pixel_are_looked_for_whatever_the_error(void **state)
+static void an_error_below_that_of_1024_samples_is_not_held(void **state)
 {
     (void)state;
-    assert_true(samples_for(CLRT_SOURCE_FOLDER "/tests/bench/cables.scn", 0.5) > SIDE * SIDE);
+    Error error = {0};
+    Framebuffer picture;
+    PictureRequest request = request_for(SCENES "reflections.scn", 1e-7);
+    request.width = request.height = 8;
+    assert_false(picture_render(&picture, &request, &error));
+    assert_string_equal(error.text, "the goal is missed");
+    framebuffer_free(&picture);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_asked_for_are_held_but_for_one_of_forty),
-        cmocka_unit_test(no_more_than_one_sample_a_pixel_is_taken_where_that_does),
-        cmocka_unit_test(parts_smaller_than_a_pixel_are_looked_for_whatever_the_error),
+        cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
+        cmocka_unit_test(all_but_some_controls_keep_their_center_where_any_error_will_do),
+        cmocka_unit_test(a_picture_of_one_color_keeps_it),
+        cmocka_unit_test(an_error_below_that_of_1024_samples_is_not_held),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

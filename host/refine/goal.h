@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Advances the pixels of a ladder until the picture's error is held, or until time is spent.
+#pragma once
+
+#include "refine/ladder.h"
+
+// The root mean square error of the picture's values, before they are rounded for a file.
+typedef struct {
+    double estimate;
+    double bound; // exceeds the error with a confidence of 95 %
+    bool reached;
+} GoalOutcome;
+
+// Refines until the bound is at most that, or nothing is left that would lower it.
+bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
+
+// By clock_seconds.
+typedef struct {
+    double start, seconds;
+} GoalTime;
+
+// Refines until so many seconds have passed since the start.
+bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);

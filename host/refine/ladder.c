@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// A round lists the chosen pixels in picture order, traces their samples, and records their changes
+// in the same order, so that floating-point sums do not depend on threads.
+#include "refine/ladder.h"
+
+#include "refine/bends.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+// Seeds of hashes: of a pixel's scramble, and of its rungs from here on.
+#define SCRAMBLE_SEED 0
+#define RUNG_SEED     1
+
+static uint64_t hash_of(const Ladder *ladder, size_t pixel, uint64_t seed)
+{
+    const uint32_t width = ladder->picture->width;
+    const uint32_t place[2] = {(uint32_t)(pixel % width), (uint32_t)(pixel / width)};
+    return XXH3_64bits_withSeed(place, sizeof place, seed);
+}
+
+static uint32_t rung_of(const Ladder *ladder, size_t pixel)
+{
+    return strata_rung(ladder->strata[pixel]);
+}
+
+uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
+{
+    const uint32_t rung = rung_of(ladder, pixel);
+    return rung == 0 ? 1 : 1 + ladder_samples[rung];
+}
+
+static void enter(Ladder *ladder, size_t pixel, uint32_t stratum, double feature)
+{
+    ladder->strata[pixel] = (uint8_t)stratum;
+    ladder->features[pixel] = (float)feature;
+    strata_enter(&ladder->statistics, stratum, (double)ladder->features[pixel]);
+}
+
+// All pixels come to rung 0, by what their centers show.
+static bool enter_all(Ladder *ladder, Error *error)
+{
+    const size_t pixels = ladder->statistics.pixels;
+    float *nearby = memory_raw(pixels, sizeof *nearby, error);
+    if (nearby == NULL)
+        return false;
+    bends_measure(ladder->picture, ladder->crew, ladder->features);
+    bends_spread(ladder->picture, ladder->crew, ladder->features, nearby);
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        const double bend = (double)ladder->features[pixel];
+        enter(ladder, pixel, strata_of_bend(bend, (double)nearby[pixel]), bend * bend);
+    }
+    free(nearby);
+    return true;
+}
+
+static bool make_arrays(Ladder *ladder, Error *error)
+{
+    const size_t pixels = ladder->statistics.pixels;
+    ladder->features = memory_raw(pixels, sizeof *ladder->features, error);
+    ladder->strata = memory_raw(pixels, sizeof *ladder->strata, error);
+    ladder->sum_places = memory_zeroed(pixels, sizeof *ladder->sum_places, error);
+    return ladder->features != NULL && ladder->strata != NULL && ladder->sum_places != NULL &&
+           array_push(&ladder->sums, (PixelSums){0}, error) &&
+           pixel_requests_make(&ladder->requests, error);
+}
+
+bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
+{
+    Renderer *renderer = setup->renderer;
+    Framebuffer *picture = setup->picture;
+    PixelRequests *requests = &ladder->requests;
+    *ladder = (Ladder){
+        .requests = {.renderer = renderer, .frame = renderer->frame, .observer = setup->observer},
+        .crew = setup->crew,
+        .picture = picture,
+        .statistics.pixels = (size_t)picture->width * picture->height};
+    requests->frame.camera = *setup->camera;
+    requests->frame.samples = LADDER_GRID;
+    renderer->progress = (RenderProgress){0};
+    if (picture->width > LADDER_SIDE_MOST || picture->height > LADDER_SIDE_MOST ||
+        ladder->statistics.pixels > LADDER_PIXELS_MOST)
+        return error_set(error, "a picture of %u x %u pixels is too large to be refined",
+                         picture->width, picture->height);
+    const bool ok = make_arrays(ladder, error) &&
+                    pixel_requests_draw_centers(requests, picture, error) &&
+                    enter_all(ladder, error);
+    ladder->samples = ladder->statistics.pixels;
+    if (!ok)
+        ladder_close(ladder);
+    return ok;
+}
+
+void ladder_close(Ladder *ladder)
+{
+    pixel_requests_free(&ladder->requests);
+    free(ladder->features);
+    free(ladder->strata);
+    free(ladder->sum_places);
+    free(ladder->sums.data);
+    *ladder = (Ladder){0};
+}
+
+// Requests that take a pixel from a rung to the next.
+static uint32_t requests_from(uint32_t rung)
+{
+    const uint32_t present = rung == 0 ? 0 : ladder_samples[rung];
+    return (ladder_samples[rung + 1] - present) / LADDER_SAMPLES;
+}
+
+static void list_pixel(Ladder *ladder, uint32_t pixel)
+{
+    PixelRequests *requests = &ladder->requests;
+    const uint32_t width = ladder->picture->width, rung = rung_of(ladder, pixel);
+    const uint64_t hash = hash_of(ladder, pixel, SCRAMBLE_SEED);
+    PixelRequest request = {.x = pixel % width,
+                            .y = pixel / width,
+                            .scramble = (uint32_t)(hash % (LADDER_GRID * LADDER_GRID)),
+                            .first = rung == 0 ? 0 : ladder_samples[rung]};
+    for (uint32_t i = 0; i < requests_from(rung); i++, request.first += LADDER_SAMPLES)
+        requests->requests[requests->count++] = request;
+}
+
+static double mean_square_change(const float before[3], const float after[3])
+{
+    double sum = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const double change = (double)after[channel] - (double)before[channel];
+        sum += change * change;
+    }
+    return sum / 3;
+}
+
+// The sums of a pixel, which gets room for them on rung 0; NULL where memory runs out.
+static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
+{
+    if (ladder->sum_places[pixel] == 0) {
+        if (!array_push(&ladder->sums, (PixelSums){0}, error))
+            return NULL;
+        ladder->sum_places[pixel] = (uint32_t)ladder->sums.count - 1;
+    }
+    return &ladder->sums.data[ladder->sum_places[pixel]];
+}
+
+// Takes the pixel to its next rung by the sums of its requests.
+static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Error *error)
+{
+    const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
+    const uint32_t samples = ladder_samples[rung + 1];
+    const double feature = (double)ladder->features[pixel];
+    float *color = ladder->picture->pixels[pixel], before[3];
+    PixelSums *sums = sums_of(ladder, pixel, error);
+    if (sums == NULL)
+        return false;
+    for (uint32_t i = 0; i < requests_from(rung); i++)
+        pixel_sums_add(sums, &answers[i]);
+    memcpy(before, color, sizeof before);
+    pixel_sums_mean(sums, samples, color);
+    strata_advance(&ladder->statistics, stratum, feature, mean_square_change(before, color));
+    const double variance = pixel_sums_variance(sums, samples);
+    const bool is_bent = strata_is_bent(stratum, sqrt(feature));
+    enter(ladder, pixel, strata_of_deviation(rung + 1, sqrt(variance), is_bent),
+          variance / samples);
+    return true;
+}
+
+// Traces the requests of the listed pixels, takes those to their next rungs, and empties the list.
+static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
+{
+    PixelRequests *requests = &ladder->requests;
+    const PixelSums *answers = requests->sums;
+    bool ok = pixel_requests_trace(requests, error);
+    for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
+        const uint32_t of_pixel = requests_from(rung_of(ladder, pixels[i]));
+        ok = climb(ladder, pixels[i], answers, error);
+        answers += of_pixel;
+        ladder->samples += of_pixel * LADDER_SAMPLES;
+    }
+    requests->count = 0;
+    return ok;
+}
+
+static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count, Error *error)
+{
+    const uint32_t most = requests_from(LADDER_RUNGS - 2);
+    size_t listed = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        list_pixel(ladder, pixels[i]);
+        listed++;
+        if (i + 1 < count && ladder->requests.count + most <= REQUESTS_MOST)
+            continue;
+        if (!climb_all(ladder, &pixels[i + 1 - listed], listed, error))
+            return false;
+        if (!pixel_requests_are_whole(&ladder->requests))
+            return true;
+        listed = 0;
+    }
+    return true;
+}
+
+// Chunks of pixels, each with those that are to advance.
+typedef struct {
+    const Ladder *ladder;
+    uint32_t *pixels; // of each chunk from its first pixel's place on
+    uint32_t *counts; // of each chunk
+} Choosing;
+
+static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
+{
+    (void)worker;
+    const Choosing *choosing = context;
+    const Ladder *ladder = choosing->ladder;
+    const uint32_t first = chunk * CHUNK_ELEMENTS;
+    const uint32_t end = chunk_end(chunk, (uint32_t)ladder->statistics.pixels);
+    uint32_t *chosen = choosing->pixels + first;
+    for (uint32_t pixel = first; pixel < end; pixel++) {
+        const double fraction = ladder->statistics.strata[ladder->strata[pixel]].fraction;
+        if (fraction <= 0)
+            continue;
+        const uint64_t hash = hash_of(ladder, pixel, RUNG_SEED + rung_of(ladder, pixel));
+        if ((double)(hash >> 11) * 0x1p-53 < fraction)
+            *chosen++ = pixel;
+    }
+    choosing->counts[chunk] = (uint32_t)(chosen - (choosing->pixels + first));
+}
+
+// Moves what was chosen of each chunk together, and returns how much that is.
+static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
+{
+    uint64_t count = 0;
+    for (uint32_t chunk = 0; chunk < chunks; chunk++) {
+        memmove(choosing->pixels + count, choosing->pixels + (size_t)chunk * CHUNK_ELEMENTS,
+                choosing->counts[chunk] * sizeof *choosing->pixels);
+        count += choosing->counts[chunk];
+    }
+    return count;
+}
+
+bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
+{
+    const uint32_t pixels = (uint32_t)ladder->statistics.pixels, chunks = chunk_count(pixels);
+    Choosing choosing = {.ladder = ladder,
+                         .pixels = memory_raw(pixels, sizeof *choosing.pixels, error),
+                         .counts = memory_raw(chunks, sizeof *choosing.counts, error)};
+    bool ok = choosing.pixels != NULL && choosing.counts != NULL;
+    if (ok) {
+        crew_run(ladder->crew, chunks, choose_chunk, &choosing);
+        *advanced = join_chunks(&choosing, chunks);
+        ok = climb_chosen(ladder, choosing.pixels, *advanced, error);
+    }
+    free(choosing.pixels);
+    free(choosing.counts);
+    return ok;
+}

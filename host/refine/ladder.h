@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A picture whose pixels climb a ladder of samples: the center alone, then 16, 64, 256 and 1024
+// points of a sequence of their own.  Strata decide how many pixels advance, and hashes of their
+// places which of them, so that the picture depends on no order and no device.
+#pragma once
+
+#include "base/array.h"
+#include "base/parallel.h"
+#include "refine/pixel_requests.h"
+#include "refine/strata.h"
+
+// The longest side of a picture: places of sub-pixels fit into 31 bits.
+#define LADDER_SIDE_MOST   (1u << 19)
+#define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
+
+typedef struct {
+    PixelRequests requests;
+    Crew *crew;            // borrowed; NULL for none
+    Framebuffer *picture;  // borrowed; means of the pixels' samples
+    float *features;       // of each pixel, for its stratum
+    uint8_t *strata;       // of each pixel
+    uint32_t *sum_places;  // of each pixel in sums, 0 on rung 0
+    ARRAY(PixelSums) sums; // from 1
+    Strata statistics;
+    uint64_t samples; // taken
+} Ladder;
+
+typedef struct {
+    Renderer *renderer;             // of KERNEL_LADDER
+    const CameraData *camera;       // made for LADDER_GRID samples
+    Crew *crew;                     // to share the work, NULL for none
+    Framebuffer *picture;           // of the renderer's size; the ladder draws into it
+    const RenderObserver *observer; // may stop it; or NULL
+} LadderSetup;
+
+// Takes one sample a pixel.  Fails where the picture is larger than these limits.
+bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
+void ladder_close(Ladder *ladder);
+
+// Lets the pixels advance by a rung that the fractions of their strata choose, and counts them in
+// *advanced.  Where the observer stops it, some have not advanced.
+bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
+
+// How many samples a pixel has been given.
+uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);

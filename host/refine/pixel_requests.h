@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Requests for samples of pixels -> their sums, traced in lists of bounded size.
+#pragma once
+
+#include "render/renderer.h"
+
+// Requests that are traced at once.
+#define REQUESTS_MOST (1u << 18)
+
+typedef struct {
+    Renderer *renderer;             // of KERNEL_LADDER; borrowed
+    FrameData frame;                // with a camera made for LADDER_GRID samples
+    const RenderObserver *observer; // borrowed; may be NULL
+    PixelRequest *requests;         // REQUESTS_MOST of them, of which count are there
+    PixelSums *sums;                // of the requests that were traced last
+    uint32_t count;
+} PixelRequests;
+
+bool pixel_requests_make(PixelRequests *requests, Error *error);
+void pixel_requests_free(PixelRequests *requests);
+
+// Whether the observer has not stopped what was traced.
+bool pixel_requests_are_whole(const PixelRequests *requests);
+
+// Traces the requests and leaves their sums, some of which are missing where it was stopped.
+bool pixel_requests_trace(PixelRequests *requests, Error *error);
+
+// Draws a picture of the frame's size from the centers of its pixels.
+bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
+
+// The mean color of that many samples.
+void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
+
+// The variance of that many samples, averaged over the channels.
+double pixel_sums_variance(const PixelSums *sums, uint32_t samples);
+
+void pixel_sums_add(PixelSums *sums, const PixelSums *more);

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Strata against populations of pixels whose errors are known.
+#include "refine/strata.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+
+#define PIXELS      20000
+#define POPULATIONS 200
+#define ROUNDS_MOST 300
+
+// Numbers in [0, 1), the same in every run.
+static double chance(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+// A pixel that stays where it is has that squared error on the rung it stands on.
+typedef struct {
+    uint32_t stratum;
+    double feature, error, chance;
+} Pixel;
+
+// Squared errors go with the square of the bend, except that some flat pixels hide an edge: a part
+// that differs from one population to the next, and most of it beside contrast.
+static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
+{
+    uint64_t state = seed;
+    const double edges = 0.3 * chance(&state), hiding = 0.01 * chance(&state);
+    *strata = (Strata){.pixels = PIXELS};
+    for (int i = 0; i < PIXELS; i++) {
+        const bool is_edge = chance(&state) < edges, is_near = chance(&state) < 0.3;
+        const bool hides = !is_edge && chance(&state) < (is_near ? hiding : 0.1 * hiding);
+        const double bend = is_edge ? chance(&state) : 0.02 * chance(&state) * chance(&state);
+        const double error = is_edge ? 0.1 * bend : hides ? 0.1 * chance(&state) : 0.1 * bend;
+        pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0),
+                            .feature = bend * bend,
+                            .error = error * error,
+                            .chance = chance(&state)};
+        strata_enter(strata, pixels[i].stratum, pixels[i].feature);
+    }
+}
+
+// A pixel that advances loses all but a fifth of its error.
+static void advance(Pixel *pixel, Strata *strata, uint64_t *state)
+{
+    const uint32_t rung = strata_rung(pixel->stratum);
+    strata_advance(strata, pixel->stratum, pixel->feature, pixel->error);
+    pixel->error *= 0.04;
+    pixel->stratum = strata_of_deviation(rung + 1, sqrt(pixel->feature), false);
+    pixel->feature /= 16;
+    pixel->chance = chance(state);
+    strata_enter(strata, pixel->stratum, pixel->feature);
+}
+
+static double mean_error(const Pixel pixels[PIXELS])
+{
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++)
+        sum += pixels[i].error;
+    return sum / PIXELS;
+}
+
+// Lets pixels advance until the aim is reached; returns whether it was.
+static bool reach(Pixel pixels[PIXELS], Strata *strata, double mean_square, uint64_t seed)
+{
+    const StrataAim aim = {.mean_square = mean_square, .samples = INFINITY};
+    uint64_t state = seed;
+    for (int round = 0; round < ROUNDS_MOST; round++) {
+        const StrataOutcome outcome = strata_raise(strata, &aim);
+        if (outcome != STRATA_RAISED)
+            return outcome == STRATA_REACHED;
+        for (int i = 0; i < PIXELS; i++)
+            if (pixels[i].chance < strata->strata[pixels[i].stratum].fraction)
+                advance(&pixels[i], strata, &state);
+    }
+    return false;
+}
+
+static void the_bound_exceeds_the_error_of_19_populations_in_20(void **state)
+{
+    (void)state;
+    static Pixel pixels[PIXELS];
+    int exceeded = 0;
+    for (uint64_t seed = 1; seed <= POPULATIONS; seed++) {
+        Strata strata;
+        make_population(pixels, &strata, seed);
+        const double before = mean_error(pixels);
+        assert_true(reach(pixels, &strata, before / 20, seed));
+        const StrataEstimate estimate = strata_estimate(&strata);
+        assert_true(estimate.mean < estimate.bound && estimate.bound <= before / 20);
+        exceeded += mean_error(pixels) > estimate.bound;
+    }
+    print_message("%d of %d errors exceed their bounds\n", exceeded, POPULATIONS);
+    assert_true(20 * exceeded <= POPULATIONS);
+}
+
+static void flat_strata_get_controls_for_any_aim(void **state)
+{
+    (void)state;
+    const StrataAim aim = {.mean_square = 1, .samples = INFINITY};
+    Strata strata = {.pixels = PIXELS};
+    const uint32_t flat = strata_of_bend(0, 0), near = strata_of_bend(0, 1);
+    for (int i = 0; i < PIXELS; i++)
+        strata_enter(&strata, i % 2 ? flat : near, 0);
+    assert_int_not_equal(flat, near);
+    assert_int_equal(strata_raise(&strata, &aim), STRATA_RAISED);
+    assert_true(strata.strata[flat].fraction >= 24.0 / PIXELS);
+    assert_true(strata.strata[near].fraction >= 24.0 / PIXELS);
+    assert_int_equal(strata_raise(&strata, &aim), STRATA_REACHED);
+}
+
+static void pixels_on_the_last_rung_exhaust_the_ladder(void **state)
+{
+    (void)state;
+    const StrataAim aim = {.mean_square = 1e-12, .samples = INFINITY};
+    Strata strata = {.pixels = 10};
+    for (int i = 0; i < 10; i++)
+        strata_enter(&strata, strata_of_deviation(LADDER_RUNGS - 1, 0.4, true), 1e-4);
+    assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
+}
+
+static void no_more_samples_are_planned_than_may_be_taken(void **state)
+{
+    (void)state;
+    static Pixel pixels[PIXELS];
+    Strata strata;
+    make_population(pixels, &strata, 1);
+    assert_int_equal(strata_raise(&strata, &(StrataAim){1e-12, INFINITY}), STRATA_RAISED);
+    double before[STRATA_COUNT], planned = 0;
+    for (uint32_t i = 0; i < STRATA_COUNT; i++)
+        before[i] = strata.strata[i].fraction;
+    assert_int_equal(strata_raise(&strata, &(StrataAim){1e-12, 1600}), STRATA_RAISED);
+    for (uint32_t i = 0; i < STRATA_COUNT; i++)
+        planned += 16 * (strata.strata[i].fraction - before[i]) * (double)strata.strata[i].entered;
+    assert_true(planned > 0 && planned < 2 * 1600);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bound_exceeds_the_error_of_19_populations_in_20),
+        cmocka_unit_test(flat_strata_get_controls_for_any_aim),
+        cmocka_unit_test(pixels_on_the_last_rung_exhaust_the_ladder),
+        cmocka_unit_test(no_more_samples_are_planned_than_may_be_taken),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
