@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Draws generated scenes with --error and measures the true error of every picture.
+
+A scene's figures are one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named by the program's hash.
+Scenes whose line exists are skipped, so that an interrupted run resumes.  Ends with a summary, and with exit status 1
+where the promise of --error is broken."""
+
+import argparse
+import hashlib
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import generate
+import summary
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+GOALS = "0.02,0.01,0.005,0.002"
+
+# A reference may be off by this part of the smallest goal.
+REFERENCE_PART = 0.1
+REFERENCE_SAMPLES = [256, 65536]
+
+# The largest N of --aa=N that competes, and the thresholds of --aa-adaptive: tools/trade's.
+LARGEST_SIDE = 24
+THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
+
+# Rivals follow rays this far: as far as the smallest goal's picture.
+LEVELS = ["--max-level", "auto", "--encode", "raw"]
+
+# Pictures that a timed process draws; the fastest counts.
+FRAMES = 3
+
+
+class Clrt:
+    """The program, drawing one scene at one size into a folder."""
+
+    def __init__(self, program, scene, size, folder):
+        self.program, self.scene, self.size, self.folder = program, scene, size, folder
+
+    def run(self, *words, statuses=(0,)):
+        done = subprocess.run([self.program, *map(str, words)], capture_output=True, text=True,
+                              check=False)
+        if done.returncode not in statuses:
+            sys.exit(f"clrt {' '.join(map(str, words))}: status {done.returncode}: {done.stderr}")
+        return done
+
+    def draw(self, *words, statuses=(0,)):
+        """Draws a.pfm; returns the exit status and the statistics."""
+        report = self.folder / "a.json"
+        done = self.run(self.scene, "-q", "-s", self.size, "-o", self.folder / "a.pfm",
+                        f"--stats={report}", *words, statuses=statuses)
+        return done.returncode, json.loads(report.read_text())
+
+    def rmse(self, reference):
+        done = self.run("compare", reference, self.folder / "a.pfm", "--json")
+        return json.loads(done.stdout)["rmse"]
+
+    def measure(self, reference, *words, statuses=(0,), frames=1):
+        """The picture's figures, with the fastest time of a frame."""
+        status, report = self.draw("--repeat", frames, *words, statuses=statuses)
+        samples = report["samples"]
+        return {"status": status, "rmse": self.rmse(reference), "samples": samples["per_pixel"],
+                "estimate": samples["error_estimate"], "bound": samples["error_bound"],
+                "seconds": min(report["frame_seconds"])}
+
+
+def draw_reference(clrt, path, wanted):
+    """Draws a reference whose own error is at most what is wanted; returns its figures.  Its rays
+    are followed as far as floats show, since an error counts those that are cut off too."""
+    samples = REFERENCE_SAMPLES[0]
+    while True:
+        _, report = clrt.draw("--max-level", "auto", f"--reference={path}",
+                              "--reference-samples", samples)
+        own_error = report["reference"]["own_error"]
+        if own_error <= wanted or samples == REFERENCE_SAMPLES[1]:
+            return {"samples": samples, "own_error": own_error}
+        needed = samples * (own_error / wanted) ** 1.5
+        samples = min(REFERENCE_SAMPLES[1], 2 * round(needed / 2) + 2)
+
+
+def cheapest_side(clrt, reference, goal, sides):
+    """The figures of the smallest N whose --aa=N holds the goal, None where none does."""
+    low, high = 0, LARGEST_SIDE + 1
+    while high - low > 1:
+        side = (low + high) // 2
+        if side not in sides:
+            sides[side] = clrt.measure(reference, f"--aa={side}", *LEVELS, frames=FRAMES)
+        low, high = (low, side) if sides[side]["rmse"] <= goal else (side, high)
+    return sides.get(high)
+
+
+def measure_rivals(clrt, reference, goals):
+    """For each goal the cheapest --aa=N and the fastest --aa-adaptive=T that hold it."""
+    sides = {}
+    adaptive = [clrt.measure(reference, f"--aa-adaptive={threshold}", *LEVELS, frames=FRAMES)
+                for threshold in THRESHOLDS]
+    rivals = []
+    for goal in goals:
+        holding = [figures for figures in adaptive if figures["rmse"] <= goal]
+        rivals.append({"uniform": cheapest_side(clrt, reference, goal, sides),
+                       "adaptive": min(holding, key=lambda figures: figures["seconds"],
+                                       default=None)})
+    return rivals
+
+
+def measure_scene(options, seed, number, folder):
+    scene = generate.generate(seed, number, folder / "scene")
+    clrt = Clrt(options.clrt, scene, options.size, folder)
+    references = options.output / "references" / str(seed)
+    references.mkdir(parents=True, exist_ok=True)
+    reference = references / f"{scene.stem}-{options.size}.pfm"
+    notes = reference.with_suffix(".json")
+    if not notes.exists():
+        notes.write_text(json.dumps(
+            draw_reference(clrt, reference, REFERENCE_PART * min(options.goals))))
+    frames = FRAMES if options.costs else 1
+    goals = [{"goal": goal, **clrt.measure(reference, "--error", goal, statuses=(0, 1),
+                                           frames=frames)} for goal in options.goals]
+    if options.costs:
+        for goal, rivals in zip(goals, measure_rivals(clrt, reference, options.goals)):
+            goal.update(rivals)
+    return {"seed": seed, "scene": scene.stem, "size": options.size,
+            "reference": json.loads(notes.read_text()), "goals": goals}
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("seeds", nargs="+", help="of the generated scenes")
+    parser.add_argument("--scenes", type=int, default=40, help="of each seed (40)")
+    parser.add_argument("--size", default="160x120", help="of the pictures (160x120)")
+    parser.add_argument("--goals", default=GOALS, help=f"errors that are asked for ({GOALS})")
+    parser.add_argument("--costs", action="store_true",
+                        help="measure what --aa and --aa-adaptive cost for the same error too")
+    parser.add_argument("--clrt", default=ROOT / "build" / "release" / "clrt", help="the program")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "build" / "goals")
+    options = parser.parse_args()
+    options.goals = [float(goal) for goal in options.goals.split(",")]
+    return options
+
+
+def measure_seed(options, seed):
+    """Measures the scenes of a seed that its file lacks; returns the file."""
+    path = options.output / f"{seed}-{options.size}.jsonl"
+    done = {row["scene"][:3] for row in summary.read([path])} if path.exists() else set()
+    for number in range(options.scenes):
+        if f"{number:03}" in done:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            row = measure_scene(options, seed, number, pathlib.Path(folder))
+        with open(path, "a", encoding="utf-8") as file:
+            file.write(json.dumps(row) + "\n")
+        print(row["scene"], row["reference"]["samples"],
+              *(f"{goal['rmse'] / goal['goal']:.2f}" for goal in row["goals"]), flush=True)
+    return path
+
+
+def main():
+    options = parse()
+    program = hashlib.sha256(pathlib.Path(options.clrt).read_bytes()).hexdigest()
+    options.output /= program[:12]
+    options.output.mkdir(parents=True, exist_ok=True)
+    return summary.report([measure_seed(options, seed) for seed in options.seeds])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

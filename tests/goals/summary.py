@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Files of hold.py -> tables, and whether the promise of --error is kept."""
+
+import json
+import math
+import pathlib
+
+# An error within this many times the goal counts as held.
+MARGIN = 1.1
+
+# The promise: the share of pictures that are held, and of those with status 1; of those with
+# status 0, the share above WIDE goals, and the largest error in goals.
+HELD_LEAST = 0.95
+MISSED_MOST = 0.05
+WIDE, WIDE_MOST = 1.3, 0.01
+WIDEST = 1.6
+
+
+def read(paths):
+    return [json.loads(line) for path in paths for line in pathlib.Path(path).read_text().splitlines()]
+
+
+def pictures_of(rows):
+    """One dictionary for each picture, with its error in goals as `ratio`."""
+    return [{"scene": row["scene"], "seed": row["seed"], **goal,
+             "ratio": goal["rmse"] / goal["goal"]} for row in rows for goal in row["goals"]]
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values)) if values else math.nan
+
+
+def share(pictures, holds):
+    return sum(map(holds, pictures)) / len(pictures) if pictures else 0.0
+
+
+def judge(pictures):
+    """The promise's figures, each with whether it is kept."""
+    done = [picture for picture in pictures if picture["status"] == 0]
+    held = share(pictures, lambda picture: picture["ratio"] <= MARGIN)
+    missed = 1 - len(done) / len(pictures)
+    wide = share(done, lambda picture: picture["ratio"] > WIDE)
+    widest = max((picture["ratio"] for picture in done), default=0.0)
+    above = share(pictures, lambda picture: picture["rmse"] > picture["bound"])
+    return [(f"within {MARGIN} E", f"{held:.1%}", held >= HELD_LEAST),
+            ("exit status 1", f"{missed:.1%}", missed <= MISSED_MOST),
+            (f"status 0 and above {WIDE} E", f"{wide:.1%}", wide <= WIDE_MOST),
+            ("largest with status 0", f"{widest:.2f} E", widest <= WIDEST),
+            ("errors above their bound", f"{above:.1%}", above <= 0.05)]
+
+
+def print_groups(pictures, key, title):
+    print(f"{title:12} pictures  held    max E  exit 1  samples/pixel")
+    for value in sorted({picture[key] for picture in pictures}):
+        group = [picture for picture in pictures if picture[key] == value]
+        print(f"{value!s:12} {len(group):8}  {share(group, lambda p: p['ratio'] <= MARGIN):6.1%}"
+              f"  {max(p['ratio'] for p in group):5.2f}  {share(group, lambda p: p['status']):6.1%}"
+              f"  {geometric_mean([p['samples'] for p in group]):13.2f}")
+
+
+def print_costs(pictures):
+    """What --error costs beside the cheapest fixed settings that hold the same error."""
+    print("goal    rival     pictures  samples     time   (geometric means, --error / rival)")
+    for goal in sorted({picture["goal"] for picture in pictures}, reverse=True):
+        for rival in ("uniform", "adaptive"):
+            pairs = [(picture, picture[rival]) for picture in pictures
+                     if picture["goal"] == goal and picture.get(rival)]
+            if pairs:
+                ratios = [geometric_mean([own[key] / other[key] for own, other in pairs])
+                          for key in ("samples", "seconds")]
+                print(f"{goal:<7.2%} {rival:9} {len(pairs):8}  {ratios[0]:7.2f}  {ratios[1]:7.2f}")
+
+
+def report(paths):
+    """Prints the tables; returns an exit status, 1 where the promise is broken."""
+    pictures = pictures_of(read(paths))
+    for picture in pictures:
+        picture["kind"] = picture["scene"].split("-")[1]
+    for key in ("seed", "goal", "kind"):
+        print_groups(pictures, key, key)
+    print_costs(pictures)
+    verdicts = judge(pictures)
+    for name, figure, is_kept in verdicts:
+        print(f"{name}: {figure}{'' if is_kept else ' (broken)'}")
+    return 0 if all(is_kept for _, _, is_kept in verdicts) else 1
