@@ -12,8 +12,8 @@ static const char *const check_options[] = {"bvh",    "no-bvh", "device",  "thre
 static const char *const compare_options[] = {"output", "format",  "fail", "json",
                                               "quiet",  "verbose", NULL};
 
-static const char *const merge_options[] = {"output", "format",      "no-metadata",
-                                            "hash",   "expect-hash", NULL};
+static const char *const merge_options[] = {"output",      "format", "no-metadata", "hash",
+                                            "expect-hash", "quiet",  NULL};
 
 static const char *const convert_options[] = {"bad-geometry", "quiet", "verbose", NULL};
 

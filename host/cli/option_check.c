@@ -2,40 +2,39 @@
 // Options that would have no effect are refused, so that none is given in vain.
 #include "cli/option_check.h"
 
+#include "cli/option_table.h"
 #include "cli/scene_source.h"
 
 #include <string.h>
 
+// Returns the first of names, which ends in NULL, that the command line names; NULL for none.
+static const char *first_given(const Options *options, const char *const *names)
+{
+    while (*names != NULL && !option_is_given(options, *names))
+        names++;
+    return *names;
+}
+
 #ifdef CLRT_WITH_WINDOW
 static bool check_window(Options *options, Error *error)
 {
+    static const char *const of_files[] = {
+        "format",      "tile", "bad-geometry", "aa-adaptive", "error",
+        "time",        "crop", "part",         "resume",      "frames",
+        "turntable",   "aov",  "reference",    "repeat",      "reference-samples",
+        "no-metadata", "hash", "expect-hash",  NULL};
+    const char *refused = first_given(options, of_files);
     options->action = ACTION_VIEW;
-    const struct {
-        bool is_given;
-        const char *names;
-    } refused[] = {
-        {options->format != NULL, "--format is"},
-        {options->tile_width != OPTIONS_TILE || options->tile_height != OPTIONS_TILE, "--tile is"},
-        {options->bad_geometry != BAD_GEOMETRY_DROP, "--bad-geometry is"},
-        {options->fits_level, "--max-level auto is"},
-        {options_are_adaptive(options), "--aa-adaptive, --error and --time are"},
-        {options->crop.is_given, "--crop is"},
-        {options->parts > 0, "--part is"},
-        {options->resume, "--resume is"},
-        {frames_are_many(&options->frames), "--frames and --turntable are"},
-        {options->reference, "--reference is"},
-        {options->repeat > 1, "--repeat is"},
-        {options->statistics_path != NULL, "--stats=FILE is"},
-        {options->no_metadata, "--no-metadata is"},
-        {options->hash || options->expected_hash != NULL, "--hash and --expect-hash are"},
-    };
-    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
-        if (refused[i].is_given)
-            return error_set(error, "%s for files: give one with -o FILE", refused[i].names);
-    if (scene_source_is_input(options))
-        return error_set(error, "the window reads its scene again and again, and standard input "
-                                "can be read once: give -o FILE");
-    return options->aovs == 0 || error_set(error, "--aov is for files: give one with -o FILE.exr");
+    if (options->fits_level)
+        refused = "max-level auto";
+    if (options->statistics_path != NULL)
+        refused = "stats=FILE";
+    if (refused != NULL)
+        return error_set(error, "--%s is for files: give one with -o FILE%s", refused,
+                         options->aovs != 0 ? ".exr" : "");
+    return !scene_source_is_input(options) ||
+           error_set(error, "the window reads its scene again and again, and standard input "
+                            "can be read once: give -o FILE");
 }
 #else
 static bool check_window(Options *options, Error *error)
@@ -111,7 +110,7 @@ static bool check_resume(const Options *options, Error *error)
         return error_set(error, "--resume goes on with a file: standard output is none");
     if (!check_unrefined(options, "--resume", error))
         return false;
-    return options->repeat == 1 ||
+    return !option_is_given(options, "repeat") ||
            error_set(error, "--repeat times whole pictures: leave out --resume");
 }
 
@@ -134,7 +133,7 @@ static bool check_frames(Options *options, Error *error)
         if (refused[i].is_given)
             return error_set(error, "--frames and --turntable draw many pictures, and %s",
                              refused[i].sentence);
-    if (frames->turntable == 0 && options->view_given)
+    if (frames->turntable == 0 && option_is_given(options, "view"))
         return error_set(error, "--frames names the views: leave out --view");
     if (frames->turntable > 0 && frames->last > frames->turntable)
         return error_set(error, "--turntable %u has no picture %u", frames->turntable,
@@ -145,8 +144,10 @@ static bool check_frames(Options *options, Error *error)
 
 static bool check_samples(const Options *options, Error *error)
 {
-    const int ways = (options->samples > 1) + (options->contrast > 0) + (options->error_goal > 0) +
-                     (options->time_goal > 0);
+    static const char *const ways_to_sample[] = {"aa", "aa-adaptive", "error", "time"};
+    int ways = 0;
+    for (size_t i = 0; i < sizeof ways_to_sample / sizeof ways_to_sample[0]; i++)
+        ways += option_is_given(options, ways_to_sample[i]);
     return ways <= 1 ||
            error_set(error, "--aa, --aa-adaptive, --error and --time each choose the samples: give "
                             "one");
@@ -159,7 +160,7 @@ static void choose_precision(Options *options)
 {
     KernelWish *wish = &options->kernel;
     if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 && !wish->family_given &&
-        !wish->nodes_given)
+        !wish->nodes_given && !option_is_given(options, "precision"))
         wish->choice.precision = PRECISION_FP64;
 }
 
@@ -178,16 +179,17 @@ static bool check_streams(const Options *options, Error *error)
 
 bool options_check_purpose(Options *options, Error *error)
 {
+    static const char *const of_windows[] = {"keys", "quit-after", NULL};
     const char *path = options->output_path;
     if (!check_samples(options, error))
         return false;
     choose_precision(options);
     if (path == NULL)
         return check_window(options, error);
-    if (options->keys != NULL || options->quit_after > 0)
+    if (first_given(options, of_windows) != NULL)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
-           (!options->crop.is_given || check_unrefined(options, "--crop", error)) &&
+           (!option_is_given(options, "crop") || check_unrefined(options, "--crop", error)) &&
            check_part(options, error) && check_resume(options, error) &&
            check_frames(options, error) && check_certainty(options, error) &&
            check_streams(options, error);

@@ -44,7 +44,6 @@ bool read_bvh(Options *options, const char *value, Error *error)
     static const char *const names[] = {"sah", "midpoint"};
     const int choice = read_choice(value, "bvh", names, 2, error);
     options->builder = choice == 1 ? BVH_MIDPOINT : BVH_SAH;
-    options->builder_given = true;
     return choice >= 0;
 }
 

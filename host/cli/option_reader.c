@@ -110,7 +110,6 @@ bool read_format(Options *options, const char *value, Error *error)
 
 bool read_view(Options *options, const char *value, Error *error)
 {
-    options->view_given = true;
     return read_count(value, "view", 1000000, &options->view, error);
 }
 
@@ -246,9 +245,17 @@ bool read_reference(Options *options, const char *value, Error *error)
 
 bool read_reference_samples(Options *options, const char *value, Error *error)
 {
+    int64_t samples;
+    const char *end = value + strlen(value);
     options->reference = true;
-    return read_count(value, "reference-samples", REFERENCE_SAMPLES_MAX,
-                      &options->reference_samples, error);
+    // Half of them make each of the two pictures whose difference is the reference's own error.
+    if (integer_parse(value, end, &samples) != end || samples < 2 ||
+        samples > REFERENCE_SAMPLES_MAX || samples % 2 != 0)
+        return error_set(error,
+                         "--reference-samples wants an even number between 2 and %d, not '%s'",
+                         REFERENCE_SAMPLES_MAX, value);
+    options->reference_samples = (uint32_t)samples;
+    return true;
 }
 
 bool read_keys(Options *options, const char *value, Error *error)

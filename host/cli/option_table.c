@@ -4,6 +4,9 @@
 
 #include "cli/option_choice.h"
 
+#include <assert.h>
+#include <string.h>
+
 const Option option_table[] = {
     {"output", 'o', "FILE", read_output, GROUP_OUTPUT, CLASS_NONE,
      "write the picture; its ending tells the format; - is standard output"},
@@ -150,4 +153,18 @@ const char *const option_class_meanings[OPTION_CLASSES] = {
 bool option_argument_is_optional(const Option *option)
 {
     return option->argument != NULL && option->argument[0] == '[';
+}
+
+bool option_names_file(const Option *option)
+{
+    return option->argument != NULL && strstr(option->argument, "FILE") != NULL;
+}
+
+bool option_is_given(const Options *options, const char *name)
+{
+    size_t row = 0;
+    while (row < option_count && strcmp(option_table[row].name, name) != 0)
+        row++;
+    assert(row < option_count);
+    return (options->given >> row & 1) != 0;
 }

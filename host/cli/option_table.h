@@ -57,3 +57,10 @@ extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 
 bool option_argument_is_optional(const Option *option);
+
+// Returns whether the value is the name of a file.
+bool option_names_file(const Option *option);
+
+// Returns whether the command line names the option, which must be in the table, with any value.
+// Rules about options that exclude each other ask this: a value may equal the default.
+bool option_is_given(const Options *options, const char *name);

@@ -55,12 +55,29 @@ static size_t option_of(int found)
     return 0;
 }
 
-static bool check_purposes(uint64_t given, const Command *command, Error *error)
+// Settings may be given again, and the last counts; a second file would be lost.
+static bool note_given(Options *options, size_t row, Error *error)
+{
+    const Option *option = &option_table[row];
+    const uint64_t bit = (uint64_t)1 << row;
+    if ((options->given & bit) != 0 && option_names_file(option))
+        return error_set(error, "--%s is given twice: name one file", option->name);
+    options->given |= bit;
+    return true;
+}
+
+static bool check_talk(const Options *options, Error *error)
+{
+    return !options->quiet || !options->verbose ||
+           error_set(error, "--quiet and --verbose contradict each other: give one");
+}
+
+static bool check_purposes(const Options *options, const Command *command, Error *error)
 {
     char takers[256];
     for (size_t i = 0; i < option_count; i++) {
         const char *name = option_table[i].name;
-        if ((given >> i & 1) == 0 || command_takes(command, name))
+        if (!option_is_given(options, name) || command_takes(command, name))
             continue;
         if (command != NULL)
             return error_set(error, "clrt %s takes no --%s", command->name, name);
@@ -106,10 +123,31 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
-bool options_parse(Options *options, int count, char **words, Error *error)
+// Reads all options and leaves optind at the first operand.
+static bool read_options(Options *options, int count, char **words, Error *error)
 {
     struct option longs[OPTIONS_MOST + 1];
     char shorts[2 * OPTIONS_MOST + 2];
+    fill_getopt(longs, shorts);
+    opterr = 0;
+    optind = 0;
+    for (;;) {
+        const char *word = words[optind > 0 ? optind : 1];
+        const int found = getopt_long(count, words, shorts, longs, NULL);
+        if (found == -1)
+            return check_talk(options, error);
+        if (found == ':')
+            return error_set(error, "%s wants a value", words[optind - 1]);
+        if (found == '?')
+            return unknown_option(word != NULL && optind > 1 ? words[optind - 1] : word, error);
+        const size_t row = option_of(found);
+        if (!note_given(options, row, error) || !option_table[row].read(options, optarg, error))
+            return false;
+    }
+}
+
+bool options_parse(Options *options, int count, char **words, Error *error)
+{
     *options = (Options){.samples = 1,
                          .view = 1,
                          .repeat = 1,
@@ -118,26 +156,10 @@ bool options_parse(Options *options, int count, char **words, Error *error)
                          .uses_bvh = true,
                          .tile_width = OPTIONS_TILE,
                          .tile_height = OPTIONS_TILE};
-    fill_getopt(longs, shorts);
-    opterr = 0;
-    optind = 0;
-    uint64_t given = 0; // a bit for each option of the table
-    for (;;) {
-        const char *word = words[optind > 0 ? optind : 1];
-        const int found = getopt_long(count, words, shorts, longs, NULL);
-        if (found == -1)
-            break;
-        if (found == ':')
-            return error_set(error, "%s wants a value", words[optind - 1]);
-        if (found == '?')
-            return unknown_option(word != NULL && optind > 1 ? words[optind - 1] : word, error);
-        const size_t option = option_of(found);
-        given |= (uint64_t)1 << option;
-        if (!option_table[option].read(options, optarg, error))
-            return false;
-    }
+    if (!read_options(options, count, words, error))
+        return false;
     if (command_of_action(options->action) != NULL)
-        return check_purposes(given, command_of_action(options->action), error) &&
+        return check_purposes(options, command_of_action(options->action), error) &&
                read_scene(options, count, words, error);
     if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
         return true;
@@ -146,7 +168,7 @@ bool options_parse(Options *options, int count, char **words, Error *error)
         optind++;
         options->action = command->action;
     }
-    if (!check_purposes(given, command, error))
+    if (!check_purposes(options, command, error))
         return false;
     if (options->action == ACTION_MERGE)
         return read_parts(options, count, words, error);

@@ -51,6 +51,7 @@ typedef enum {
 // Strings point into the command line.
 typedef struct {
     Action action;
+    uint64_t given;         // a bit for each row of option_table that the command line names
     const char *scene_path; // NULL where ACTION_WARM was given none; ACTION_COMPARE's first picture
     char **part_paths;      // of ACTION_MERGE: part_count of them
     int part_count;
@@ -62,9 +63,8 @@ typedef struct {
     double contrast;         // that adaptive anti-aliasing leaves; 0: none is asked for
     double error_goal;       // root mean square that the picture may be off; 0: any
     double time_goal;        // seconds that tracing is to take; 0: any
-    bool view_given;
-    uint32_t view;          // from 1
-    uint32_t width, height; // 0: the scene's
+    uint32_t view;           // from 1
+    uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: all of the picture
     bool resume;
@@ -72,13 +72,12 @@ typedef struct {
     int64_t max_level; // negative: the scene's
     bool fits_level;   // max_level is the least whose error no file shows
     bool uses_bvh;
-    bool builder_given; // a tree is wanted however few the triangles
     BvhBuilder builder;
     const char *device;         // NULL: the best
     uint32_t threads;           // 0: all that the process may use
     bool reference;             // the picture is measured against one
     const char *reference_path; // where that is written, NULL for nowhere
-    uint32_t reference_samples; // a pixel; an odd number is one more
+    uint32_t reference_samples; // a pixel, an even number
     uint32_t repeat;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels

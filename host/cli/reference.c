@@ -200,7 +200,7 @@ bool reference_measure(Run *run, Error *error)
     Reference *reference = memory_zeroed(1, sizeof *reference, error);
     if (reference == NULL)
         return false;
-    reference->passes = (run->options->reference_samples + 1) / 2 * 2;
+    reference->passes = run->options->reference_samples;
     const bool ok = draw_and_measure(reference, run, error);
     run->report.reference.seconds = clock_seconds() - start;
     for (int half = 0; half < 2; half++)

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "cli/check.h"
+#include "cli/option_table.h"
 #include "cli/scene_source.h"
 #include "cli/threads.h"
 #include "image/image_file.h"
@@ -107,13 +108,14 @@ bool run_await_device(Run *run, Error *error)
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
-    return options->uses_bvh && (options->builder_given || !are_few);
+    return options->uses_bvh && (option_is_given(options, "bvh") || !are_few);
 }
 
 bool run_build_scene(Run *run, Error *error)
 {
     Triangles triangles = {0};
     Bvh bvh = {0};
+// --bvh asks for a tree however few the triangles.
     double moment = clock_seconds();
     const Options *options = run->options;
     const NodeLayout layout = run->starter.setup.source.choice.nodes;

@@ -193,6 +193,8 @@ static bool read_name(const char *name, size_t length, AovSet *set, Error *error
 {
     for (size_t i = 0; i < aov_count; i++)
         if (strlen(aov_table[i].name) == length && memcmp(aov_table[i].name, name, length) == 0) {
+            if (aov_has(*set, i))
+                return error_set(error, "--aov names '%s' twice", aov_table[i].name);
             *set |= (AovSet)1 << i;
             return true;
         }
@@ -201,14 +203,17 @@ static bool read_name(const char *name, size_t length, AovSet *set, Error *error
 
 bool aov_read_list(const char *list, AovSet *set, Error *error)
 {
+    AovSet named = 0;
     for (;;) {
         const size_t length = strcspn(list, ",");
-        if (!read_name(list, length, set, error))
+        if (!read_name(list, length, &named, error))
             return false;
         if (list[length] == '\0')
-            return true;
+            break;
         list += length + 1;
     }
+    *set |= named;
+    return true;
 }
 
 bool aov_needs(AovSet set, AovNeed need)

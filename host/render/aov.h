@@ -49,7 +49,8 @@ extern const size_t aov_count; // at most 32
 // Sets of channels have a bit for each place in the table.
 typedef uint32_t AovSet;
 
-// The channels of a list of names between commas; false and a sentence where it is none.
+// Adds the channels that a list names, with commas between, to set.  False and a message where a
+// name is unknown or comes twice.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
 // Whether some channel of the set has that need.

@@ -22,7 +22,7 @@ if [ "${WINDOW:-}" = ON ]; then
   check "a format is for files" refuses 2 "--format is for files: give one with -o FILE" --format png "$scene"
   check "tiles are for files" refuses 2 "--tile is for files: give one with -o FILE" --tile 8x8 "$scene"
   check "adaptive samples are for files" \
-    refuses 2 "--aa-adaptive, --error and --time are for files: give one with -o FILE" \
+    refuses 2 "--aa-adaptive is for files: give one with -o FILE" \
     --aa-adaptive "$scene"
   check "repeated pictures are for files" \
     refuses 2 "--repeat is for files: give one with -o FILE" --repeat 2 "$scene"

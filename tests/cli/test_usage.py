@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Words that a command line must not contain together.
+# Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
+import json
+import os
+import pathlib
+import sys
+import unittest
+
+from work import Work
+
+HAS_EXR, HAS_WINDOW = "exr" in sys.argv[2], sys.argv[3] == "ON"
+SCENE = str(pathlib.Path(__file__).resolve().parents[2] / "scenes/reflections.scn")
+SMALL = [SCENE, "-s", "8x6"]
+PICTURE = SMALL + ["-o", "a.pfm"]
+
+
+class Combinations(Work):
+    def refuses(self, sentence, *words):
+        self.assertEqual(self.clrt(*words, code=2), f"clrt: {sentence}\n", words)
+        self.assertEqual(os.listdir(self.work), [], words)
+
+    def test_a_file_is_named_once(self):
+        self.refuses("--output is given twice: name one file", *PICTURE, "-o", "b.pfm")
+        self.refuses("--output is given twice: name one file", *PICTURE, "--output=a.pfm")
+        for name, value in ("stats", "=a.json"), ("reference", "=b.pfm"), ("stats", ""):
+            sentence = f"--{name} is given twice: name one file"
+            self.refuses(sentence, *PICTURE, f"--{name}{value}", f"--{name}")
+        words = ["check", SCENE, "--json=a.json", "--json=b.json"]
+        self.refuses("--json is given twice: name one file", *words)
+
+    def test_the_last_of_two_settings_counts(self):
+        self.clrt(*SMALL, "-s", "4x4", "--view", "2", "--view", "1", "-o", "a.pfm")
+        self.clrt(*SMALL, "-s", "4x4", "-o", "b.pfm")
+        self.assertEqual(self.bytes_of("a.pfm"), self.bytes_of("b.pfm"))
+
+    def test_quiet_and_verbose_exclude_each_other(self):
+        sentence = "--quiet and --verbose contradict each other: give one"
+        for words in (PICTURE, SMALL, ["check", SCENE], ["convert", SCENE, "a.scn"]):
+            self.refuses(sentence, *words, "-v", "-q")
+            self.refuses(sentence, "--quiet", *words, "--verbose")
+
+    def test_a_channel_is_named_once(self):
+        for channels in "depth,depth", "depth,normal,depth":
+            self.refuses("--aov names 'depth' twice", *SMALL, "-o", "a.exr", "--aov", channels)
+
+    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    def test_merge_may_be_quiet(self):
+        for part in 1, 2:
+            self.clrt(*SMALL, "--tile", "4x4", "--part", f"{part}/2", "-o", f"{part}.exr")
+        done = self.run_clrt("merge", "1.exr", "2.exr", "-o", "a.exr", "-q")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    @unittest.skipUnless(HAS_WINDOW, "this build has no window")
+    def test_what_is_for_files_is_refused_without_one_whatever_its_value(self):
+        for words in (
+            ["--tile", "64x64"], ["--tile", "128x128"], ["--repeat", "2"], ["--repeat", "1"],
+            ["--bad-geometry", "fail"], ["--bad-geometry", "drop"], ["--aa-adaptive"], ["--error", "1%"],
+            ["--time", "1"], ["--crop", "0,0,4,4"], ["--part", "1/1"], ["--resume"], ["--frames", "1-1"],
+            ["--turntable", "1"], ["--reference"], ["--reference-samples", "256"], ["--no-metadata"],
+            ["--hash"], ["--expect-hash", 32 * "0"], ["--format", "png"],
+        ):
+            self.refuses(f"{words[0]} is for files: give one with -o FILE", SCENE, *words)
+        self.refuses("--aov is for files: give one with -o FILE.exr", SCENE, "--aov", "depth")
+        self.refuses("--stats=FILE is for files: give one with -o FILE", SCENE, "--stats=a.json")
+        self.refuses("--max-level auto is for files: give one with -o FILE", SCENE, "--max-level", "auto")
+
+    def test_what_excludes_each_other_does_so_whatever_its_value(self):
+        ways = "--aa, --aa-adaptive, --error and --time each choose the samples: give one"
+        for aa in "--aa=2", "--aa=1":
+            self.refuses(ways, *PICTURE, aa, "--aa-adaptive")
+            self.refuses(ways, *PICTURE, aa, "--time", "1")
+        for count in "2", "1":
+            sentence = "--repeat times whole pictures: leave out --resume"
+            self.refuses(sentence, *PICTURE, "--resume", "--repeat", count)
+        for view in "2", "1":
+            sentence = "--frames names the views: leave out --view"
+            self.refuses(sentence, *PICTURE, "--frames", "1-2", "--view", view)
+
+    def test_a_precision_that_is_asked_for_is_kept(self):
+        self.write(a_scn="sphere 0 0 0 1\n")
+        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
+            picture = ["a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json"]
+            self.run_clrt(*picture, "--error", "0.015%", *words)
+            settings = json.loads(self.bytes_of("a.json"))["settings"]
+            self.assertEqual(settings["precision"], precision)
+
+    def test_references_have_an_even_number_of_samples(self):
+        for number in "3", "1", "0", "65537", "2.5", "many":
+            self.refuses(f"--reference-samples wants an even number between 2 and 65536, not '{number}'",
+                         *PICTURE, "--reference-samples", number)
+        self.clrt(*PICTURE, "--reference-samples", "4", "--stats=a.json")
+        self.assertEqual(json.loads(self.bytes_of("a.json"))["reference"]["samples"], 4)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])
