@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "cli/check_report.h"
+#include "cli/command_files.h"
 #include "cli/scene_source.h"
 #include "cli/threads.h"
 #include "scene/bad_geometry.h"
@@ -120,6 +121,8 @@ static ExitCode run(Check *check, const Cache *cache, Error *error)
     const double start = clock_seconds();
     if (!scene_source_load_tolerantly(&check->scene, check->options, error))
         return EXIT_SCENE;
+    if (!command_files_check(check->options, &check->scene, error))
+        return EXIT_OUTPUT;
     check->normalization = normalization_of(&check->scene);
     normalization_check(&check->normalization, &check->scene, &check->frame_fault);
     if (!census_take(&check->census, &check->scene, &check->normalization, error))

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/output_file.h"
 #include "cli/check.h"
+#include "cli/command_files.h"
 #include "cli/scene_source.h"
 #include "scene/mesh_join.h"
 #include "scene/ply_write.h"
@@ -14,30 +15,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     const Options *options;
     Scene scene;
-    char **mesh_names; // beside the scene text; NULL for a PLY mesh
+    char **mesh_paths; // beside the scene text; NULL for a PLY mesh; owned
+    char **mesh_names; // the last parts of these; owned, but not its strings
 } Conversion;
 
 bool convert_takes(const char *path, Error *error)
 {
     return file_has_ending(path, ".scn") || file_has_ending(path, ".ply") ||
            error_set(error, "clrt convert writes .scn and .ply, not '%s'", path);
-}
-
-static bool is_input(const Scene *scene, const char *path)
-{
-    struct stat own, input;
-    if (stat(path, &own) != 0)
-        return false;
-    for (size_t i = 0; i < scene->inputs.count; i++)
-        if (stat(scene->inputs.data[i], &input) == 0 && input.st_dev == own.st_dev &&
-            input.st_ino == own.st_ino)
-            return true;
-    return false;
 }
 
 typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
@@ -58,8 +47,6 @@ static bool write_file(const Conversion *conversion, const char *path, WriteCont
 {
     OutputFile file;
     Error cause = {0};
-    if (is_input(&conversion->scene, path))
-        return error_set(error, "%s: is read from, and not written over", path);
     if (!output_file_begin(&file, path, error))
         return false;
     const bool ok =
@@ -130,39 +117,49 @@ static bool name_meshes(Conversion *conversion, Error *error)
 {
     const char *path = conversion->options->other_path;
     const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
-    const int stem = (int)(strlen(name) - strlen(".scn"));
-    const size_t count = conversion->scene.objects.count, size = strlen(name) + 32;
+    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    const size_t stem = strlen(path) - strlen(".scn");
+    const size_t count = conversion->scene.objects.count, size = strlen(path) + 32;
+    conversion->mesh_paths = memory_zeroed(count, sizeof *conversion->mesh_paths, error);
     conversion->mesh_names = memory_zeroed(count, sizeof *conversion->mesh_names, error);
-    if (conversion->mesh_names == NULL)
+    if (conversion->mesh_paths == NULL || conversion->mesh_names == NULL)
         return false;
-    if (!scn_write_can_name(name))
+    if (!scn_write_can_name(path + folder))
         return error_set(error, "%s: a scene cannot name meshes like that", path);
     for (size_t i = 0; i < count; i++) {
-        conversion->mesh_names[i] = memory_raw(size, 1, error);
-        if (conversion->mesh_names[i] == NULL)
+        conversion->mesh_paths[i] = memory_raw(size, 1, error);
+        if (conversion->mesh_paths[i] == NULL)
             return false;
-        snprintf(conversion->mesh_names[i], size, "%.*s-%zu.ply", stem, name, i + 1);
+        snprintf(conversion->mesh_paths[i], size, "%.*s-%zu.ply", (int)stem, path, i + 1);
+        conversion->mesh_names[i] = conversion->mesh_paths[i] + folder;
     }
     return true;
 }
 
-static bool write_meshes(const Conversion *conversion, Error *error)
+static bool check_files(const Conversion *conversion, Error *error)
 {
-    bool ok = true;
-    for (size_t i = 0; ok && i < conversion->scene.objects.count; i++) {
-        char *path =
-            file_path_beside(conversion->options->other_path, conversion->mesh_names[i], error);
-        ok = path != NULL &&
-             write_mesh(conversion, &conversion->scene.objects.data[i].mesh, path, error);
-        free(path);
-    }
+    FilePlan plan = {0};
+    const Scene *scene = &conversion->scene;
+    bool ok = command_files_add(&plan, conversion->options, scene, error);
+    for (size_t i = 0; ok && conversion->mesh_paths != NULL && i < scene->objects.count; i++)
+        ok = file_plan_add(&plan, FILE_OUTPUT, "the output ", conversion->mesh_paths[i], error);
+    ok = ok && file_plan_check(&plan, error);
+    file_plan_free(&plan);
     return ok;
 }
 
-static ExitCode write_text(Conversion *conversion, Error *error)
+static bool write_meshes(const Conversion *conversion, Error *error)
 {
-    const bool ok = name_meshes(conversion, error) && write_meshes(conversion, error) &&
+    const Scene *scene = &conversion->scene;
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++)
+        ok = write_mesh(conversion, &scene->objects.data[i].mesh, conversion->mesh_paths[i], error);
+    return ok;
+}
+
+static ExitCode write_text(const Conversion *conversion, Error *error)
+{
+    const bool ok = write_meshes(conversion, error) &&
                     write_file(conversion, conversion->options->other_path, write_scn, NULL, error);
     return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
@@ -173,16 +170,19 @@ static ExitCode run(Conversion *conversion, Error *error)
     if (!scene_source_load(&conversion->scene, options, error) ||
         !check_geometry(options, &conversion->scene, error))
         return EXIT_SCENE;
-    return file_has_ending(options->other_path, ".ply") ? write_joined(conversion, error)
-                                                        : write_text(conversion, error);
+    const bool is_mesh = file_has_ending(options->other_path, ".ply");
+    if ((!is_mesh && !name_meshes(conversion, error)) || !check_files(conversion, error))
+        return EXIT_OUTPUT;
+    return is_mesh ? write_joined(conversion, error) : write_text(conversion, error);
 }
 
 ExitCode convert_scene(const Options *options, Error *error)
 {
     Conversion conversion = {.options = options};
     const ExitCode outcome = run(&conversion, error);
-    for (size_t i = 0; conversion.mesh_names != NULL && i < conversion.scene.objects.count; i++)
-        free(conversion.mesh_names[i]);
+    for (size_t i = 0; conversion.mesh_paths != NULL && i < conversion.scene.objects.count; i++)
+        free(conversion.mesh_paths[i]);
+    free(conversion.mesh_paths);
     free(conversion.mesh_names);
     scene_free(&conversion.scene);
     return outcome;

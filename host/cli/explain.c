@@ -3,6 +3,7 @@
 // kept, in text; JSON is written whole.
 #include "cli/explain.h"
 
+#include "cli/command_files.h"
 #include "cli/explain_report.h"
 #include "cli/json_file.h"
 #include "scene/camera.h"
@@ -76,6 +77,8 @@ ExitCode explain_pixel(Run *run, Error *error)
     run_begin(run);
     if (!run_load_scene(run, error))
         return EXIT_SCENE;
+    if (!command_files_check(run->options, &run->scene, error))
+        return EXIT_OUTPUT;
     if (!has_pixel(run, error)) {
         starter_decide(&run->starter, false);
         return EXIT_USAGE;

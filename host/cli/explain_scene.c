@@ -2,6 +2,7 @@
 // Goes as far as a picture does before it is drawn, and tells what stands there.
 #include "cli/explain_scene.h"
 
+#include "cli/command_files.h"
 #include "cli/json_file.h"
 #include "cli/savings.h"
 #include "cli/scene_parts.h"
@@ -143,6 +144,8 @@ ExitCode explain_scene(Run *run, Error *error)
     run_begin(run);
     if (!run_load_scene(run, error))
         return EXIT_SCENE;
+    if (!command_files_check(options, &run->scene, error))
+        return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared != EXIT_DONE)
         return prepared;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program: does what the command line asks for, and words what went wrong.
 #include "cli/check.h"
+#include "cli/command_files.h"
 #include "cli/compare.h"
 #include "cli/convert.h"
 #include "cli/device_report.h"
@@ -41,12 +42,9 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
     return code;
 }
 
-static ExitCode perform(int count, char **words, Error *error)
+static ExitCode perform(const Options *options, Error *error)
 {
-    Options options;
-    if (!options_parse(&options, count, words, error))
-        return EXIT_USAGE;
-    switch (options.action) {
+    switch (options->action) {
     case ACTION_HELP:
         options_write_help(stdout);
         return EXIT_DONE;
@@ -54,27 +52,35 @@ static ExitCode perform(int count, char **words, Error *error)
         puts("clrt " CLRT_VERSION);
         return EXIT_DONE;
     case ACTION_LIST_DEVICES:
-        return device_report_write(options.lists_json, error);
+        return device_report_write(options->lists_json, error);
     case ACTION_WARM:
-        return perform_run(&options, warm_kernels, error);
+        return perform_run(options, warm_kernels, error);
     case ACTION_VIEW:
-        return perform_run(&options, show, error);
+        return perform_run(options, show, error);
     case ACTION_CHECK:
-        return perform_run(&options, check, error);
+        return perform_run(options, check, error);
     case ACTION_COMPARE:
-        return compare_files(&options, error);
+        return compare_files(options, error);
     case ACTION_MERGE:
-        return merge_parts(&options, error);
+        return merge_parts(options, error);
     case ACTION_CONVERT:
-        return convert_scene(&options, error);
+        return convert_scene(options, error);
     case ACTION_EXPLAIN:
-        return perform_run(&options, explain_pixel, error);
+        return perform_run(options, explain_pixel, error);
     case ACTION_EXPLAIN_SCENE:
-        return perform_run(&options, explain_scene, error);
+        return perform_run(options, explain_scene, error);
     case ACTION_RENDER:
         break;
     }
-    return perform_run(&options, picture_make, error);
+    return perform_run(options, picture_make, error);
+}
+
+static ExitCode perform_words(int count, char **words, Error *error)
+{
+    Options options;
+    if (!options_parse(&options, count, words, error))
+        return EXIT_USAGE;
+    return command_files_check(&options, NULL, error) ? perform(&options, error) : EXIT_OUTPUT;
 }
 
 int main(int count, char **words)
@@ -84,7 +90,7 @@ int main(int count, char **words)
     // told and cleaned up after.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    ExitCode code = perform(count, words, &error);
+    ExitCode code = perform_words(count, words, &error);
     if (code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
         error_set(&error, "standard output cannot be written");
         code = EXIT_OUTPUT;

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/output_file.h"
 #include "cli/certain_picture.h"
+#include "cli/command_files.h"
 #include "cli/provenance.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
@@ -258,7 +259,8 @@ static ExitCode prepare(Run *run, Error *error)
     run_begin(run);
     if (!run_load_scene(run, error))
         return EXIT_SCENE;
-    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+    if (!command_files_check(run->options, &run->scene, error) ||
+        !image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)

@@ -12,6 +12,15 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
+char *resume_journal_name(const char *output_path, Error *error)
+{
+    const size_t size = strlen(output_path) + sizeof ".part";
+    char *name = memory_raw(size, 1, error);
+    if (name != NULL)
+        snprintf(name, size, "%s.part", output_path);
+    return name;
+}
+
 bool resume_look(Resume *resume, const Options *options, Error *error)
 {
     struct stat status;
@@ -19,11 +28,9 @@ bool resume_look(Resume *resume, const Options *options, Error *error)
     const bool exists = lstat(path, &status) == 0;
     if (exists && !S_ISREG(status.st_mode))
         return error_set(error, "%s: is no file that can be gone on with", path);
-    resume->path = memory_raw(strlen(path) + sizeof ".part", 1, error);
+    resume->path = resume_journal_name(path, error);
     if (resume->path == NULL)
         return false;
-    strcpy(resume->path, path);
-    strcat(resume->path, ".part");
     resume->stored_path = path;
     return !exists || journal_exists(resume->path) || !image_format_takes_layers(options->format) ||
            image_read(&resume->stored, path, error);

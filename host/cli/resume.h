@@ -16,6 +16,10 @@ typedef struct {
     float *tile;    // a tile's colors, row by row; owned
 } Resume;
 
+// Returns the name of the journal that --resume keeps beside a picture.  The caller frees it; NULL
+// when memory ran out.
+char *resume_journal_name(const char *output_path, Error *error);
+
 // Looks for what is left of an earlier run.  For main alone, while no other thread runs, as
 // pictures are read by a process of their own.
 bool resume_look(Resume *resume, const Options *options, Error *error);

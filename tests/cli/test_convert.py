@@ -116,10 +116,11 @@ class Refusals(Convert):
     def test_what_is_read_is_not_written_over(self):
         content = models.ply(POINTS, TRIANGLES)
         self.write(a_ply=content, a_scn="mesh a.ply\n")
-        self.refuses(5, "a.ply: is read from, and not written over", "a.ply", "a.ply")
-        self.refuses(5, "a.scn: is read from, and not written over", "a.scn", "a.scn")
+        same = "the output {} and {} are the same file: choose another name".format
+        self.refuses(5, same("a.ply", "the scene a.ply"), "a.ply", "a.ply")
+        self.refuses(5, same("a.scn", "the scene a.scn"), "a.scn", "a.scn")
         os.link(self.work / "a.ply", self.work / "b-1.ply")
-        self.refuses(5, "b-1.ply: is read from, and not written over", "a.scn", "b.scn")
+        self.refuses(5, same("b-1.ply", "the scene's file a.ply"), "a.scn", "b.scn")
         self.assertEqual((self.work / "a.ply").read_bytes(), content)
 
     def test_a_full_disk_is_one_sentence(self):
