@@ -9,7 +9,7 @@
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
-// A name and value kept in files whose format has a place for text (PNG and EXR).
+// A name and value kept in files: PNG and EXR by name, TIFF and JPEG as lines of the description.
 typedef struct {
     const char *name, *value;
 } ImageText;

@@ -68,6 +68,21 @@ void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     spec.full_height = picture.whole_height;
 }
 
+// TIFF and JPEG have no place for names of our own: each becomes a line of the description.
+void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
+{
+    std::string lines;
+    const std::string format = picture.format;
+    for (size_t i = 0; i < picture.text_count; i++) {
+        const std::string name = picture.texts[2 * i], value = picture.texts[2 * i + 1];
+        spec.attribute(name, value);
+        if (name.rfind("clrt:", 0) == 0)
+            lines += name + "=" + value + "\n";
+    }
+    if (!lines.empty() && (format == "tiff" || format == "jpeg"))
+        spec.attribute("ImageDescription", lines);
+}
+
 bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, OIIO::TypeDesc type)
 {
     return picture.layer_count > 0 ? write_strips(output, picture)
@@ -130,8 +145,7 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     // Without it OpenEXR and TIFF write the time, and no two files would be equal.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
-    for (size_t i = 0; i < picture.text_count; i++)
-        spec.attribute(picture.texts[2 * i], picture.texts[2 * i + 1]);
+    describe_origin(spec, picture);
     const bool is_exr = std::strcmp(picture.format, "openexr") == 0;
     errno = 0;
     const bool ok = is_exr ? write_to_file(*output, spec, picture)

@@ -36,6 +36,32 @@ def exr_texts(path):
     return {name: value.decode(errors="replace") for name, value in read_header(path.read_bytes())[0].items()}
 
 
+def tiff_description(data):
+    """The first text of tag 270 of a TIFF file whose bytes are in the order of this machine."""
+    assert data[:4] == b"II*\0"
+    (place,) = struct.unpack_from("<I", data, 4)
+    (entries,) = struct.unpack_from("<H", data, place)
+    for entry in range(entries):
+        tag, kind, size, start = struct.unpack_from("<HHII", data, place + 2 + 12 * entry)
+        if tag == 270:
+            assert kind == 2
+            return data[start : start + size - 1].decode()
+    return ""
+
+
+def jpeg_comment(data):
+    place = 2
+    while data[place + 1] != 0xDA:  # where the picture begins
+        (size,) = struct.unpack_from(">H", data, place + 2)
+        if data[place + 1] == 0xFE:
+            return data[place + 4 : place + 2 + size].rstrip(b"\0").decode()
+        place += 2 + size
+    return ""
+
+
+DESCRIPTIONS = {"tif": tiff_description, "jpg": jpeg_comment} if HAS_EXR else {}
+
+
 class Provenance(Work):
     def draw(self, *words, name="a.png", **environment):
         self.clrt(*(words or SMALL), "-o", name, **environment)
@@ -54,6 +80,16 @@ class Provenance(Work):
         texts, expected = exr_texts(self.work / "a.exr"), self.draw(*SMALL, "--precision", "fp64")
         self.assertEqual({name: texts.get(name) for name in NAMES}, expected)
         self.assertEqual(texts["capDate"], "")
+
+    def test_the_description_of_tiff_and_jpeg_tells_the_same_as_png(self):
+        expected = self.draw(*SMALL, "--aa=3")
+        for ending, description in DESCRIPTIONS.items():
+            name = f"a.{ending}"
+            self.clrt(*SMALL, "--aa=3", "-o", name)
+            lines = description(self.bytes_of(name)).splitlines()
+            self.assertEqual([line.split("=", 1) for line in lines],
+                             [[key, value] for key, value in expected.items() if ":" in key])
+            self.assertIn(expected["Software"].encode(), self.bytes_of(name))
 
     def test_settings_are_json_of_what_the_picture_depends_on(self):
         settings = json.loads(self.draw(*SMALL, "--aa=3", "--view", "2", "--tile", "8x8")["clrt:settings"])
@@ -98,10 +134,11 @@ class Provenance(Work):
     def test_without_metadata_nothing_of_it_is_told(self):
         environment = {"SOURCE_DATE_EPOCH": "0"}
         self.assertEqual(self.draw(*SMALL, "--no-metadata", **environment), {})
-        if HAS_EXR:
-            self.clrt(*SMALL, "-o", "a.exr", "--no-metadata", **environment)
-            data = (self.work / "a.exr").read_bytes()
-            self.assertFalse([name for name in [*NAMES, "1970:01:01"] if name.encode() in data])
+        for ending in ["exr", *DESCRIPTIONS] if HAS_EXR else []:
+            self.clrt(*SMALL, "-o", f"a.{ending}", "--no-metadata", **environment)
+            data = self.bytes_of(f"a.{ending}")
+            told = [name for name in [*NAMES, "1970:01:01", "clrt", "OpenImageIO"] if name.encode() in data]
+            self.assertEqual(told, [], ending)
 
     def test_the_hash_is_that_of_the_pixels_whatever_the_file(self):
         texts = self.draw(*SMALL, "--stats=a.json")
