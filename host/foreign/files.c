@@ -5,6 +5,7 @@
 
 #include "foreign/limits.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,8 +24,33 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
+// Returns whether a file is in the folder, both without links.
+static bool is_below(const char *file, const char *folder)
+{
+    const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
+    return strncmp(file, folder, length) == 0 && file[length] == '/';
+}
+
+// Returns whether links, which a model's author may have packed beside it, stay in the folder.
+static bool stays_inside(const Files *files, const char *path)
+{
+    char *target = realpath(path, NULL);
+    if (target == NULL)
+        return errno == ENOENT; // a file that cannot be opened either
+    char *name = strndup(files->model, folder_length(files));
+    char *folder = name != NULL ? realpath(name, NULL) : NULL;
+    const bool stays = folder != NULL && is_below(target, folder);
+    free(folder);
+    free(name);
+    free(target);
+    return stays;
+}
+
 static bool is_inside(const Files *files, const char *path)
 {
+    // The user names the model, so that it may be a link to anywhere.
+    if (strcmp(path, files->model) == 0)
+        return true;
     const size_t folder = folder_length(files);
     if (strncmp(path, files->model, folder) != 0)
         return false;
@@ -34,7 +60,7 @@ static bool is_inside(const Files *files, const char *path)
         part = strchr(part, '/');
         part = part != NULL ? part + 1 : NULL;
     }
-    return true;
+    return stays_inside(files, path);
 }
 
 static bool read_regular(File *file, const char *path, Error *error)
@@ -129,6 +155,15 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
+// Assimp goes on to look for a library under other names, so that the first counts.
+static void note_missing(Files *files, const char *path)
+{
+    const size_t folder = folder_length(files);
+    const bool has_folder = strncmp(path, files->model, folder) == 0;
+    if (file_has_ending(path, ".mtl") && files->missing[0] == '\0')
+        snprintf(files->missing, sizeof files->missing, "%s", path + (has_folder ? folder : 0));
+}
+
 static struct aiFile *open_reading(struct aiFileIO *interface, const char *path, const char *mode)
 {
     Files *files = (Files *)(void *)interface->UserData;
@@ -136,13 +171,10 @@ static struct aiFile *open_reading(struct aiFileIO *interface, const char *path,
     size_t opened;
     if (strpbrk(mode, "wa+") != NULL)
         return NULL;
-    if (!is_inside(files, path)) {
-        files->outside_count++;
-        return NULL;
-    }
-    if (!open_file(files, path, &opened, &unused)) {
-        if (file_has_ending(path, ".mtl") && files->missing[0] == '\0')
-            snprintf(files->missing, sizeof files->missing, "%s", path + folder_length(files));
+    const bool inside = is_inside(files, path);
+    files->outside_count += !inside;
+    if (!inside || !open_file(files, path, &opened, &unused)) {
+        note_missing(files, path);
         return NULL;
     }
     Reading *reading = malloc(sizeof *reading);

@@ -277,6 +277,32 @@ class Hostile(Work):
             self.run_clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr,
         )
 
+    def test_links_lead_no_further_than_the_folder(self):
+        note = "it names files outside of its folder, which are not read"
+        for name in "inner", "other":
+            (self.work / name).mkdir()
+        self.write(secret_mtl=LIBRARY)
+        for name, library in ("a", "colors.mtl"), ("b", "out/secret.mtl"), ("c", "own.mtl"):
+            model = COLORED.replace(b"colors.mtl", library.encode())
+            (self.work / f"inner/{name}.obj").write_bytes(model)
+        (self.work / "inner/plain.obj").write_bytes(COLORED.replace(b"mtllib", b"#"))
+        (self.work / "inner/colors.mtl").symlink_to("../secret.mtl")
+        (self.work / "inner/out").symlink_to(self.work)
+        plain = self.picture("inner/plain.obj")
+        for name, library in ("inner/a.obj", "colors.mtl"), ("inner/b.obj", "out/secret.mtl"):
+            says = f"clrt: {name}: its materials, {library}, cannot be opened; {note}\n"
+            self.assertEqual(self.picture(name, says=says), plain)
+        # Links inside the folder work, and so does a link that the user names as the model.
+        (self.work / "inner/kept.mtl").write_text(LIBRARY)
+        (self.work / "inner/own.mtl").symlink_to(self.work / "inner/kept.mtl")
+        colored = self.picture("inner/c.obj")
+        self.assertNotEqual(colored, plain)
+        (self.work / "other/a.obj").symlink_to("../inner/a.obj")
+        (self.work / "other/colors.mtl").write_text(LIBRARY)
+        (self.work / "linked").symlink_to("other")
+        for name in "other/a.obj", "linked/a.obj":
+            self.assertEqual(self.picture(name), colored)
+
     def test_pipes_and_folders_are_no_models(self):
         os.mkfifo(self.work / "pipe.obj")
         os.mkfifo(self.work / "colors.mtl")
