@@ -3,6 +3,8 @@
 // area or comes twice, and leaks of closed meshes.  Everything else may be meant.
 #include "cli/findings.h"
 
+#include "scene/missing.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,6 +168,10 @@ static bool add_scene(Findings *findings, const CheckResult *result)
             !add(findings, finding, "%zu %s", counts[i].count, counts[i].text))
             return false;
     }
+    const MissingPart missing = scene_missing(result->scene);
+    const Finding note = {missing.kind, FINDING_SCENE, false, 1, ""};
+    if (missing.kind != NULL && !add(findings, note, "%s", missing.text))
+        return false;
     const Finding fault = {"scale", FINDING_SCENE, true, 1, ""};
     return result->frame_fault[0] == '\0' ||
            add(findings, fault, "it cannot be drawn: %s", result->frame_fault);

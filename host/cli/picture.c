@@ -22,6 +22,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// The user may have meant percent where --error is larger.
+#define LARGE_ERROR 0.1
+
 // What is told of every tile.
 typedef struct {
     Run *run;
@@ -253,8 +256,16 @@ static ExitCode check_files(Run *run, Error *error)
     return options->resume && !resume_look(&run->resume, options, error) ? EXIT_SCENE : EXIT_DONE;
 }
 
+static void warn_of_goal(const Options *options)
+{
+    if (options->error_goal > LARGE_ERROR && !options->quiet)
+        fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
+                100 * options->error_goal, options->error_goal, options->error_goal);
+}
+
 static ExitCode prepare(Run *run, Error *error)
 {
+    warn_of_goal(run->options);
     image_prepare(run->options->format);
     run_begin(run);
     if (!run_load_scene(run, error))

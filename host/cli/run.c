@@ -9,6 +9,7 @@
 #include "cli/threads.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
+#include "scene/missing.h"
 #include "scene/truncation.h"
 
 #include <stdlib.h>
@@ -59,6 +60,13 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
     };
 }
 
+static void print_missing(const Options *options, const Scene *scene)
+{
+    const MissingPart missing = scene_missing(scene);
+    if (missing.kind != NULL && !options->quiet)
+        fprintf(stderr, "clrt: %s: %s\n", options->scene_path, missing.text);
+}
+
 bool run_load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
@@ -73,6 +81,8 @@ bool run_load_scene(Run *run, Error *error)
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = run_lap(&moment) - run->report.load;
     ok = ok && check_geometry(options, &run->scene, error);
+    if (ok)
+        print_missing(options, &run->scene);
     run->normalization = normalization_of(&run->scene);
     Error cause = {0};
     if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
@@ -105,6 +115,7 @@ bool run_await_device(Run *run, Error *error)
     return true;
 }
 
+// --bvh asks for a tree however few the triangles.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
@@ -115,7 +126,6 @@ bool run_build_scene(Run *run, Error *error)
 {
     Triangles triangles = {0};
     Bvh bvh = {0};
-// --bvh asks for a tree however few the triangles.
     double moment = clock_seconds();
     const Options *options = run->options;
     const NodeLayout layout = run->starter.setup.source.choice.nodes;

@@ -1,19 +1,27 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Words that a command line must not contain together.
+# Words that a command line must not contain together, and notes on what a user may not have meant.
 # Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
-from work import Work
+from work import CLRT, Work
 
 HAS_EXR, HAS_WINDOW = "exr" in sys.argv[2], sys.argv[3] == "ON"
-SCENE = str(pathlib.Path(__file__).resolve().parents[2] / "scenes/reflections.scn")
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+SCENE = str(SCENES / "reflections.scn")
 SMALL = [SCENE, "-s", "8x6"]
 PICTURE = SMALL + ["-o", "a.pfm"]
+NO_MESH = (
+    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
+)
+BLANK = "there is nothing to draw: it has no triangles and no spheres"
+DARK = "it has no lights: its surfaces show ambient light only"
 
 
 class Combinations(Work):
@@ -92,6 +100,52 @@ class Combinations(Work):
                          *PICTURE, "--reference-samples", number)
         self.clrt(*PICTURE, "--reference-samples", "4", "--stats=a.json")
         self.assertEqual(json.loads(self.bytes_of("a.json"))["reference"]["samples"], 4)
+
+
+class Notes(Work):
+    def draws(self, note, *words):
+        """The picture is drawn, with the note on standard error unless -q forbids it."""
+        for quiet in [], ["-q"]:
+            done = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", *quiet)
+            expected = f"clrt: {note}\n" if note and not quiet else ""
+            self.assertEqual((done.stderr, done.returncode), (expected, 0), words)
+
+    def test_a_blank_picture_is_told(self):
+        self.write(a_scn="", b_scn="light 1 1 1 1\n", a_ply="", b_ply=NO_MESH, c_scn="mesh b.ply\n")
+        for name in "a.scn", "b.scn", "a.ply", "b.ply", "c.scn":
+            self.draws(f"{name}: {BLANK}", name)
+
+    def test_surfaces_without_lights_are_told(self):
+        self.write(a_scn="material 1\nsphere 0 0 0 1\n", b_scn=f"material 2\nmesh {SCENES}/cube.ply\n")
+        for name in "a.scn", "b.scn":
+            self.draws(f"{name}: {DARK}", name)
+
+    def test_what_needs_no_light_is_drawn_in_silence(self):
+        self.write(
+            a_scn="sphere 0 0 0 1\n",  # a silhouette
+            b_scn="define all matte reflectivity 1\nmaterial all\nsphere 0 0 0 1\n",
+            c_scn="light 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
+        )
+        for name in "a.scn", "b.scn", "c.scn":
+            self.draws("", name)
+
+    def test_check_notes_both(self):
+        self.write(a_ply="", b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")
+        for name, kind, note in (("a.ply", "nothing_to_draw", BLANK), ("b.ply", "nothing_to_draw", BLANK),
+                                 ("a.scn", "no_lights", DARK)):
+            done = self.run_clrt("check", name, "--json=a.json")
+            self.assertIn(f"  note: {note}\n", done.stdout)
+            self.assertEqual((done.stderr, done.returncode), ("", 0))
+            findings = json.loads(self.bytes_of("a.json"))["findings"]
+            self.assertEqual([f["kind"] for f in findings if f["mesh"] is None], [kind])
+        text = self.clrt("check", SCENE)
+        self.assertFalse([note for note in (BLANK, DARK) if note in text])
+
+    def test_large_errors_are_told_in_percent(self):
+        self.draws("--error allows an error of 50 %; for 0.5 %, write 0.5%", SCENE, "--error", "0.5")
+        self.draws("--error allows an error of 20 %; for 0.2 %, write 0.2%", SCENE, "--error", "20%")
+        self.draws("", SCENE, "--error", "10%")
+        self.draws("", SCENE, "--error", "0.1")
 
 
 if __name__ == "__main__":
