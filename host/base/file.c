@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 // Pipes have no size to believe, so the buffer grows with what really arrives.
 static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
@@ -38,18 +39,35 @@ static bool read_stream(File *file, FILE *stream, size_t expected, const char *n
     return ok;
 }
 
+static bool cannot_open(const char *path, Error *error)
+{
+    return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+}
+
+// A device may never end, and reading a folder fails less clearly.
+static bool look_at(const char *path, struct stat *status, Error *error)
+{
+    if (stat(path, status) != 0)
+        return cannot_open(path, error);
+    return S_ISREG(status->st_mode) || S_ISFIFO(status->st_mode) ||
+           error_set(error, "%s: cannot be read: it is not a file", path);
+}
+
+bool file_check(const char *path, Error *error)
+{
+    struct stat status;
+    return look_at(path, &status, error) && (access(path, R_OK) == 0 || cannot_open(path, error));
+}
+
 bool file_read(File *file, const char *path, Error *error)
 {
     *file = (File){0};
     struct stat status;
-    if (stat(path, &status) != 0)
-        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
-    // A device may never end, and reading a folder fails less clearly.
-    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
-        return error_set(error, "%s: cannot be read: it is not a file", path);
+    if (!look_at(path, &status, error))
+        return false;
     FILE *stream = fopen(path, "rb");
     if (stream == NULL)
-        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+        return cannot_open(path, error);
     const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;
     const bool ok = read_stream(file, stream, expected, path, error);
     fclose(stream);

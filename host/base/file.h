@@ -16,6 +16,9 @@ typedef struct {
 // system's reason.
 bool file_read(File *file, const char *path, Error *error);
 
+// Returns whether file_read can open path; false with file_read's message where it cannot.
+bool file_check(const char *path, Error *error);
+
 // The same of a stream, to its end; name is what messages call it.
 bool file_read_stream(File *file, FILE *stream, const char *name, Error *error);
 

@@ -3,6 +3,7 @@
 #include "cli/show.h"
 
 #ifdef CLRT_WITH_WINDOW
+#include "base/file.h"
 #include "cli/threads.h"
 #include "view/viewer.h"
 #include "view/words.h"
@@ -52,6 +53,9 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      .statistics = options->statistics,
                                      .verbose = options->verbose,
                                      .patience = PATIENCE};
+    // A machine without a display must not hide that the scene is missing.
+    if (!file_check(options->scene_path, error))
+        return EXIT_SCENE;
     return codes[viewer_run(&settings, error)];
 }
 #else

@@ -147,6 +147,15 @@ class Notes(Work):
         self.draws("", SCENE, "--error", "10%")
         self.draws("", SCENE, "--error", "0.1")
 
+    @unittest.skipUnless(HAS_WINDOW, "this build has no window")
+    def test_a_missing_scene_is_told_before_a_missing_display(self):
+        there = {name: value for name, value in os.environ.items() if name != "WAYLAND_DISPLAY"}
+        for name, reason in (("typo.scn", "cannot be opened: No such file or directory"),
+                             (".", "cannot be read: it is not a file")):
+            done = subprocess.run([CLRT, name], cwd=self.work, env=there | {"DISPLAY": ":12345"},
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.stderr, done.returncode), (f"clrt: {name}: {reason}\n", 3))
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], "-v"])
