@@ -44,10 +44,8 @@ static bool read_sphere(Parser *parser)
 {
     double center[3], radius;
     if (!tokens_numbers(&parser->tokens, 3, center) ||
-        !tokens_number_within(&parser->tokens, &radius, 0, RADIUS_MOST))
+        !tokens_number_within(&parser->tokens, &radius, RADIUS_LEAST, RADIUS_MOST))
         return false;
-    if (radius < RADIUS_LEAST)
-        return tokens_fail(&parser->tokens, parser->tokens.last, "expected a radius above zero");
     const Sphere sphere = {{center[0], center[1], center[2]}, radius, plain_material(parser)};
     return array_push(&parser->scene->spheres, sphere, parser->error);
 }

@@ -201,10 +201,10 @@ static void faults_name_line_column_and_the_statement(void **state)
                                       "'sphere X Y Z RADIUS'");
     expect_error("sphere 0 0 0 1 5", "1:16: expected nothing more: found '5'; the statement is "
                                      "'sphere X Y Z RADIUS'");
-    expect_error("sphere 0 0 0 0", "1:14: expected a radius above zero: found '0'; the statement "
-                                   "is 'sphere X Y Z RADIUS'");
-    expect_error("sphere 0 0 0 -1", "1:14: expected a number between 0 and 1e+30: found '-1'; the "
-                                    "statement is 'sphere X Y Z RADIUS'");
+    expect_error("sphere 0 0 0 0", "1:14: expected a number between 1e-30 and 1e+30: found '0'; "
+                                   "the statement is 'sphere X Y Z RADIUS'");
+    expect_error("sphere 0 0 0 3e-31", "1:14: expected a number between 1e-30 and 1e+30: found "
+                                       "'3e-31'; the statement is 'sphere X Y Z RADIUS'");
     expect_error("light 0 0 0 nan", "1:13: expected a number: found 'nan'; the statement is 'light "
                                     "X Y Z INTENSITY'");
     expect_error("light 1e39 0 0 1", "1:7: expected a number between -1e+30 and 1e+30: found "
