@@ -18,9 +18,11 @@ __attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bo
 
 static ScenePart tree_part(const Run *run, bool is_needed)
 {
-    const uint32_t triangles = run->flat.triangle_count;
+    const uint32_t triangles = run->flat.triangle_count, stored = run->flat.node_count;
     if (is_needed)
-        return part("tree", true, "%u nodes over the triangles", run->flat.node_count);
+        return part("tree", true, "%u node%s over the triangles, uploaded as %u %s node%s",
+                    run->report.bvh_nodes, run->report.bvh_nodes == 1 ? "" : "s", stored,
+                    kernel_nodes_name(run->flat.layout), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
     if (!run->options->uses_bvh)

@@ -162,6 +162,16 @@ class Notes(Work):
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual((done.stderr, done.returncode), (f"clrt: {name}: {reason}\n", 3))
 
+    def test_explain_counts_the_nodes_that_verbose_counts(self):
+        scene = str(SCENES / "simple.scn")
+        # The kernels' nodes hold several of the tree's, which has leaves that suit them.
+        for nodes, stored in ("wide", "1 wide node"), ("pair", "16 pair nodes"):
+            words = [scene, "--kernel", "ray", "--nodes", nodes]
+            told = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", "-v").stderr
+            count = told.split("tree: ")[1].split(" nodes")[0]
+            self.assertIn(f"  tree        {count} nodes over the triangles, uploaded as {stored}\n",
+                          self.clrt(*words, "--explain"))
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], "-v"])
