@@ -15,22 +15,17 @@ typedef struct {
     Truth active;
 } PixelSamples;
 
-// Points of Sobol's sequence in two dimensions ("On the distribution of points in a cube and the
-// approximate evaluation of integrals", 1967): x is the number with its bits reversed, and the bits
-// of y are sums of binomial coefficients mod 2.  The scramble is XORed to both.
-static inline void place_samples(PixelSamples *samples, Count number, Count scramble)
-{
-    Count x = scramble % LADDER_GRID, y = scramble / LADDER_GRID % LADDER_GRID;
-    uint y_bits = LADDER_GRID / 2;
-    for (uint x_bit = LADDER_GRID / 2; x_bit != 0; x_bit /= 2) {
-        x ^= (number & 1) * x_bit;
-        y ^= (number & 1) * y_bits;
-        y_bits ^= y_bits / 2;
-        number /= 2;
-    }
-    samples->x = 2 * x + 1;
-    samples->y = 2 * y + 1;
-}
+// The first LADDER_SAMPLES points of Sobol's sequence (host/refine/pixel_requests.h).
+constant uint point_x[LADDER_SAMPLES] = {0,  512, 256, 768, 128, 640, 384, 896,
+                                         64, 576, 320, 832, 192, 704, 448, 960};
+constant uint point_y[LADDER_SAMPLES] = {0,   512, 768, 256, 640, 128, 384, 896,
+                                         960, 448, 192, 704, 320, 832, 576, 64};
+
+#if CLRT_LANES == 1
+#define LOAD_LANES(words) (*(words))
+#else
+#define LOAD_LANES(words) FOR_LANES(vload)(0, words)
+#endif
 
 static inline Count request_word(global const PixelRequest *requests, Count number, uint word)
 {
@@ -50,10 +45,9 @@ static inline PixelSamples center_samples(global const PixelRequest *requests, u
 // The samples of a request from `first` on, one in each lane.
 static inline PixelSamples request_samples(global const PixelRequest *request, uint first)
 {
-    PixelSamples samples = {request->x, request->y, 0, 0, (Truth)(-1)};
-    place_samples(&samples, request->first + first + LANE_Y * PACKET_WIDTH + LANE_X,
-                  request->scramble);
-    return samples;
+    const Count x = LOAD_LANES(point_x + first) ^ request->offset_x;
+    const Count y = LOAD_LANES(point_y + first) ^ request->offset_y;
+    return (PixelSamples){request->x, request->y, 2 * x + 1, 2 * y + 1, (Truth)(-1)};
 }
 
 // Colors in steps of 2^-32.
@@ -75,18 +69,33 @@ static inline LongCount square_of(Real steps)
     return value * value;
 }
 
-static inline ulong lane_of(LongCount lanes, uint lane)
+static inline LongCount squares_of(Real3 color)
 {
-    return ((const ulong *)&lanes)[lane];
+    return square_of(color.x) + square_of(color.y) + square_of(color.z);
 }
 
-static inline void add_lane(PixelSums *sums, Real3 color, uint lane)
+static inline ulong sum_of_lanes(LongCount lanes)
 {
-    const LongCount squares = square_of(color.x) + square_of(color.y) + square_of(color.z);
-    sums->colors[0] += lane_of(to_long(color.x), lane);
-    sums->colors[1] += lane_of(to_long(color.y), lane);
-    sums->colors[2] += lane_of(to_long(color.z), lane);
-    sums->squares += lane_of(squares, lane);
+    ulong sum = 0;
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        sum += ((const ulong *)&lanes)[lane];
+    return sum;
+}
+
+static inline void add_samples(PixelSums *sums, Real3 color)
+{
+    sums->colors[0] += sum_of_lanes(to_long(color.x));
+    sums->colors[1] += sum_of_lanes(to_long(color.y));
+    sums->colors[2] += sum_of_lanes(to_long(color.z));
+    sums->squares += sum_of_lanes(squares_of(color));
+}
+
+static inline void store_centers(global PixelSums *sums, Real3 color, uint count)
+{
+    const Scalar *red = (const Scalar *)&color.x, *green = (const Scalar *)&color.y,
+                 *blue = (const Scalar *)&color.z;
+    for (uint lane = 0; lane < min((uint)CLRT_LANES, count); lane++)
+        sums[lane] = (PixelSums){{(ulong)red[lane], (ulong)green[lane], (ulong)blue[lane]}, 0};
 }
 
 // Requests first to end - 1 are answered by the same elements of sums.  All of a launch are alike:
@@ -104,7 +113,7 @@ kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
     if (begin >= end)
         return;
     const uint count = min(end - begin, (uint)ITEM_REQUESTS);
-    const bool are_centers = requests[begin].first == NOTHING;
+    const bool are_centers = requests[begin].offset_x == NOTHING;
     const uint samples = are_centers ? 1 : LADDER_SAMPLES;
     Tally tally = {0};
     PixelSums sum = {{0, 0, 0}, 0};
@@ -114,11 +123,13 @@ kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
                                         ? center_samples(requests, number, begin + count)
                                         : request_samples(&requests[number], start % samples);
         const Real3 color = pixel_sample_color(&scene, &frame, &packet, &tally);
-        for (uint lane = 0; lane < min((uint)CLRT_LANES, samples * count - start); lane++) {
-            add_lane(&sum, color, lane);
-            if ((start + lane + 1) % samples != 0)
-                continue;
-            sums[begin + (start + lane) / samples] = sum;
+        if (are_centers) {
+            store_centers(sums + number, color, begin + count - number);
+            continue;
+        }
+        add_samples(&sum, color);
+        if ((start + CLRT_LANES) % LADDER_SAMPLES == 0) {
+            sums[number] = sum;
             sum = (PixelSums){{0, 0, 0}, 0};
         }
     }

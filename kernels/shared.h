@@ -161,12 +161,11 @@ CLRT_SAME_SIZE(SampleData, 16)
 // Samples that a request takes of its pixel, of which it can have LADDER_GRID.
 #define LADDER_SAMPLES 16
 
-// Samples wanted of a pixel: LADDER_SAMPLES of its sequence from the first on, or with NOTHING for
-// the first the one at its center.
+// A request for LADDER_SAMPLES samples of a pixel: offsets are XORed to the coordinates of the first
+// points of the sequence.  With NOTHING for offset_x it is for the one sample at the center.
 typedef struct {
     uint x, y;
-    uint scramble; // of the places; LADDER_GRID * LADDER_GRID values
-    uint first;
+    uint offset_x, offset_y;
 } PixelRequest;
 CLRT_SAME_SIZE(PixelRequest, 16)
 

@@ -14,11 +14,9 @@
 #define SCRAMBLE_SEED 0
 #define RUNG_SEED     1
 
-static uint64_t hash_of(const Ladder *ladder, size_t pixel, uint64_t seed)
+static uint64_t hash_of(uint32_t pixel, uint64_t seed)
 {
-    const uint32_t width = ladder->picture->width;
-    const uint32_t place[2] = {(uint32_t)(pixel % width), (uint32_t)(pixel / width)};
-    return XXH3_64bits_withSeed(place, sizeof place, seed);
+    return XXH3_64bits_withSeed(&pixel, sizeof pixel, seed);
 }
 
 static uint32_t rung_of(const Ladder *ladder, size_t pixel)
@@ -112,15 +110,12 @@ static uint32_t requests_from(uint32_t rung)
 
 static void list_pixel(Ladder *ladder, uint32_t pixel)
 {
-    PixelRequests *requests = &ladder->requests;
     const uint32_t width = ladder->picture->width, rung = rung_of(ladder, pixel);
-    const uint64_t hash = hash_of(ladder, pixel, SCRAMBLE_SEED);
-    PixelRequest request = {.x = pixel % width,
-                            .y = pixel / width,
-                            .scramble = (uint32_t)(hash % (LADDER_GRID * LADDER_GRID)),
-                            .first = rung == 0 ? 0 : ladder_samples[rung]};
-    for (uint32_t i = 0; i < requests_from(rung); i++, request.first += LADDER_SAMPLES)
-        requests->requests[requests->count++] = request;
+    const uint32_t place[2] = {pixel % width, pixel / width};
+    const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
+    const uint64_t hash = hash_of(pixel, SCRAMBLE_SEED);
+    for (uint32_t i = 0; i < requests_from(rung); i++)
+        pixel_requests_add(&ladder->requests, place, first + i * LADDER_SAMPLES, hash);
 }
 
 static double mean_square_change(const float before[3], const float after[3])
@@ -200,12 +195,32 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Chunks of pixels, each with those that are to advance.
+// The choice of the pixels that advance, in chunks.
 typedef struct {
     const Ladder *ladder;
-    uint32_t *pixels; // of each chunk from its first pixel's place on
-    uint32_t *counts; // of each chunk
+    double fractions[STRATA_COUNT]; // 0 where all that are chosen have advanced
+    uint32_t *pixels;               // of each chunk from its first pixel's place on
+    uint32_t *counts;               // of each chunk
 } Choosing;
+
+// A number in [0, 1) that is the same as long as the pixel stays on its rung.
+static double chance_of(const Ladder *ladder, uint32_t pixel)
+{
+    return (double)(hash_of(pixel, RUNG_SEED + rung_of(ladder, pixel)) >> 11) * 0x1p-53;
+}
+
+// A stratum whose fraction and pixels are as they were after the last choice has nobody to choose,
+// which spares most hashes.
+static void take_fractions(Choosing *choosing, Ladder *ladder)
+{
+    for (uint32_t i = 0; i < STRATA_COUNT; i++) {
+        const Stratum *now = &ladder->statistics.strata[i];
+        Stratum *before = &ladder->chosen.strata[i];
+        const bool is_same = now->fraction == before->fraction && now->entered == before->entered;
+        choosing->fractions[i] = is_same ? 0 : now->fraction;
+        *before = *now;
+    }
+}
 
 static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
 {
@@ -216,11 +231,8 @@ static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
     const uint32_t end = chunk_end(chunk, (uint32_t)ladder->statistics.pixels);
     uint32_t *chosen = choosing->pixels + first;
     for (uint32_t pixel = first; pixel < end; pixel++) {
-        const double fraction = ladder->statistics.strata[ladder->strata[pixel]].fraction;
-        if (fraction <= 0)
-            continue;
-        const uint64_t hash = hash_of(ladder, pixel, RUNG_SEED + rung_of(ladder, pixel));
-        if ((double)(hash >> 11) * 0x1p-53 < fraction)
+        const double fraction = choosing->fractions[ladder->strata[pixel]];
+        if (fraction > 0 && chance_of(ladder, pixel) < fraction)
             *chosen++ = pixel;
     }
     choosing->counts[chunk] = (uint32_t)(chosen - (choosing->pixels + first));
@@ -246,6 +258,7 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
                          .counts = memory_raw(chunks, sizeof *choosing.counts, error)};
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
+        take_fractions(&choosing, ladder);
         crew_run(ladder->crew, chunks, choose_chunk, &choosing);
         *advanced = join_chunks(&choosing, chunks);
         ok = climb_chosen(ladder, choosing.pixels, *advanced, error);

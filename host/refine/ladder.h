@@ -22,6 +22,7 @@ typedef struct {
     uint32_t *sum_places;  // of each pixel in sums, 0 on rung 0
     ARRAY(PixelSums) sums; // from 1
     Strata statistics;
+    Strata chosen;    // the statistics by which pixels were chosen last
     uint64_t samples; // taken
 } Ladder;
 

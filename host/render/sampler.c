@@ -196,7 +196,7 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 bool sampler_warm_up(Renderer *renderer, Error *error)
 {
     static const SamplePlace nowhere = {NOTHING, 0};
-    static const PixelRequest outside = {.x = NOTHING, .first = NOTHING};
+    static const PixelRequest outside = {.x = NOTHING, .offset_x = NOTHING};
     SampleData sample;
     PixelSums sums;
     const bool is_ladder = renderer->entry == KERNEL_LADDER;

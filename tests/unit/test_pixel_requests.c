@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Places of a pixel's samples.
+#include "refine/pixel_requests.h"
+#include "unit/cmocka_all.h"
+
+#include <string.h>
+
+#define HASH 0x5bd1e995u
+
+// The points that a request's offsets are XORed to (kernels/ladder.cl).
+static const uint32_t points[LADDER_SAMPLES][2] = {
+    {0, 0},     {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128},
+    {384, 384}, {896, 896}, {64, 960},  {576, 448}, {320, 192}, {832, 704},
+    {192, 320}, {704, 832}, {448, 576}, {960, 64}};
+
+// Leaves the places of the first `count` samples of a pixel in places.
+static void place(uint32_t count, uint32_t places[][2])
+{
+    const uint32_t pixel[2] = {3, 5};
+    PixelRequest list[LADDER_GRID / LADDER_SAMPLES];
+    PixelRequests requests = {.requests = list};
+    for (uint32_t first = 0; first < count; first += LADDER_SAMPLES)
+        pixel_requests_add(&requests, pixel, first, HASH);
+    for (uint32_t i = 0; i < count; i++) {
+        const PixelRequest *request = &list[i / LADDER_SAMPLES];
+        assert_int_equal(request->x, 3);
+        assert_int_equal(request->y, 5);
+        places[i][0] = points[i % LADDER_SAMPLES][0] ^ request->offset_x;
+        places[i][1] = points[i % LADDER_SAMPLES][1] ^ request->offset_y;
+    }
+}
+
+// Cuts the pixel into columns x rows rectangles, and expects as many samples in each.
+static void expect_one_in_each(uint32_t columns, uint32_t rows)
+{
+    static uint32_t places[LADDER_GRID][2];
+    static bool is_taken[LADDER_GRID];
+    const uint32_t count = columns * rows;
+    place(count, places);
+    memset(is_taken, 0, sizeof is_taken);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(places[i][0] < LADDER_GRID && places[i][1] < LADDER_GRID);
+        const uint32_t column = places[i][0] * columns / LADDER_GRID,
+                       row = places[i][1] * rows / LADDER_GRID;
+        assert_false(is_taken[row * columns + column]);
+        is_taken[row * columns + column] = true;
+    }
+}
+
+static void every_rung_has_one_sample_in_each_rectangle_of_its_size(void **state)
+{
+    (void)state;
+    for (uint32_t count = LADDER_SAMPLES; count <= LADDER_GRID; count *= 4)
+        for (uint32_t columns = 1; columns <= count; columns *= 2)
+            expect_one_in_each(columns, count / columns);
+}
+
+static void hashes_move_the_samples(void **state)
+{
+    (void)state;
+    const uint32_t pixel[2] = {0, 0};
+    PixelRequest list[2];
+    PixelRequests requests = {.requests = list};
+    pixel_requests_add(&requests, pixel, 0, 1);
+    pixel_requests_add(&requests, pixel, 0, 2 * LADDER_GRID);
+    assert_int_equal(list[0].offset_x, 1);
+    assert_int_equal(list[0].offset_y, 0);
+    assert_int_equal(list[1].offset_x, 0);
+    assert_int_equal(list[1].offset_y, 2);
+}
+
+static void sums_give_mean_and_variance(void **state)
+{
+    (void)state;
+    PixelSums sums = {.squares = 0};
+    // Half of 16 samples are black and half are (1, 0.5, 0).
+    const PixelSums bright = {{1ull << 32, 1ull << 31, 0}, (1ull << 48) + (1ull << 46)};
+    for (int i = 0; i < 8; i++)
+        pixel_sums_add(&sums, &bright);
+    float mean[3];
+    pixel_sums_mean(&sums, 16, mean);
+    assert_true(mean[0] == 0.5f && mean[1] == 0.25f && mean[2] == 0.0f);
+    assert_true(pixel_sums_variance(&sums, 16) == (0.25 + 0.0625) / 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_rung_has_one_sample_in_each_rectangle_of_its_size),
+        cmocka_unit_test(hashes_move_the_samples),
+        cmocka_unit_test(sums_give_mean_and_variance),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
