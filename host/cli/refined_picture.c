@@ -10,10 +10,12 @@
 #include <math.h>
 #include <stdio.h>
 
-// Whoever names the levels of reflections asks for the picture that they make.
+// The error that counts beside that of sampling.  Levels that --error chooses are part of its error;
+// any others are part of the picture.
 static double truncation_of(const Run *run)
 {
-    return run->options->max_level >= 0 ? 0 : run->report.truncation;
+    const Options *options = run->options;
+    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
 }
 
 // The error that sampling may make beside the truncation's; below 0 where that alone is too much.
