@@ -15,39 +15,40 @@ typedef struct {
     Truth active;
 } PixelSamples;
 
-// The first LADDER_SAMPLES points of Sobol's sequence (host/refine/pixel_requests.h).
-constant uint point_x[LADDER_SAMPLES] = {0,  512, 256, 768, 128, 640, 384, 896,
-                                         64, 576, 320, 832, 192, 704, 448, 960};
-constant uint point_y[LADDER_SAMPLES] = {0,   512, 768, 256, 640, 128, 384, 896,
-                                         960, 448, 192, 704, 320, 832, 576, 64};
+// The first REQUEST_SAMPLES points of Sobol's sequence (host/refine/pixel_requests.h).
+constant uint point_x[REQUEST_SAMPLES] = {0,  512, 256, 768, 128, 640, 384, 896,
+                                          64, 576, 320, 832, 192, 704, 448, 960};
+constant uint point_y[REQUEST_SAMPLES] = {0,   512, 768, 256, 640, 128, 384, 896,
+                                          960, 448, 192, 704, 320, 832, 576, 64};
 
 #if CLRT_LANES == 1
-#define LOAD_LANES(words) (*(words))
+#define LANE_NUMBER 0
+static inline Count lookup(constant const uint *words, Count place)
+{
+    return words[place];
+}
 #else
-#define LOAD_LANES(words) FOR_LANES(vload)(0, words)
+#define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
+static inline Count lookup(constant const uint *words, Count place)
+{
+    return (Count)(FOR_LANES(GATHER_)(place));
+}
 #endif
 
-static inline Count request_word(global const PixelRequest *requests, Count number, uint word)
+// Samples start to start + CLRT_LANES - 1 of a list of requests that all have as many samples.
+static inline PixelSamples samples_of(global const PixelRequest *requests, uint samples, uint start,
+                                      uint end)
 {
-    return gather((global const uint *)requests,
-                  number * (uint)(sizeof(PixelRequest) / sizeof(uint)) + word);
-}
-
-// The centers of pixels, a request in each lane.
-static inline PixelSamples center_samples(global const PixelRequest *requests, uint start, uint end)
-{
-    const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Count present = min(number, (Count)(end - 1));
-    return (PixelSamples){request_word(requests, present, 0), request_word(requests, present, 1),
-                          LADDER_GRID, LADDER_GRID, number < end};
-}
-
-// The samples of a request from `first` on, one in each lane.
-static inline PixelSamples request_samples(global const PixelRequest *request, uint first)
-{
-    const Count x = LOAD_LANES(point_x + first) ^ request->offset_x;
-    const Count y = LOAD_LANES(point_y + first) ^ request->offset_y;
-    return (PixelSamples){request->x, request->y, 2 * x + 1, 2 * y + 1, (Truth)(-1)};
+    const Count sample = start + LANE_NUMBER, present = min(sample, (Count)(end - 1));
+    const Count word = present / samples * (uint)(sizeof(PixelRequest) / sizeof(uint));
+    global const uint *words = (global const uint *)requests;
+    const Count offset = gather(words, word + 2), point = present % samples;
+    const bool is_center = samples == 1;
+    const Count x = lookup(point_x, point) ^ offset % LADDER_GRID;
+    const Count y = lookup(point_y, point) ^ offset / LADDER_GRID;
+    return (PixelSamples){gather(words, word), gather(words, word + 1),
+                          is_center ? (Count)(LADDER_GRID) : 2 * x + 1,
+                          is_center ? (Count)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
 // Colors in steps of 2^-32.
@@ -90,17 +91,27 @@ static inline void add_samples(PixelSums *sums, Real3 color)
     sums->squares += sum_of_lanes(squares_of(color));
 }
 
-static inline void store_centers(global PixelSums *sums, Real3 color, uint count)
+// Stores the sums of the requests that a packet holds whole.
+static inline void store_sums(global PixelSums *sums, Real3 color, uint samples, uint count)
 {
-    const Scalar *red = (const Scalar *)&color.x, *green = (const Scalar *)&color.y,
-                 *blue = (const Scalar *)&color.z;
-    for (uint lane = 0; lane < min((uint)CLRT_LANES, count); lane++)
-        sums[lane] = (PixelSums){{(ulong)red[lane], (ulong)green[lane], (ulong)blue[lane]}, 0};
+    const LongCount red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
+    const LongCount squares = squares_of(color);
+    PixelSums sum = {{0, 0, 0}, 0};
+    for (uint lane = 0; lane < min((uint)CLRT_LANES, count); lane++) {
+        sum.colors[0] += ((const ulong *)&red)[lane];
+        sum.colors[1] += ((const ulong *)&green)[lane];
+        sum.colors[2] += ((const ulong *)&blue)[lane];
+        sum.squares += ((const ulong *)&squares)[lane];
+        if ((lane + 1) % samples != 0)
+            continue;
+        sums[lane / samples] = sum;
+        sum = (PixelSums){{0, 0, 0}, 0};
+    }
 }
 
-// Requests first to end - 1 are answered by the same elements of sums.  All of a launch are alike:
-// LADDER_SAMPLES samples each, or the center alone.  A work-item answers ITEM_REQUESTS that follow
-// each other; tallies are written where they begin, and only where statistics are compiled in.
+// Requests first to end - 1, which all have as many samples, are answered by the same elements of
+// sums.  A work-item answers ITEM_REQUESTS that follow each other; tallies are written where they
+// begin, and only where statistics are compiled in.
 kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
                          global const Material *materials, global const SphereData *spheres,
                          global const Node *nodes, global const Triangles *triangles,
@@ -112,24 +123,21 @@ kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
     const uint begin = first + ITEM_REQUESTS * (uint)get_global_id(0);
     if (begin >= end)
         return;
-    const uint count = min(end - begin, (uint)ITEM_REQUESTS);
-    const bool are_centers = requests[begin].offset_x == NOTHING;
-    const uint samples = are_centers ? 1 : LADDER_SAMPLES;
+    const uint samples = requests[begin].samples;
+    const uint count = samples * min(end - begin, (uint)ITEM_REQUESTS);
     Tally tally = {0};
     PixelSums sum = {{0, 0, 0}, 0};
-    for (uint start = 0; start < samples * count; start += CLRT_LANES) {
-        const uint number = begin + start / samples;
-        const PixelSamples packet = are_centers
-                                        ? center_samples(requests, number, begin + count)
-                                        : request_samples(&requests[number], start % samples);
+    for (uint start = 0; start < count; start += CLRT_LANES) {
+        const PixelSamples packet = samples_of(requests + begin, samples, start, count);
         const Real3 color = pixel_sample_color(&scene, &frame, &packet, &tally);
-        if (are_centers) {
-            store_centers(sums + number, color, begin + count - number);
+        global PixelSums *place = sums + begin + start / samples;
+        if (samples < CLRT_LANES) {
+            store_sums(place, color, samples, count - start);
             continue;
         }
         add_samples(&sum, color);
-        if ((start + CLRT_LANES) % LADDER_SAMPLES == 0) {
-            sums[number] = sum;
+        if ((start + CLRT_LANES) % samples == 0) {
+            *place = sum;
             sum = (PixelSums){{0, 0, 0}, 0};
         }
     }

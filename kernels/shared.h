@@ -158,14 +158,15 @@ CLRT_SAME_SIZE(SampleData, 16)
 // center is then that of a picture with one sample a pixel, bit for bit.
 #define LADDER_GRID 1024
 
-// Samples that a request takes of its pixel, of which it can have LADDER_GRID.
-#define LADDER_SAMPLES 16
+// The most samples that a request takes of its pixel, which can have LADDER_GRID.
+#define REQUEST_SAMPLES 16
 
-// A request for LADDER_SAMPLES samples of a pixel: offsets are XORed to the coordinates of the first
-// points of the sequence.  With NOTHING for offset_x it is for the one sample at the center.
+// A request for samples of a pixel: 1 at its center, or the first 4 or REQUEST_SAMPLES points of a
+// sequence, whose coordinates are XORed with the two digits of offset to the base LADDER_GRID.
 typedef struct {
     uint x, y;
-    uint offset_x, offset_y;
+    uint offset;
+    uint samples;
 } PixelRequest;
 CLRT_SAME_SIZE(PixelRequest, 16)
 

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 
-// The error that counts beside that of sampling.  Levels that --error chooses are part of its error;
-// any others are part of the picture.
+// The error that counts beside that of sampling.  Levels that --error chooses are part of its
+// error; any others are part of the picture.
 static double truncation_of(const Run *run)
 {
     const Options *options = run->options;

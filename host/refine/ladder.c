@@ -14,6 +14,9 @@
 #define SCRAMBLE_SEED 0
 #define RUNG_SEED     1
 
+// Samples of a request on the way to the rung of REQUEST_SAMPLES; beyond, requests are full.
+#define FIRST_SAMPLES 4
+
 static uint64_t hash_of(uint32_t pixel, uint64_t seed)
 {
     return XXH3_64bits_withSeed(&pixel, sizeof pixel, seed);
@@ -101,21 +104,30 @@ void ladder_close(Ladder *ladder)
     *ladder = (Ladder){0};
 }
 
-// Requests that take a pixel from a rung to the next.
-static uint32_t requests_from(uint32_t rung)
+// How a pixel gets from a rung to the next.
+typedef struct {
+    uint32_t first;   // of the samples that it gets
+    uint32_t samples; // of a request
+    uint32_t requests;
+} Step;
+
+static Step step_from(uint32_t rung)
 {
-    const uint32_t present = rung == 0 ? 0 : ladder_samples[rung];
-    return (ladder_samples[rung + 1] - present) / LADDER_SAMPLES;
+    const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
+    const uint32_t samples = first < REQUEST_SAMPLES ? FIRST_SAMPLES : REQUEST_SAMPLES;
+    return (Step){first, samples, (ladder_samples[rung + 1] - first) / samples};
 }
 
 static void list_pixel(Ladder *ladder, uint32_t pixel)
 {
-    const uint32_t width = ladder->picture->width, rung = rung_of(ladder, pixel);
+    PixelRequests *requests = &ladder->requests;
+    const uint32_t width = ladder->picture->width;
     const uint32_t place[2] = {pixel % width, pixel / width};
-    const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
     const uint64_t hash = hash_of(pixel, SCRAMBLE_SEED);
-    for (uint32_t i = 0; i < requests_from(rung); i++)
-        pixel_requests_add(&ladder->requests, place, first + i * LADDER_SAMPLES, hash);
+    const Step step = step_from(rung_of(ladder, pixel));
+    for (uint32_t i = 0; i < step.requests; i++)
+        requests->requests[requests->count++] =
+            pixel_request(place, step.first + i * step.samples, step.samples, hash);
 }
 
 static double mean_square_change(const float before[3], const float after[3])
@@ -149,7 +161,7 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
     PixelSums *sums = sums_of(ladder, pixel, error);
     if (sums == NULL)
         return false;
-    for (uint32_t i = 0; i < requests_from(rung); i++)
+    for (uint32_t i = 0; i < step_from(rung).requests; i++)
         pixel_sums_add(sums, &answers[i]);
     memcpy(before, color, sizeof before);
     pixel_sums_mean(sums, samples, color);
@@ -168,10 +180,10 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
     const PixelSums *answers = requests->sums;
     bool ok = pixel_requests_trace(requests, error);
     for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
-        const uint32_t of_pixel = requests_from(rung_of(ladder, pixels[i]));
+        const Step step = step_from(rung_of(ladder, pixels[i]));
         ok = climb(ladder, pixels[i], answers, error);
-        answers += of_pixel;
-        ladder->samples += of_pixel * LADDER_SAMPLES;
+        answers += step.requests;
+        ladder->samples += step.requests * step.samples;
     }
     requests->count = 0;
     return ok;
@@ -179,7 +191,7 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
 
 static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count, Error *error)
 {
-    const uint32_t most = requests_from(LADDER_RUNGS - 2);
+    const uint32_t most = step_from(LADDER_RUNGS - 2).requests;
     size_t listed = 0;
     for (uint64_t i = 0; i < count; i++) {
         list_pixel(ladder, pixels[i]);
@@ -209,11 +221,14 @@ static double chance_of(const Ladder *ladder, uint32_t pixel)
     return (double)(hash_of(pixel, RUNG_SEED + rung_of(ladder, pixel)) >> 11) * 0x1p-53;
 }
 
-// A stratum whose fraction and pixels are as they were after the last choice has nobody to choose,
-// which spares most hashes.
-static void take_fractions(Choosing *choosing, Ladder *ladder)
+// Chooses from the strata whose requests have that many samples.  A stratum whose fraction and
+// pixels are as they were at the last choice has nobody to choose, which spares most hashes.
+static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
 {
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
+        const uint32_t rung = strata_rung(i);
+        if (rung + 1 == LADDER_RUNGS || step_from(rung).samples != samples)
+            continue;
         const Stratum *now = &ladder->statistics.strata[i];
         Stratum *before = &ladder->chosen.strata[i];
         const bool is_same = now->fraction == before->fraction && now->entered == before->entered;
@@ -250,7 +265,8 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
     return count;
 }
 
-bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
+// Lets pixels advance whose requests have that many samples, and adds them to *advanced.
+static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {
     const uint32_t pixels = (uint32_t)ladder->statistics.pixels, chunks = chunk_count(pixels);
     Choosing choosing = {.ladder = ladder,
@@ -258,12 +274,21 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
                          .counts = memory_raw(chunks, sizeof *choosing.counts, error)};
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
-        take_fractions(&choosing, ladder);
+        take_fractions(&choosing, ladder, samples);
         crew_run(ladder->crew, chunks, choose_chunk, &choosing);
-        *advanced = join_chunks(&choosing, chunks);
-        ok = climb_chosen(ladder, choosing.pixels, *advanced, error);
+        const uint64_t count = join_chunks(&choosing, chunks);
+        ok = climb_chosen(ladder, choosing.pixels, count, error);
+        *advanced += count;
     }
     free(choosing.pixels);
     free(choosing.counts);
     return ok;
+}
+
+bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
+{
+    *advanced = 0;
+    return advance_alike(ladder, FIRST_SAMPLES, advanced, error) &&
+           (!pixel_requests_are_whole(&ladder->requests) ||
+            advance_alike(ladder, REQUEST_SAMPLES, advanced, error));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture whose pixels climb a ladder of samples: the center alone, then 16, 64, 256 and 1024
+// A picture whose pixels climb a ladder of samples: the center alone, then 4, 16, 64, 256 and 1024
 // points of a sequence of their own.  Strata decide how many pixels advance, and hashes of their
 // places which of them, so that the picture depends on no order and no device.
 #pragma once

@@ -27,18 +27,16 @@ void pixel_requests_free(PixelRequests *requests)
 // Coordinate x of a point is its number with the bits reversed; the bits of y are sums of binomial
 // coefficients mod 2.  Both are linear over GF(2): the coordinates of first + i are those of first
 // XOR those of i, which the kernel knows.
-void pixel_requests_add(PixelRequests *requests, const uint32_t pixel[2], uint32_t first,
-                        uint64_t hash)
+PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
 {
-    PixelRequest request = {pixel[0], pixel[1], (uint32_t)(hash % LADDER_GRID),
-                            (uint32_t)(hash / LADDER_GRID % LADDER_GRID)};
-    uint32_t y_bits = LADDER_GRID / 2;
+    uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;
     for (uint32_t x_bit = LADDER_GRID / 2; x_bit != 0; x_bit /= 2, first /= 2) {
-        request.offset_x ^= (first & 1) * x_bit;
-        request.offset_y ^= (first & 1) * y_bits;
+        x ^= (first & 1) * x_bit;
+        y ^= (first & 1) * y_bits;
         y_bits ^= y_bits / 2;
     }
-    requests->requests[requests->count++] = request;
+    const uint32_t scramble = (uint32_t)(hash % (LADDER_GRID * LADDER_GRID));
+    return (PixelRequest){pixel[0], pixel[1], scramble ^ (x + LADDER_GRID * y), samples};
 }
 
 bool pixel_requests_are_whole(const PixelRequests *requests)
@@ -70,7 +68,7 @@ static void list_block(PixelRequests *requests, uint32_t left, uint32_t top)
         const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
         const bool is_inside = x < frame->width && y < frame->height;
         requests->requests[requests->count++] =
-            (PixelRequest){.x = is_inside ? x : NOTHING, .y = y, .offset_x = NOTHING};
+            (PixelRequest){.x = is_inside ? x : NOTHING, .y = y, .samples = 1};
     }
 }
 

@@ -11,7 +11,8 @@ typedef struct {
     Renderer *renderer;             // of KERNEL_LADDER; borrowed
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
-    PixelRequest *requests;         // REQUESTS_MOST of them, of which count are there
+    PixelRequest *requests;         // REQUESTS_MOST of them, of which count are there; all have
+                                    // as many samples
     PixelSums *sums;                // of the requests that were traced last
     uint32_t count;
 } PixelRequests;
@@ -19,12 +20,12 @@ typedef struct {
 bool pixel_requests_make(PixelRequests *requests, Error *error);
 void pixel_requests_free(PixelRequests *requests);
 
-// Appends a request for samples first to first + LADDER_SAMPLES - 1 of the pixel (x, y).  Its
-// places are points of Sobol's sequence in two dimensions ("On the distribution of points in a cube
-// and the approximate evaluation of integrals", 1967), scrambled by XOR with the low bits of a
-// hash.  There is room for it, and first is a multiple of LADDER_SAMPLES.
-void pixel_requests_add(PixelRequests *requests, const uint32_t pixel[2], uint32_t first,
-                        uint64_t hash);
+// Samples first to first + samples - 1 of a pixel, samples being 4 or REQUEST_SAMPLES and first a
+// multiple of it.  Their places are points of Sobol's sequence in two dimensions ("On the
+// distribution of points in a cube and the approximate evaluation of integrals", 1967), scrambled
+// by XOR with the low bits of a hash.
+PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
+                           uint64_t hash);
 
 // Whether the observer has not stopped what was traced.
 bool pixel_requests_are_whole(const PixelRequests *requests);

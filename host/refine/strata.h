@@ -9,8 +9,8 @@
 #include <stdint.h>
 
 // Samples of a pixel on each rung: its center, or that many of its sequence.
-#define LADDER_RUNGS 5
-static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 16, 64, 256, 1024};
+#define LADDER_RUNGS 6
+static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
 
 // Strata of rung 0 are octaves of the bend; those from FLAT_CLASS on exist twice, away from
 // contrast and from NEAR_CLASS on beside it.  Higher rungs have octaves of the standard deviation
@@ -18,7 +18,7 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 16, 64, 256, 1024};
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define BEND_CLASSES      12
-#define DEVIATION_CLASSES 5
+#define DEVIATION_CLASSES 7
 #define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
 
 // A change is the mean square of a pixel's color values after minus before it advanced; its feature

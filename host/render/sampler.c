@@ -99,6 +99,12 @@ static bool set_arguments(const Sampling *sampling, const FrameData *frame, Erro
     return cl_succeeded(status, "set the kernel's arguments", error);
 }
 
+static const char *sampling_attempt(const Renderer *renderer)
+{
+    return renderer->entry == KERNEL_LADDER ? "run the kernel trace_pixels"
+                                            : "run the kernel trace_samples";
+}
+
 static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
@@ -115,7 +121,7 @@ static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
                                         &group, 0, NULL, &sampling->done[number % 2]);
     if (status == CL_SUCCESS)
         status = clFlush(renderer->device->queue);
-    return cl_succeeded(status, "run the kernel for samples", error);
+    return cl_succeeded(status, sampling_attempt(renderer), error);
 }
 
 static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
@@ -196,7 +202,7 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 bool sampler_warm_up(Renderer *renderer, Error *error)
 {
     static const SamplePlace nowhere = {NOTHING, 0};
-    static const PixelRequest outside = {.x = NOTHING, .offset_x = NOTHING};
+    static const PixelRequest outside = {.x = NOTHING, .samples = 1};
     SampleData sample;
     PixelSums sums;
     const bool is_ladder = renderer->entry == KERNEL_LADDER;

@@ -61,7 +61,7 @@ static void all_but_some_controls_keep_their_center_where_any_error_will_do(void
         changed += memcmp(picture.pixels[i], centers.pixels[i], sizeof picture.pixels[i]) != 0;
     assert_true(changed > 0);
     assert_true(samples > pixels && samples < 2 * pixels);
-    assert_true(changed <= (samples - pixels) / LADDER_SAMPLES);
+    assert_true(changed <= (samples - pixels) / ladder_samples[1]);
     framebuffer_free(&picture);
     framebuffer_free(&centers);
 }

@@ -7,27 +7,32 @@
 
 #define HASH 0x5bd1e995u
 
-// The points that a request's offsets are XORed to (kernels/ladder.cl).
-static const uint32_t points[LADDER_SAMPLES][2] = {
-    {0, 0},     {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128},
-    {384, 384}, {896, 896}, {64, 960},  {576, 448}, {320, 192}, {832, 704},
-    {192, 320}, {704, 832}, {448, 576}, {960, 64}};
+// The points that the two digits of a request's offset are XORed to (kernels/ladder.cl).
+static const uint32_t points[REQUEST_SAMPLES][2] = {
+    {0, 0},    {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128}, {384, 384}, {896, 896},
+    {64, 960}, {576, 448}, {320, 192}, {832, 704}, {192, 320}, {704, 832}, {448, 576}, {960, 64}};
 
-// Leaves the places of the first `count` samples of a pixel in places.
-static void place(uint32_t count, uint32_t places[][2])
+// Leaves the places of samples first to end - 1 of a pixel in places, `samples` of them a request.
+static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t places[][2])
 {
     const uint32_t pixel[2] = {3, 5};
-    PixelRequest list[LADDER_GRID / LADDER_SAMPLES];
-    PixelRequests requests = {.requests = list};
-    for (uint32_t first = 0; first < count; first += LADDER_SAMPLES)
-        pixel_requests_add(&requests, pixel, first, HASH);
-    for (uint32_t i = 0; i < count; i++) {
-        const PixelRequest *request = &list[i / LADDER_SAMPLES];
-        assert_int_equal(request->x, 3);
-        assert_int_equal(request->y, 5);
-        places[i][0] = points[i % LADDER_SAMPLES][0] ^ request->offset_x;
-        places[i][1] = points[i % LADDER_SAMPLES][1] ^ request->offset_y;
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t point = i % samples;
+        const PixelRequest request = pixel_request(pixel, i - point, samples, HASH);
+        assert_int_equal(request.x, 3);
+        assert_int_equal(request.y, 5);
+        assert_int_equal(request.samples, samples);
+        places[i][0] = points[point][0] ^ request.offset % LADDER_GRID;
+        places[i][1] = points[point][1] ^ request.offset / LADDER_GRID;
     }
+}
+
+// The first 16 are requested in fours.
+static void place_all(uint32_t count, uint32_t places[][2])
+{
+    const uint32_t fours = count < REQUEST_SAMPLES ? count : REQUEST_SAMPLES;
+    place(0, fours, 4, places);
+    place(fours, count, REQUEST_SAMPLES, places);
 }
 
 // Cuts the pixel into columns x rows rectangles, and expects as many samples in each.
@@ -36,7 +41,7 @@ static void expect_one_in_each(uint32_t columns, uint32_t rows)
     static uint32_t places[LADDER_GRID][2];
     static bool is_taken[LADDER_GRID];
     const uint32_t count = columns * rows;
-    place(count, places);
+    place_all(count, places);
     memset(is_taken, 0, sizeof is_taken);
     for (uint32_t i = 0; i < count; i++) {
         assert_true(places[i][0] < LADDER_GRID && places[i][1] < LADDER_GRID);
@@ -50,7 +55,7 @@ static void expect_one_in_each(uint32_t columns, uint32_t rows)
 static void every_rung_has_one_sample_in_each_rectangle_of_its_size(void **state)
 {
     (void)state;
-    for (uint32_t count = LADDER_SAMPLES; count <= LADDER_GRID; count *= 4)
+    for (uint32_t count = 4; count <= LADDER_GRID; count *= 4)
         for (uint32_t columns = 1; columns <= count; columns *= 2)
             expect_one_in_each(columns, count / columns);
 }
@@ -59,14 +64,8 @@ static void hashes_move_the_samples(void **state)
 {
     (void)state;
     const uint32_t pixel[2] = {0, 0};
-    PixelRequest list[2];
-    PixelRequests requests = {.requests = list};
-    pixel_requests_add(&requests, pixel, 0, 1);
-    pixel_requests_add(&requests, pixel, 0, 2 * LADDER_GRID);
-    assert_int_equal(list[0].offset_x, 1);
-    assert_int_equal(list[0].offset_y, 0);
-    assert_int_equal(list[1].offset_x, 0);
-    assert_int_equal(list[1].offset_y, 2);
+    assert_int_equal(pixel_request(pixel, 0, 4, 1).offset, 1);
+    assert_int_equal(pixel_request(pixel, 0, 4, 2 * LADDER_GRID).offset, 2 * LADDER_GRID);
 }
 
 static void sums_give_mean_and_variance(void **state)

@@ -90,7 +90,7 @@ def holding_settings(rows, scene, options, folder):
 
 def time_row(row, scene, options, folder):
     frames = FRAMES - 1 if row["kind"] == "time" else FRAMES
-    done = run_clrt([scene, "-q", "-v", "--repeat", frames, "-o", folder / "unused.pfm",
+    done = run_clrt([scene, "-v", "--repeat", frames, "-o", folder / "unused.pfm",
                      *options.clrt_words, *row["words"]], may_miss=row["kind"] == "error")
     traced = [float(text) for text in re.findall(r"traced in ([0-9.]+) s", done.stderr)]
     row["times"].append(min(traced[1:]))
