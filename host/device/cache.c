@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Finds a folder that can be written and locks it with flock, which the system drops by itself
-// when a process dies.  What sets the environment or removes files is cache_open.c.
+// when a process dies.  cache_open.c sets the environment.
 #include "device/cache.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <fts.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/file.h>
@@ -27,35 +28,51 @@ static bool make_folder(const char *path)
     return (mkdir(part, 0700) == 0 || errno == EEXIST) && access(part, W_OK | X_OK) == 0;
 }
 
-static bool usable_path(char path[CACHE_PATH_SIZE], const char *base, const char *rest)
-{
-    if (base == NULL || base[0] != '/')
-        return false;
-    const int length = snprintf(path, CACHE_PATH_SIZE, "%s%s", base, rest);
-    return length > 0 && length < CACHE_PATH_SIZE && make_folder(path);
-}
-
-static bool find_folder(Cache *cache, const char *under_cache, const char *under_home)
+bool cache_take_folder(Cache *cache, const char *base, const char *rest)
 {
     *cache = (Cache){0};
-    if (usable_path(cache->folder, getenv("XDG_CACHE_HOME"), under_cache) ||
-        usable_path(cache->folder, getenv("HOME"), under_home))
+    if (base == NULL || base[0] != '/')
+        return false;
+    const int length = snprintf(cache->folder, CACHE_PATH_SIZE, "%s%s", base, rest);
+    if (length < CACHE_PATH_SIZE && make_folder(cache->folder))
         return true;
     cache->folder[0] = '\0';
     return false;
 }
 
-bool cache_find(Cache *cache)
+// The folder that PoCL chooses where nobody chooses for it.
+static void find_kernels(Cache *cache)
 {
-    return find_folder(cache, "/clrt", "/.cache/clrt");
+    const char *chosen = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME"),
+               *home = getenv("HOME");
+    int length = 0;
+    if (chosen != NULL)
+        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s", chosen);
+    else if (user != NULL && user[0] != '\0')
+        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s/pocl/kcache", user);
+    else if (home != NULL)
+        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s/.cache/pocl/kcache", home);
+    if (length >= CACHE_PATH_SIZE)
+        cache->kernels[0] = '\0';
 }
 
 void cache_open_for_library(Cache *cache)
 {
-    if (getenv("POCL_CACHE_DIR") != NULL)
-        cache_find(cache);
-    else
-        find_folder(cache, "/clrt/library", "/.cache/clrt/library");
+    if (cache_take_folder(cache, getenv("XDG_CACHE_HOME"), "/clrt/library") ||
+        cache_take_folder(cache, getenv("HOME"), "/.cache/clrt/library"))
+        find_kernels(cache);
+}
+
+void cache_remove(const char *path)
+{
+    char *const paths[] = {(char *)path, NULL};
+    FTS *tree = fts_open(paths, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    if (tree == NULL)
+        return;
+    for (FTSENT *entry = fts_read(tree); entry != NULL; entry = fts_read(tree))
+        if (entry->fts_info != FTS_D)
+            remove(entry->fts_path);
+    fts_close(tree);
 }
 
 int cache_lock(const Cache *cache)
@@ -82,27 +99,10 @@ void cache_unlock(int lock)
         close(lock);
 }
 
-static bool key_path(const Cache *cache, const char *kind, const char *key,
-                     char path[2 * CACHE_PATH_SIZE])
+static bool lost_path(const Cache *cache, const char *key, char path[2 * CACHE_PATH_SIZE])
 {
-    snprintf(path, 2 * CACHE_PATH_SIZE, "%s/%s-%s", cache->folder, kind, key);
+    snprintf(path, 2 * CACHE_PATH_SIZE, "%s/lost-%s", cache->folder, key);
     return cache->folder[0] != '\0';
-}
-
-bool cache_has_mark(const Cache *cache, const char *key)
-{
-    char path[2 * CACHE_PATH_SIZE];
-    return key_path(cache, "built", key, path) && access(path, F_OK) == 0;
-}
-
-void cache_set_mark(const Cache *cache, const char *key)
-{
-    char path[2 * CACHE_PATH_SIZE];
-    if (!key_path(cache, "built", key, path))
-        return;
-    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-    if (file >= 0)
-        close(file);
 }
 
 // The sum is the size of a file without contents, in milliseconds: it takes no parsing, and no
@@ -111,14 +111,14 @@ double cache_lost(const Cache *cache, const char *key)
 {
     char path[2 * CACHE_PATH_SIZE];
     struct stat status;
-    const bool found = key_path(cache, "lost", key, path) && stat(path, &status) == 0;
+    const bool found = lost_path(cache, key, path) && stat(path, &status) == 0;
     return found ? (double)status.st_size * 1e-3 : 0;
 }
 
 void cache_add_lost(const Cache *cache, const char *key, double seconds)
 {
     char path[2 * CACHE_PATH_SIZE];
-    if (!key_path(cache, "lost", key, path))
+    if (!lost_path(cache, key, path))
         return;
     const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0)

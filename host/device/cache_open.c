@@ -1,43 +1,83 @@
 // SPDX-License-Identifier: MIT
-// What the process that has PoCL to itself does about the cache, apart from what libraries may do.
+// Opens the cache of the program itself, which alone sets the environment.
 #include "device/cache.h"
 
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/statvfs.h>
 
-static bool temporary_path(char path[CACHE_PATH_SIZE])
+// Compilers write some megabytes, and a warm start still writes the preprocessed source.  Where a
+// disk is full, LLVM ends the process.
+#define ROOM_LEAST ((unsigned long long)16 << 20)
+
+// Follows the folder in the name that PoCL is given.
+#define OWN_FOLDER    "/clrt"
+#define KERNEL_FOLDER "/pocl"
+
+// Some file systems do not say how large they are.
+static bool has_room(const Cache *cache)
 {
+    struct statvfs disk;
+    if (statvfs(cache->folder, &disk) != 0 || disk.f_blocks == 0)
+        return true;
+    const bool has_files = disk.f_files == 0 || disk.f_favail > 0;
+    return has_files && (unsigned long long)disk.f_bavail * disk.f_frsize >= ROOM_LEAST;
+}
+
+static bool take(Cache *cache, const char *base, const char *rest)
+{
+    Cache kernels;
+    if (!cache_take_folder(cache, base, rest) || !has_room(cache) ||
+        !cache_take_folder(&kernels, cache->folder, KERNEL_FOLDER))
+        return false;
+    memcpy(cache->kernels, kernels.folder, sizeof cache->kernels);
+    cache->owns_kernels = true;
+    return true;
+}
+
+// The user's choice, or what cache_open made of it before, in this process or in its parent.
+static bool take_chosen(Cache *cache)
+{
+    static const char own[] = OWN_FOLDER KERNEL_FOLDER;
+    char base[CACHE_PATH_SIZE];
+    const char *chosen = getenv("POCL_CACHE_DIR");
+    size_t length = chosen != NULL ? strlen(chosen) : 0;
+    if (length >= sizeof base)
+        return false;
+    if (length >= strlen(own) && strcmp(chosen + length - strlen(own), own) == 0)
+        length -= strlen(own);
+    snprintf(base, sizeof base, "%.*s", (int)length, chosen != NULL ? chosen : "");
+    return take(cache, base, OWN_FOLDER);
+}
+
+static bool take_temporary(Cache *cache)
+{
+    char path[CACHE_PATH_SIZE];
     const char *base = getenv("TMPDIR");
-    const int length = snprintf(path, CACHE_PATH_SIZE, "%s/clrt-XXXXXX",
+    const int length = snprintf(path, sizeof path, "%s/clrt-XXXXXX",
                                 base != NULL && base[0] == '/' ? base : "/tmp");
-    return length > 0 && length < CACHE_PATH_SIZE && mkdtemp(path) != NULL;
+    if (length >= CACHE_PATH_SIZE || mkdtemp(path) == NULL)
+        return false;
+    const bool ok = take(cache, path, "");
+    cache->temporary = true;
+    if (!ok)
+        cache_remove(path);
+    return ok;
 }
 
 void cache_open(Cache *cache)
 {
-    if (!cache_find(cache)) {
-        cache->temporary = temporary_path(cache->folder);
-        if (!cache->temporary)
-            cache->folder[0] = '\0';
-    }
-    if (getenv("POCL_CACHE_DIR") != NULL || cache->folder[0] == '\0')
-        return;
-    char pocl[CACHE_PATH_SIZE + 8];
-    snprintf(pocl, sizeof pocl, "%s/pocl", cache->folder);
-    setenv("POCL_CACHE_DIR", pocl, 0);
-}
-
-static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *place)
-{
-    (void)status, (void)type, (void)place;
-    remove(path);
-    return 0;
+    if (!take_chosen(cache) && !take(cache, getenv("XDG_CACHE_HOME"), OWN_FOLDER) &&
+        !take(cache, getenv("HOME"), "/.cache" OWN_FOLDER) && !take_temporary(cache))
+        *cache = (Cache){0};
+    // PoCL cannot make a folder in a device, and lists none of its own then.
+    setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);
 }
 
 void cache_close(Cache *cache)
 {
     if (cache->temporary)
-        nftw(cache->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+        cache_remove(cache->folder);
     *cache = (Cache){0};
 }

@@ -47,8 +47,8 @@ static bool find_candidates(Candidates *candidates, Error *error)
         return error_set(error,
                          "no OpenCL device was found: install pocl-opencl-icd (any CPU) or the "
                          "OpenCL driver of your GPU; PoCL shows none where it can write no cache, "
-                         "for which POCL_CACHE_DIR names a folder; clinfo lists what the system "
-                         "sees");
+                         "for which POCL_CACHE_DIR names a folder with 16 MB of room; clinfo lists "
+                         "what the system sees");
     return true;
 }
 

@@ -113,14 +113,17 @@ void program_free(Program *program)
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE])
 {
-    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + 24];
+    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + PATH_MAX + 4];
     char options[OPTIONS_SIZE] = "";
     write_options(options, device, source, traits);
-    const int length = snprintf(text, sizeof text, "%s|%s|%s|%s", device->name, device->version,
-                                program_entry_name(source->entry), options);
-    const XXH128_hash_t code = XXH3_128bits(kernel_source, kernel_source_size);
-    const XXH128_hash_t hash =
-        XXH3_128bits_withSeed(text, (size_t)length, code.low64 ^ code.high64);
+    const char *folder = source->kernel_folder != NULL ? source->kernel_folder : "";
+    const char *entry = entries[source->entry].source != NULL ? entries[source->entry].source : "";
+    const char *appended = source->appended != NULL ? source->appended : "";
+    snprintf(text, sizeof text, "%s|%s|%s|%s", device->name, device->version, options, folder);
+    const XXH64_hash_t last = XXH3_64bits(appended, strlen(appended));
+    const XXH64_hash_t behind = XXH3_64bits_withSeed(entry, strlen(entry), last);
+    const XXH64_hash_t code = XXH3_64bits_withSeed(kernel_source, kernel_source_size, behind);
+    const XXH128_hash_t hash = XXH3_128bits_withSeed(text, strlen(text), code);
     snprintf(key, PROGRAM_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
              (unsigned long long)hash.low64);
 }

@@ -39,6 +39,6 @@ void program_free(Program *program);
 
 #define PROGRAM_KEY_SIZE 33
 
-// Names the program that these inputs make, for cache_has_mark.
+// Names the program that these inputs make, for cache_build_begin.
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE]);

@@ -142,9 +142,10 @@ typedef struct ClrtRenderer ClrtRenderer;
 // are built by that many threads; 0 stands for as many as affinity and the control groups' quotas
 // allow. How many a CPU device has is up to its driver and, as libraries set no environment, to the
 // program: PoCL reads POCL_MAX_PTHREAD_COUNT, later POCL_CPU_MAX_CU_COUNT, at its first call.
-// A lock in $XDG_CACHE_HOME/clrt, else ~/.cache/clrt, keeps processes that compile at once from
-// losing PoCL's kernels; PoCL itself finds no device where it can write neither to its cache there
-// nor to $POCL_CACHE_DIR.
+// A lock in $XDG_CACHE_HOME/clrt/library, else ~/.cache/clrt/library, keeps processes that compile
+// at once from losing PoCL's kernels, and checksums there find kernels that were damaged since,
+// which are compiled again.  PoCL itself finds no device where it can write neither to its cache in
+// those folders nor to $POCL_CACHE_DIR.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // NULL is harmless.

@@ -42,15 +42,21 @@ static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name
 
 static bool build(AovPass *pass, Error *error)
 {
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
     const RendererSetup *setup = pass->source->setup;
     const SceneTraits traits = traits_general(pass->counts_tests);
     ProgramSource source = setup->source;
     source.entry = KERNEL_TILE;
     source.appended = aov_source;
-    return program_build(&pass->program, setup->device, &source, &traits, error) &&
-           make_kernel(pass, &pass->trace_paths, "trace_paths", pass->paths, error) &&
-           (!pass->counts_tests ||
-            make_kernel(pass, &pass->count_tests, "count_tests", pass->tests, error));
+    program_key(setup->device, &source, &traits, key);
+    cache_build_begin(&build, setup->cache, key);
+    const bool ok = program_build(&pass->program, setup->device, &source, &traits, error) &&
+                    make_kernel(pass, &pass->trace_paths, "trace_paths", pass->paths, error) &&
+                    (!pass->counts_tests ||
+                     make_kernel(pass, &pass->count_tests, "count_tests", pass->tests, error));
+    cache_build_end(&build, ok);
+    return ok;
 }
 
 static bool make_room(AovPass *pass, Error *error)
@@ -77,9 +83,7 @@ bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *er
 {
     *pass =
         (AovPass){.source = source, .set = set, .counts_tests = aov_needs(set, AOV_NEEDS_TESTS)};
-    const int lock = cache_lock(source->setup->cache);
     const bool ok = make_room(pass, error) && build(pass, error);
-    cache_unlock(lock);
     if (!ok)
         aov_pass_close(pass);
     return ok;

@@ -68,17 +68,21 @@ static bool make_room(Certifier *certifier, Error *error)
 }
 
 // The first run, over a tile of no pixels, is when drivers finish compiling.
-static bool make_kernel(Certifier *certifier, const Cache *cache, Error *error)
+static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
+    const SceneTraits traits = traits_general(false);
     const Renderer *reference = &certifier->reference;
     certifier->kernel = clCreateKernel(reference->program.handle, "certify_tile", &status);
     if (!cl_succeeded(status, "create the kernel certify_tile", error))
         return false;
-    const int lock = cache_lock(cache);
+    program_key(setup->device, &setup->source, &traits, key);
+    cache_build_begin(&build, setup->cache, key);
     const bool ok = run_kernel(certifier, &reference->frame, error) &&
                     cl_succeeded(clFinish(reference->device->queue), "finish the first run", error);
-    cache_unlock(lock);
+    cache_build_end(&build, ok);
     return ok;
 }
 
@@ -96,7 +100,7 @@ bool certifier_open(Certifier *certifier, const RendererSetup *setup, const Flat
     general.group_width = general.group_height = group;
     const bool ok = check_device(setup->device, error) &&
                     renderer_open(&certifier->reference, &reference, flat, &general, error) &&
-                    make_room(certifier, error) && make_kernel(certifier, setup->cache, error);
+                    make_room(certifier, error) && make_kernel(certifier, &reference, error);
     if (!ok)
         certifier_close(certifier);
     return ok;

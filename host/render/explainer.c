@@ -78,20 +78,30 @@ static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_ui
 }
 
 // The first run, which follows no ray, is when drivers finish compiling.
-static bool build(Explainer *explainer, const RendererSetup *setup, Error *error)
+static bool make_kernel(Explainer *explainer, const Device *device, Error *error)
 {
     cl_int status;
-    const SceneTraits traits = traits_general(false);
     FrameData nothing = explainer->frame;
-    ProgramSource source = setup->source;
     nothing.max_level = 0;
-    source.appended = explain_source;
-    if (!program_build(&explainer->program, setup->device, &source, &traits, error))
-        return false;
     explainer->kernel = clCreateKernel(explainer->program.handle, "explain_sample", &status);
     return cl_succeeded(status, "create the kernel explain_sample", error) &&
            run_kernel(explainer, &nothing, 0, 0, error) &&
-           cl_succeeded(clFinish(setup->device->queue), "finish the first run", error);
+           cl_succeeded(clFinish(device->queue), "finish the first run", error);
+}
+
+static bool build(Explainer *explainer, const RendererSetup *setup, Error *error)
+{
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
+    const SceneTraits traits = traits_general(false);
+    ProgramSource source = setup->source;
+    source.appended = explain_source;
+    program_key(setup->device, &source, &traits, key);
+    cache_build_begin(&build, setup->cache, key);
+    const bool ok = program_build(&explainer->program, setup->device, &source, &traits, error) &&
+                    make_kernel(explainer, setup->device, error);
+    cache_build_end(&build, ok);
+    return ok;
 }
 
 bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error)
@@ -102,9 +112,7 @@ bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *
                              .frame = source->renderer->frame,
                              .is_fp64 = source->setup->source.choice.precision == PRECISION_FP64};
     explainer->frame.camera = source->camera;
-    const int lock = cache_lock(source->setup->cache);
     const bool ok = make_room(explainer, error) && build(explainer, source->setup, error);
-    cache_unlock(lock);
     if (!ok)
         explainer_close(explainer);
     return ok;

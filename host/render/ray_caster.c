@@ -79,29 +79,37 @@ static bool make_room(RayCaster *caster, Error *error)
     return cl_succeeded(status, "allocate room for distances", error);
 }
 
-static bool build(RayCaster *caster, const ProgramSource *source, Error *error)
+static bool make_kernel(RayCaster *caster, Error *error)
 {
     cl_int status;
-    const SceneTraits traits = traits_general(false);
-    if (!program_build(&caster->program, caster->device, source, &traits, error))
-        return false;
     caster->kernel = clCreateKernel(caster->program.handle, "trace_rays", &status);
     return cl_succeeded(status, "create the kernel trace_rays", error) &&
            launch(caster, 0, error) &&
            cl_succeeded(clFinish(caster->device->queue), "finish the first run", error);
 }
 
+static bool build(RayCaster *caster, const RendererSetup *setup, Error *error)
+{
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
+    const SceneTraits traits = traits_general(false);
+    ProgramSource source = setup->source;
+    source.appended = rays_source;
+    program_key(caster->device, &source, &traits, key);
+    cache_build_begin(&build, setup->cache, key);
+    const bool ok = program_build(&caster->program, caster->device, &source, &traits, error) &&
+                    make_kernel(caster, error);
+    cache_build_end(&build, ok);
+    return ok;
+}
+
 bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error)
 {
     const NodeLayout nodes = setup->source.choice.nodes;
     const FlatScene nothing = {.layout = nodes};
-    ProgramSource source = setup->source;
-    source.appended = rays_source;
     *caster = (RayCaster){.device = setup->device, .nodes = nodes};
-    bool ok = make_room(caster, error) && ray_caster_load(caster, &nothing, error);
-    const int lock = cache_lock(setup->cache);
-    ok = ok && build(caster, &source, error);
-    cache_unlock(lock);
+    const bool ok = make_room(caster, error) && ray_caster_load(caster, &nothing, error) &&
+                    build(caster, setup, error);
     if (!ok)
         ray_caster_close(caster);
     return ok;

@@ -51,22 +51,21 @@ bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *tra
 {
     char key[PROGRAM_KEY_SIZE];
     program_key(setup->device, &setup->source, traits, key);
-    // Kernels under development change too often for marks to mean anything.
-    return setup->source.kernel_folder == NULL && cache_has_mark(setup->cache, key);
+    // Kernels under development change too often for manifests to mean anything.
+    return setup->source.kernel_folder == NULL && cache_has_program(setup->cache, key);
 }
 
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
                        const uint32_t group[2], Error *error)
 {
+    CacheBuild build;
     const double start = clock_seconds();
     *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
     program_key(setup->device, &setup->source, traits, ready->key);
     ready->was_compiled = ready_kernel_is_compiled(setup, traits);
-    const int lock = cache_lock(setup->cache);
+    cache_build_begin(&build, setup->cache, ready->key);
     const bool ok = make(ready, setup, traits, error);
-    if (ok)
-        cache_set_mark(setup->cache, ready->key);
-    cache_unlock(lock);
+    cache_build_end(&build, ok);
     ready->seconds = clock_seconds() - start;
     if (!ok)
         ready_kernel_free(ready);

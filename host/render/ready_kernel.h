@@ -4,7 +4,7 @@
 // is read.
 #pragma once
 
-#include "device/cache.h"
+#include "device/cache_build.h"
 #include "device/program.h"
 
 typedef struct {

@@ -76,11 +76,8 @@ static void run(const RayBatch *batch, BatchTask task, size_t count)
     require(launch(batch, task, (cl_uint)count, &error), &error);
 }
 
-static bool build(RayBatch *batch, const ProgramSource *source, Error *error)
+static bool make_kernels(RayBatch *batch, Error *error)
 {
-    const SceneTraits traits = traits_general(false);
-    if (!program_build(&batch->program, &batch->device, source, &traits, error))
-        return false;
     for (int task = 0; task < BATCH_TASKS; task++) {
         cl_int status;
         batch->kernels[task] = clCreateKernel(batch->program.handle, kernel_names[task], &status);
@@ -95,9 +92,14 @@ static bool build(RayBatch *batch, const ProgramSource *source, Error *error)
 static void build_locked(RayBatch *batch, const ProgramSource *source)
 {
     Error error = {0};
-    const int lock = cache_lock(&batch->cache);
-    const bool ok = build(batch, source, &error);
-    cache_unlock(lock);
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
+    const SceneTraits traits = traits_general(false);
+    program_key(&batch->device, source, &traits, key);
+    cache_build_begin(&build, &batch->cache, key);
+    const bool ok = program_build(&batch->program, &batch->device, source, &traits, &error) &&
+                    make_kernels(batch, &error);
+    cache_build_end(&build, ok);
     require(ok, &error);
 }
 

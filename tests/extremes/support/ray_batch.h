@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/flat.h"
-#include "device/cache.h"
+#include "device/cache_build.h"
 #include "device/program.h"
 
 // As in kernels/ray.cl.

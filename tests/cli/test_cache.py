@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Whatever happens to the kernel cache, clrt draws the picture, or ends with status 4 and one message
+# and draws it the next time.
+# Usage: test_cache.py CLRT [TEST...]
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import time
+import unittest
+
+from cache_work import CLRT, PICTURE, CacheWork
+
+OTHERS = [*PICTURE, "--precision=fp64"]
+
+
+def flip(data):
+    bits, places = bytearray(data), random.Random(1)
+    for place in (places.randrange(8 * len(data)) for _ in range(100)):
+        bits[place // 8] ^= 1 << place % 8
+    return bytes(bits)
+
+
+DAMAGES = {"zero": lambda data: b"", "half": lambda data: data[: len(data) // 2], "flip": flip}
+
+
+def has_private_disks():
+    command = ["unshare", "-m", "mount", "-t", "tmpfs", "clrt-test", "/mnt"]
+    try:
+        return subprocess.run(command, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
+class Damage(CacheWork):
+    def assert_heals(self, note):
+        with self.subTest(note):
+            self.assertEqual(self.draw(), self.expected)
+            compiled = self.kernels()
+            self.assertEqual(self.draw(), self.expected)
+            self.assertEqual(self.kernels(), compiled)
+
+    def test_any_damaged_file_heals(self):
+        files = self.files()
+        self.assertGreater(len(files), 4)
+        for path in files:
+            whole = path.read_bytes()
+            for kind, damage in DAMAGES.items():
+                if whole:
+                    path.write_bytes(damage(whole))
+                    self.assert_heals(f"{kind} {path}")
+
+    def test_all_files_damaged_at_once_heal(self):
+        for path in filter(lambda path: path.stat().st_size, self.files()):
+            path.write_bytes(flip(path.read_bytes()))
+        self.assert_heals("all")
+
+    def test_kernels_that_are_whole_stay(self):
+        others = self.draw(*OTHERS)
+        compiled = self.kernels()
+        self.assertEqual(len(compiled), 2)
+        next(self.cache.glob("clrt/pocl/*/*/program.bc")).write_bytes(b"")
+        self.assertEqual(self.draw(), self.expected)
+        self.assertEqual(self.draw(*OTHERS), others)
+        self.assertEqual(sum(compiled[path] == made for path, made in self.kernels().items()), 1)
+
+    def kill_while_compiling(self):
+        shutil.rmtree(self.cache / "clrt")
+        command = [str(CLRT), *PICTURE, "-o", str(self.work / "killed.pfm")]
+        killed = subprocess.Popen(command, env=self.environment())
+        while not any(self.cache.glob("clrt/pocl/??/*")):
+            time.sleep(0.01)
+        killed.kill()
+        killed.wait()
+
+    def test_what_an_interrupted_build_leaves_is_not_used(self):
+        compiled = self.kernels()
+        for path in compiled:
+            path.write_bytes(flip(path.read_bytes()))
+        for path in self.cache.glob("clrt/built-*"):
+            path.unlink()
+        self.assert_heals("damaged and without a manifest")
+        self.kill_while_compiling()
+        for path in filter(lambda path: path.stat().st_size, self.files()):
+            path.write_bytes(flip(path.read_bytes()))
+        self.assert_heals("killed while it compiled")
+
+    def test_processes_that_start_at_once_all_draw_from_a_damaged_cache(self):
+        for path in self.kernels():
+            path.write_bytes(path.read_bytes()[:5000])
+        names = [str(self.work / f"{i}.pfm") for i in range(4)]
+        running = [subprocess.Popen([str(CLRT), *PICTURE, "-o", name], env=self.environment())
+                   for name in names]
+        self.assertEqual([process.wait() for process in running], [0] * 4)
+        self.assertEqual({pathlib.Path(name).read_bytes() for name in names}, {self.expected})
+
+
+class Places(CacheWork):
+    def test_a_folder_that_is_chosen_holds_one_of_clrts_own(self):
+        chosen = self.work / "chosen"
+        others = chosen / "AA" / ("B" * 37) / "program.bc"
+        others.parent.mkdir(parents=True)
+        others.write_text("another program's")
+        more = {"POCL_CACHE_DIR": str(chosen)}
+        before = self.kernels()
+        self.assertEqual(self.draw(more=more), self.expected)
+        kernel = next((chosen / "clrt").rglob("*.so"))
+        kernel.write_bytes(flip(kernel.read_bytes()))
+        self.assertEqual(self.draw(more=more), self.expected)
+        self.assertEqual(others.read_text(), "another program's")
+        self.assertEqual(self.kernels(), before)
+
+    def test_a_folder_for_kernels_that_cannot_be_made_is_done_without(self):
+        shutil.rmtree(self.cache / "clrt/pocl")
+        (self.cache / "clrt/pocl").write_text("")
+        picture = self.draw(more={"HOME": "/proc", "TMPDIR": str(self.work)})
+        self.assertEqual(picture, self.expected)
+        self.assertEqual(list(self.work.glob("clrt-*")), [])
+
+
+@unittest.skipUnless(has_private_disks(), "disks cannot be mounted here")
+class Disks(CacheWork):
+    MOUNT = 'mount -t tmpfs -o size=700k clrt-test "$1" && cp -r "$2"/. "$1" && \
+        { [ "$3" != ro ] || mount -o remount,ro "$1"; } && shift 3 && exec "$@"'
+
+    def on_disk(self, mode, **more):
+        disk = self.work / "disk"
+        disk.mkdir(exist_ok=True)
+        before = ["unshare", "-m", "sh", "-c", self.MOUNT, "sh", str(disk), str(self.cache), mode]
+        more = {"XDG_CACHE_HOME": str(disk), "HOME": "/proc", "TMPDIR": str(self.work), **more}
+        done = self.run_clrt(before=before, more=more)
+        self.assertEqual(list(self.work.glob("clrt-*")), [])
+        return done
+
+    def test_a_cache_on_a_full_or_read_only_disk_is_done_without(self):
+        for mode in ("rw", "ro"):
+            self.assertEqual(self.on_disk(mode), (0, "", self.expected))
+
+    def test_no_room_anywhere_is_told(self):
+        for mode in ("rw", "ro"):
+            done = self.on_disk(mode, TMPDIR=str(self.work / "disk"))
+            self.assert_told(done, "no OpenCL device was found: .* 16 MB of room")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
