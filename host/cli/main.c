@@ -4,6 +4,7 @@
 #include "cli/command_files.h"
 #include "cli/compare.h"
 #include "cli/convert.h"
+#include "cli/crash.h"
 #include "cli/device_report.h"
 #include "cli/explain.h"
 #include "cli/explain_scene.h"
@@ -11,6 +12,7 @@
 #include "cli/option_help.h"
 #include "cli/picture.h"
 #include "cli/show.h"
+#include "cli/stack.h"
 #include "cli/threads.h"
 #include "cli/warm.h"
 
@@ -83,22 +85,38 @@ static ExitCode perform_words(int count, char **words, Error *error)
     return command_files_check(&options, NULL, error) ? perform(&options, error) : EXIT_OUTPUT;
 }
 
+typedef struct {
+    int count;
+    char **words;
+    ExitCode code;
+} Start;
+
+static void run(void *context)
+{
+    Start *start = context;
+    Error error = {0};
+    start->code = perform_words(start->count, start->words, &error);
+    if (start->code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
+        error_set(&error, "standard output cannot be written");
+        start->code = EXIT_OUTPUT;
+    }
+    if (error.text[0] != '\0')
+        fprintf(stderr, "clrt: %s\n", error.text);
+}
+
 int main(int count, char **words)
 {
-    Error error = {0};
+    Start start = {.count = count, .words = words};
     // A reader that leaves early, or a file past the limit of its size, is a failed write, to be
     // told and cleaned up after.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    ExitCode code = perform_words(count, words, &error);
-    if (code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
-        error_set(&error, "standard output cannot be written");
-        code = EXIT_OUTPUT;
-    }
-    if (error.text[0] != '\0')
-        fprintf(stderr, "clrt: %s\n", error.text);
+    // Sanitizers have handlers of their own, and look for leaks at the end.
+    if (!CLRT_TIDY_EXIT)
+        crash_watch();
+    stack_run(run, &start);
     // The system takes down in no time what drivers and libraries take 0.1 s to.
     if (!CLRT_TIDY_EXIT)
-        _exit((int)code);
-    return (int)code;
+        _exit((int)start.code);
+    return (int)start.code;
 }

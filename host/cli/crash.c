@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Whose crash it is follows from the program counter: clrt's own code is in the program's file, and
+// drivers, the kernels they compile and libraries are not.  OpenCL calls back none of it.
+// LLVM installs handlers during a build, from which all but those of abort() come back to ours.  So
+// the program's sigaction, which comes before the C library's, keeps SIGABRT.
+#include "cli/crash.h"
+
+#include "cli/exit_code.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+typedef struct {
+    int number;
+    const char *of_driver, *of_clrt;
+} Crash;
+
+#define CRASH(name)                                                                                \
+    {                                                                                              \
+        name,                                                                                      \
+            "clrt: a driver crashed (" #name                                                       \
+            "): run clrt again, and with another --device if that is "                             \
+            "no better\n",                                                                         \
+            "clrt: an error of clrt's own (" #name "): please report it\n"                         \
+    }
+
+static const Crash crashes[] = {CRASH(SIGSEGV), CRASH(SIGBUS), CRASH(SIGILL), CRASH(SIGFPE),
+                                CRASH(SIGABRT)};
+
+// The ends of the program's own code, which the linker defines.
+extern const char __executable_start[], etext[];
+
+static pid_t watcher;
+static atomic_flag has_ended = ATOMIC_FLAG_INIT;
+
+static bool is_own_code(const ucontext_t *context)
+{
+#ifdef __x86_64__
+    const greg_t place = context->uc_mcontext.gregs[REG_RIP];
+    return place >= (greg_t)__executable_start && place < (greg_t)etext;
+#else
+    (void)context;
+    return false;
+#endif
+}
+
+static void tell(const char *message)
+{
+    const ssize_t told = write(STDERR_FILENO, message, strlen(message));
+    (void)told; // a reader that has left changes nothing
+}
+
+// Only the first thread to come here speaks.
+static _Noreturn void end(const char *message)
+{
+    while (atomic_flag_test_and_set(&has_ended))
+        pause();
+    tell(message);
+    _exit(EXIT_DEVICE);
+}
+
+// Processes that read or write pictures are forks of this one, and have nothing to say.
+static void handle(int number, siginfo_t *info, void *context)
+{
+    const Crash *crash = crashes;
+    while (crash->number != number)
+        crash++;
+    const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
+    const bool is_own = is_own_code(context);
+    if (getpid() == watcher && !is_sent && !is_own)
+        end(crash->of_driver);
+    if (getpid() == watcher && !is_sent)
+        tell(crash->of_clrt);
+    signal(number, SIG_DFL);
+    raise(number); // once this function has returned
+}
+
+static void handle_exit(void)
+{
+    if (getpid() == watcher)
+        end("clrt: a driver ended the program, as LLVM does where a disk is full\n");
+}
+
+#if !CLRT_TIDY_EXIT // sanitizers have such a function themselves
+// The C library's own.
+extern int __sigaction(int number, const struct sigaction *action, struct sigaction *before);
+
+__attribute__((visibility("default"))) int sigaction(int number, const struct sigaction *action,
+                                                     struct sigaction *before)
+{
+    const bool is_taken = number == SIGABRT && watcher != 0;
+    return __sigaction(number, is_taken ? NULL : action, before);
+}
+#endif
+
+void crash_watch(void)
+{
+    struct sigaction action = {.sa_sigaction = handle, .sa_flags = SA_SIGINFO | SA_ONSTACK};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
+        sigaction(crashes[i].number, &action, NULL);
+    watcher = getpid();
+    atexit(handle_exit);
+}

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Drivers that crash or end the process are one message and status 4, and the next run draws.
+# Usage: test_crashes.py CLRT CRASH_DEVICE [TEST...], as tests/cli/crash_device.c is built
+import itertools
+import os
+import pathlib
+import platform
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from cache_work import CLRT, PICTURE, ROOT, CacheWork
+
+CRASH_DEVICE = pathlib.Path(sys.argv[2]).resolve()
+
+
+class Crashes(CacheWork):
+    def crash(self, kind):
+        return self.run_clrt(more={"LD_PRELOAD": str(CRASH_DEVICE), "CLRT_CRASH": kind})
+
+    def test_a_driver_that_crashes_is_told(self):
+        crashes = itertools.product(("abort", "segv", "bus", "ill"), ("", "-thread", "-two"))
+        for kind, place in (*crashes, ("fpe", "")):
+            name = "SIG" + kind.upper().replace("ABORT", "ABRT")
+            self.assert_told(self.crash(kind + place), rf"a driver crashed \({name}\): ")
+        self.assertEqual(self.draw(), self.expected)
+
+    @unittest.skipUnless(platform.machine() == "x86_64", "elsewhere every crash is a driver's")
+    def test_a_crash_of_its_own_is_told_and_ends_it_by_the_signal(self):
+        told = "clrt: an error of clrt's own (SIGSEGV): please report it\n"
+        self.assertEqual(self.crash("own"), (-signal.SIGSEGV, told, None))
+
+    def test_a_driver_that_ends_the_program_is_told(self):
+        for kind in ("exit", "exit-thread"):
+            self.assert_told(self.crash(kind), "a driver ended the program")
+        self.assertEqual(self.draw(), self.expected)
+
+    def test_a_limit_on_the_size_of_files_is_told(self):
+        for blocks in (100, 400):
+            shutil.rmtree(self.cache / "clrt")
+            limit = ["sh", "-c", f'ulimit -f {blocks} && exec "$@"', "sh"]
+            status, talk, _ = self.run_clrt(before=limit)
+            self.assertEqual(status, 4, talk)
+            self.assertEqual(talk.count("clrt: "), 1, talk)
+            self.assertEqual(self.draw(), self.expected)
+
+    def test_kernels_damaged_while_they_run_are_told(self):
+        large = [*PICTURE, "-s", "2000x2000", "--aa=4"]
+        command = [str(CLRT), *large, "-o", str(self.work / "large.pfm")]
+        running = subprocess.Popen(command, env=self.environment(), stderr=subprocess.PIPE, text=True)
+        maps = pathlib.Path(f"/proc/{running.pid}/maps")
+        while not any(str(path) in maps.read_text() for path in self.kernels()):
+            time.sleep(0.01)
+        for path in self.kernels():
+            os.truncate(path, 0)
+        talk = running.communicate()[1]
+        self.assertEqual((running.returncode, talk.count("\n")), (4, 1), talk)
+        self.assertEqual(self.draw(), self.expected)
+
+    def test_a_signal_that_is_sent_is_no_crash(self):
+        command = [str(CLRT), *PICTURE, "-s", "4000x4000", "--aa=4", "-o", "/dev/null", "--format=pfm"]
+        for number in (signal.SIGABRT, signal.SIGKILL):
+            running = subprocess.Popen(command, env=self.environment())
+            time.sleep(0.3)
+            running.send_signal(number)
+            self.assertEqual(running.wait(), -number)
+
+    def test_small_stacks_do(self):
+        small = ["sh", "-c", 'ulimit -s 64 && exec "$@"', "sh"]
+        shutil.rmtree(self.cache / "clrt")
+        self.assertEqual(self.draw(before=small), self.expected)
+        self.assertEqual(self.draw(*PICTURE[:4], before=small), self.expected)
+        command = [*small, str(CLRT), "check", str(ROOT / "scenes/cone.ply")]
+        done = subprocess.run(command, env=self.environment(), capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
