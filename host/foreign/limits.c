@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Of memory there are two limits: the lower one, which rises with every file that is read, keeps a
-// short file from asking for all that the longest may have.
+// short file from asking for all that the longest may have.  Most of the time before it is reached
+// goes to the system, which clears pages: nodes that share children double with each level.
 #include "foreign/limits.h"
 
 #include "base/confinement.h"
 
 #include <unistd.h>
 
-#define MEMORY_MOST   ((rlim_t)12 << 30) // beside what is mapped already
-#define MEMORY_LEAST  ((rlim_t)2 << 30)  // for any file, however short
-#define MEMORY_FACTOR 64                 // bytes for a byte of a file
-#define TIME_LIMIT    120                // seconds, of the processor and of the clock
+#define MEMORY_MOST   ((rlim_t)12 << 30)  // beside what is mapped already
+#define MEMORY_LEAST  ((rlim_t)512 << 20) // for any file, however short
+#define MEMORY_FACTOR 128                 // bytes for a byte of a file
+#define STACK_LIMIT   ((rlim_t)8 << 20)   // a deeper tree of nodes is a crash
+#define TIME_LIMIT    120                 // seconds, of the processor and of the clock
 #define FILE_LIMIT    32
 
 // Sanitizers map more than any limit could allow.  gcc tells of them by a macro, clang otherwise.
@@ -58,5 +60,6 @@ void limits_take(void)
     confine_process(TIME_LIMIT);
     confine_resource(RLIMIT_NPROC, 0);
     confine_resource(RLIMIT_NOFILE, FILE_LIMIT);
+    confine_resource(RLIMIT_STACK, STACK_LIMIT);
     limit_memory();
 }

@@ -10,7 +10,7 @@ import time
 import unittest
 
 import models
-from work import Work
+from work import CLRT, Work
 
 ASSIMP = sys.argv[2] == "1"
 EXPORT = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
@@ -233,9 +233,25 @@ class Hostile(Work):
             document["nodes"] = [{"children": [i + 1]} for i in range(200000)] + [{"mesh": 0}]
 
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=deepen))
-        done = self.run_clrt("a.glb", "-o", "a.pfm")
-        self.assertEqual(done.returncode, 3)
-        self.assertRegex(done.stderr, r"^clrt: a\.glb: Assimp .*\n$")
+        self.assert_small_failure("Assimp crashed while reading it .*", before="ulimit -s unlimited; ")
+
+    def test_nodes_that_double_with_each_level_are_one_sentence(self):
+        def double(document):
+            document["nodes"] = [{"children": [i + 1] * 2} for i in range(40)] + [{"mesh": 0}]
+
+        self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
+        self.assert_small_failure("Assimp wants more memory to read it than a file of its size may take")
+
+    # Memory takes the time: a gigabyte more takes seconds.
+    def assert_small_failure(self, sentence, before=""):
+        command = ["bash", "-c", f'{before}exec "$@"', "bash", CLRT, "a.glb", "-o", "a.pfm"]
+        process = subprocess.Popen(command, cwd=self.work, stderr=subprocess.PIPE, text=True)
+        talk = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 3)
+        self.assertRegex(talk, rf"^clrt: a\.glb: {sentence}\n$")
+        self.assertLess(usage.ru_maxrss, 800 << 10)
 
     def test_huge_counts_are_refused_at_once(self):
         def enlarge(document):
