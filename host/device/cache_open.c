@@ -11,9 +11,8 @@
 // disk is full, LLVM ends the process.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
-// Follows the folder in the name that PoCL is given.
-#define OWN_FOLDER    "/clrt"
-#define KERNEL_FOLDER "/pocl"
+#define OWN_FOLDER    "/clrt" // in the folder that the user has chosen
+#define KERNEL_FOLDER "/pocl" // in that
 
 // Some file systems do not say how large they are.
 static bool has_room(const Cache *cache)

@@ -31,8 +31,8 @@ typedef struct {
 
 const char *program_entry_name(KernelEntry entry);
 
-// The message of a failure holds the compiler's log.  The caller holds the cache's lock around
-// this and the first run of each kernel: drivers finish compiling then.
+// The message of a failure holds the compiler's log.  The caller calls it between cache_build_begin
+// and cache_build_end, and runs each kernel once there: drivers finish compiling then.
 bool program_build(Program *program, const Device *device, const ProgramSource *source,
                    const SceneTraits *traits, Error *error);
 void program_free(Program *program);

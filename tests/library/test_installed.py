@@ -125,6 +125,16 @@ class Installed(unittest.TestCase):
         environment["POCL_CACHE_DIR"] = str(self.work / "cache")
         self.assertEqual(run(program, env=environment), self.expected)
 
+    def test_damaged_kernels_are_compiled_again(self):
+        program, cache = self.work / "damaged", self.work / "damaged-cache"
+        self.build_by_pkg_config(program)
+        environment = {k: v for k, v in self.environment.items() if k != "POCL_CACHE_DIR"}
+        environment["XDG_CACHE_HOME"] = str(cache)
+        self.assertEqual(run(program, env=environment), self.expected)
+        for kernel in list(cache.rglob("*.so")):
+            os.truncate(kernel, 5000)
+            self.assertEqual(run(program, env=environment), self.expected)
+
     def test_cmake_builds_the_example_and_its_picture_is_the_programs(self):
         source, build = self.work / "source", self.work / "build"
         source.mkdir()
