@@ -46,7 +46,7 @@ static bool count_leaks(Check *check, RayCaster *caster, Error *error)
 
 static bool trace_leaks(Check *check, const Cache *cache, Error *error)
 {
-    const KernelChoice choice = kernel_choose(&check->options->kernel, check->device.is_cpu);
+    const KernelChoice choice = kernel_choose(&check->options->kernel, &check->device);
     const RendererSetup setup = {
         .device = &check->device,
         .cache = cache,

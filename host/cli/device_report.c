@@ -16,7 +16,7 @@ static json_t *entry_json(const DeviceEntry *entry)
     const Device *device = &entry->device;
     snprintf(specification, sizeof specification, "%u:%u", entry->platform, entry->number);
     return json_pack("{s:s, s:o, s:o, s:o, s:s, s:i, s:I, s:b, s:b}", "device", specification,
-                     "platform", json_file_path(entry->platform_name), "name",
+                     "platform", json_file_path(device->platform), "name",
                      json_file_path(device->name), "driver", json_file_path(device->version),
                      "type", entry->type, "compute_units", (int)device->compute_units,
                      "largest_allocation", (json_int_t)device->largest_allocation, "fp64",

@@ -83,7 +83,9 @@ const char *scene_family_reason(const Run *run)
         return "--nodes pair has no other";
     if (run->starter.is_quick)
         return "packets are not compiled and a picture of this size does not repay that";
-    return run->starter.device.is_cpu ? "it suits CPUs" : "it suits GPUs";
+    if (kernel_suits_packets(&run->starter.device))
+        return "it suits CPUs";
+    return run->starter.device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
 }
 
 const char *scene_program_reason(const Run *run)

@@ -24,7 +24,7 @@ static bool open_device(Starter *starter)
     const double start = clock_seconds();
     bool ok = device_open(&starter->device, options->device, &starter->error);
     starter->device_seconds = clock_seconds() - start;
-    const KernelChoice choice = kernel_choose(&options->kernel, starter->device.is_cpu);
+    const KernelChoice choice = kernel_choose(&options->kernel, &starter->device);
     take_choice(starter, choice);
     ok = ok && kernel_check_device(&choice, &starter->device, &starter->error);
     return ok;

@@ -137,6 +137,10 @@ static void describe(Device *device)
     cl_device_fp_config config = 0, double_config = 0;
     cl_device_type type = 0;
     cl_bool shares_memory = CL_FALSE;
+    cl_platform_id platform = NULL;
+    clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof device->platform - 1, device->platform,
+                      NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
     clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof device->version - 1, device->version,
                     NULL);
@@ -175,7 +179,6 @@ unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error)
                                    .number = candidate->device,
                                    .type = type_name(candidate->type),
                                    .device = {.id = candidate->id}};
-        memcpy(entries[i].platform_name, candidate->platform_name, sizeof candidate->platform_name);
         describe(&entries[i].device);
     }
     return candidates.count;

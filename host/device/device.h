@@ -8,6 +8,7 @@ typedef struct {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
+    char platform[256];          // names the OpenCL implementation
     char name[256];              // as the driver gives it
     char version[256];           // of the driver
     cl_ulong largest_allocation; // bytes
@@ -32,8 +33,7 @@ bool device_list(char *text, size_t size, Error *error);
 // A device that could be opened: what describes it, without context and queue.
 typedef struct {
     unsigned platform, number; // PLATFORM:DEVICE
-    char platform_name[256];
-    const char *type; // cpu, gpu, accelerator or other
+    const char *type;          // cpu, gpu, accelerator or other
     Device device;
 } DeviceEntry;
 

@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <stdio.h>
+#include <string.h>
 
 #define RAY_GROUP    8
 #define PACKET_GROUP 2
@@ -35,13 +36,26 @@ bool kernel_check_wish(const KernelWish *wish, Error *error)
     return true;
 }
 
-KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu)
+// Platforms of implementations for CPUs that take longer to compile packets, or to trace with them,
+// than single rays take in all.  README.md has the measurements.
+static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
+
+bool kernel_suits_packets(const Device *device)
 {
+    for (size_t i = 0; i < sizeof slow_with_packets / sizeof *slow_with_packets; i++)
+        if (strcmp(device->platform, slow_with_packets[i]) == 0)
+            return false;
+    return device->is_cpu;
+}
+
+KernelChoice kernel_choose(const KernelWish *wish, const Device *device)
+{
+    const bool suits_packets = kernel_suits_packets(device);
     if (wish->choice.precision == PRECISION_FP64)
         return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
     const bool wants_pairs = wish->nodes_given && wish->choice.nodes == NODES_PAIR;
-    KernelChoice choice = {.family = is_cpu && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
-                           .nodes = is_cpu ? NODES_WIDE : NODES_PAIR,
+    KernelChoice choice = {.family = suits_packets && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
+                           .nodes = suits_packets ? NODES_WIDE : NODES_PAIR,
                            .lanes = wish->choice.lanes};
     if (wish->family_given)
         choice.family = wish->choice.family;

@@ -33,9 +33,12 @@ typedef struct {
 // Fails where the wish contradicts itself.
 bool kernel_check_wish(const KernelWish *wish, Error *error);
 
-// Fills in what was not asked for by what suits the device: packets on CPUs, rays and pairs
-// elsewhere and in fp64.
-KernelChoice kernel_choose(const KernelWish *wish, bool is_cpu);
+// Returns the requested form, completed by a fixed rule: packets on CPUs; rays over pairs on other
+// devices, in fp64, and on OpenCL implementations that are slow with packets.
+KernelChoice kernel_choose(const KernelWish *wish, const Device *device);
+
+// Returns whether a picture is complete sooner with packets, compiling included.
+bool kernel_suits_packets(const Device *device);
 
 // Work-items along the sides of the work-groups that suit the kernels.
 uint32_t kernel_group_side(const KernelChoice *choice);

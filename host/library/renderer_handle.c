@@ -13,7 +13,7 @@ static bool open_device(ClrtRenderer *renderer, const char *name, Error *cause)
     const KernelWish none = {0};
     if (!device_open(&renderer->device, name, cause))
         return false;
-    const KernelChoice choice = kernel_choose(&none, renderer->device.is_cpu);
+    const KernelChoice choice = kernel_choose(&none, &renderer->device);
     renderer->setup = (RendererSetup){
         .device = &renderer->device, .cache = &renderer->cache, .source = {.choice = choice}};
     return kernel_check_device(&choice, &renderer->device, cause);

@@ -9,11 +9,11 @@ bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
     *tracer = (Tracer){.options = options};
     if (!device_open(&tracer->device, options->device, error))
         return false;
-    tracer->setup = (RendererSetup){
-        .device = &tracer->device,
-        .cache = options->cache,
-        .source = {.kernel_folder = options->kernel_folder,
-                   .choice = kernel_choose(&options->kernel, tracer->device.is_cpu)}};
+    tracer->setup =
+        (RendererSetup){.device = &tracer->device,
+                        .cache = options->cache,
+                        .source = {.kernel_folder = options->kernel_folder,
+                                   .choice = kernel_choose(&options->kernel, &tracer->device)}};
     const KernelChoice *choice = &tracer->setup.source.choice;
     if (!kernel_check_device(choice, &tracer->device, error))
         return false;

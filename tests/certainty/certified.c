@@ -72,7 +72,7 @@ static bool draw_plain(Certified *certified, const Office *office, const Scene *
 {
     const KernelWish nothing = {0};
     RendererSetup setup = {.device = &office->device, .cache = &office->cache};
-    setup.source.choice = kernel_choose(&nothing, office->device.is_cpu);
+    setup.source.choice = kernel_choose(&nothing, &office->device);
     RenderSettings settings = certified->settings;
     settings.group_width = settings.group_height = kernel_group_side(&setup.source.choice);
     FlatScene flat = {0};

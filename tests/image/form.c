@@ -36,7 +36,7 @@ static KernelChoice usual_choice(void)
         fprintf(stderr, "%s\n", error.text);
         exit(1);
     }
-    const KernelChoice choice = kernel_choose(&nothing, device.is_cpu);
+    const KernelChoice choice = kernel_choose(&nothing, &device);
     device_close(&device);
     return choice;
 }

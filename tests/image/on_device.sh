@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs a command on one of PoCL's devices or targets, or under oclgrind; what this machine does not
-# have is passed over in words.  Each kind has a kernel cache of its own: PoCL's does not tell the
-# targets apart.
+# Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL.  Prints
+# a message and succeeds if this machine lacks KIND.  Each kind has its own kernel cache, because
+# PoCL's ignores the target.
 # Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
 set -eu
 kind=$1
@@ -14,6 +14,21 @@ export POCL_CACHE_DIR=$cache XDG_CACHE_HOME=$cache
 pass_over() {
   echo "passed over: $1"
   exit 0
+}
+
+# Installs a fixed version of Intel's runtime for CPUs, once for all tests.
+fetch_intel() {
+  exec 9>"$1.lock"
+  flock 9
+  [ ! -e "$1/fetched" ] || return 0
+  # Intel's libOpenCL would replace the system's loader.
+  python3 -m venv --clear "$1" &&
+    "$1/bin/pip" install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0 tbb==2023.2.0 &&
+    mkdir "$1/libraries" "$1/vendors" &&
+    ln -s "$1"/lib/*.* "$1/libraries" &&
+    rm "$1"/libraries/libOpenCL.* &&
+    echo "$1/lib/libintelocl.so" >"$1/vendors/intel.icd" &&
+    touch "$1/fetched"
 }
 
 case $kind in
@@ -40,6 +55,16 @@ oclgrind)
     exit 1
   fi
   exit 0
+  ;;
+intel)
+  [ "$(uname -m)" = x86_64 ] || pass_over "Intel's runtime is for x86-64"
+  venv=$(realpath "$cache/..")/intel-runtime
+  (fetch_intel "$venv") || pass_over "Intel's runtime cannot be fetched from PyPI"
+  export OCL_ICD_VENDORS=$venv/vendors LD_LIBRARY_PATH=$venv/libraries
+  ;;
+rusticl)
+  export OCL_ICD_VENDORS=/etc/OpenCL/vendors/rusticl.icd RUSTICL_ENABLE=llvmpipe
+  [ -e "$OCL_ICD_VENDORS" ] || pass_over "Mesa's rusticl is not installed (Debian 13: mesa-opencl-icd)"
   ;;
 *)
   echo "unknown kind '$kind'" >&2

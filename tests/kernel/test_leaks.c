@@ -34,7 +34,7 @@ static int open_stage(void **state)
     cache_open(&stage.cache);
     bool ok = device_open(&stage.device, getenv("CLRT_DEVICE"), &error);
     for (size_t form = 0; ok && form < FORMS; form++) {
-        const KernelChoice choice = kernel_choose(&forms[form], stage.device.is_cpu);
+        const KernelChoice choice = kernel_choose(&forms[form], &stage.device);
         const RendererSetup setup = {
             .device = &stage.device,
             .cache = &stage.cache,

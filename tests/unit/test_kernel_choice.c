@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Each OpenCL implementation gets the form of the kernels that suits it, unless the user chooses.
+#include "device/kernel_choice.h"
+#include "unit/cmocka_all.h"
+
+static void assert_choice(const KernelWish *wish, const Device *device, KernelFamily family,
+                          NodeLayout nodes)
+{
+    const KernelChoice choice = kernel_choose(wish, device);
+    assert_int_equal(choice.family, family);
+    assert_int_equal(choice.nodes, nodes);
+}
+
+static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void **state)
+{
+    (void)state;
+    const KernelWish none = {0};
+    const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
+    const Device other = {.platform = "Oclgrind", .is_cpu = true};
+    const Device intel = {.platform = "Intel(R) OpenCL", .is_cpu = true};
+    const Device mesa = {.platform = "rusticl", .is_cpu = true};
+    assert_choice(&none, &pocl, FAMILY_PACKET, NODES_WIDE);
+    assert_choice(&none, &other, FAMILY_PACKET, NODES_WIDE);
+    assert_choice(&none, &intel, FAMILY_RAY, NODES_PAIR);
+    assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
+}
+
+static void other_devices_get_rays(void **state)
+{
+    (void)state;
+    const KernelWish none = {0};
+    const Device pocl = {.platform = "Portable Computing Language"};
+    const Device mesa = {.platform = "rusticl"};
+    assert_choice(&none, &pocl, FAMILY_RAY, NODES_PAIR);
+    assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
+}
+
+static void a_choice_by_the_user_is_kept(void **state)
+{
+    (void)state;
+    const Device mesa = {.platform = "rusticl", .is_cpu = true};
+    const KernelWish packets = {.family_given = true, .choice = {.family = FAMILY_PACKET}};
+    const KernelWish wide = {.nodes_given = true, .choice = {.nodes = NODES_WIDE}};
+    assert_int_equal(kernel_choose(&packets, &mesa).family, FAMILY_PACKET);
+    assert_int_equal(kernel_choose(&packets, &mesa).nodes, NODES_WIDE);
+    assert_int_equal(kernel_choose(&wide, &mesa).family, FAMILY_RAY);
+    assert_int_equal(kernel_choose(&wide, &mesa).nodes, NODES_WIDE);
+}
+
+static void fp64_is_rays_over_pairs_everywhere(void **state)
+{
+    (void)state;
+    const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
+    const KernelWish fp64 = {.choice = {.precision = PRECISION_FP64}};
+    assert_choice(&fp64, &pocl, FAMILY_RAY, NODES_PAIR);
+    assert_int_equal(kernel_choose(&fp64, &pocl).precision, PRECISION_FP64);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cpus_get_packets_unless_their_implementation_is_slow_with_them),
+        cmocka_unit_test(other_devices_get_rays),
+        cmocka_unit_test(a_choice_by_the_user_is_kept),
+        cmocka_unit_test(fp64_is_rays_over_pairs_everywhere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
