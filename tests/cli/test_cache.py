@@ -120,7 +120,7 @@ class Places(CacheWork):
         self.assertEqual(list(self.work.glob("clrt-*")), [])
 
 
-@unittest.skipUnless(has_private_disks(), "disks cannot be mounted here")
+@unittest.skipUnless(has_private_disks(), "only root can mount disks")
 class Disks(CacheWork):
     MOUNT = 'mount -t tmpfs -o size=700k clrt-test "$1" && cp -r "$2"/. "$1" && \
         { [ "$3" != ro ] || mount -o remount,ro "$1"; } && shift 3 && exec "$@"'
@@ -145,4 +145,4 @@ class Disks(CacheWork):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
