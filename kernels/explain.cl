@@ -92,7 +92,8 @@ static inline void note_light(const Notes *notes, const SceneView *scene, const 
     Lighting received = *lighting;
     const SeenLight light = see_light(scene, index, lighting->surface, lighting->wanted);
     note(notes, LIGHT_COSINE, light.cosine);
-    note_count(notes, LIGHT_STATE, (Count)(LIGHT_BEHIND));
+    note_count(notes, LIGHT_STATE,
+               light.cosine > 0.0f ? (Count)(LIGHT_BEHIND_FACE) : (Count)(LIGHT_BEHIND));
     note_count(notes, LIGHT_BLOCKER, (Count)(NOTHING));
     if (!any_lane(light.faces))
         return;

@@ -37,8 +37,15 @@ typedef struct {
     Real3 position, toward; // toward it: unit
     float intensity;
     Real cosine;
-    Truth faces; // the surface is turned to it
+    Truth faces; // the shading normal and the face are turned to it
 } SeenLight;
+
+// Whether the light is in front of the face.  The height is measured from a corner, which is exact,
+// so all points of a triangle agree about a light that is nearly in its plane.
+static inline Truth is_before_face(const Surface *surface, Real3 light)
+{
+    return dot_product(surface->face, difference(light, surface->on_face)) > 0.0f;
+}
 
 static inline SeenLight see_light(const SceneView *scene, uint index, const Surface *surface,
                                   Truth wanted)
@@ -48,7 +55,7 @@ static inline SeenLight see_light(const SceneView *scene, uint index, const Surf
     light.intensity = scene->lights[index].intensity;
     light.toward = unit_vector(difference(light.position, surface->point));
     light.cosine = dot_product(surface->normal, light.toward);
-    light.faces = wanted && light.cosine > 0.0f;
+    light.faces = wanted && light.cosine > 0.0f && is_before_face(surface, light.position);
     return light;
 }
 

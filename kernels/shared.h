@@ -253,6 +253,11 @@ typedef enum {
 typedef enum { LIGHT_STATE, LIGHT_BLOCKER, LIGHT_WORDS } LightWord;
 
 // Whether a light reaches a surface.
-typedef enum { LIGHT_BEHIND, LIGHT_SEEN, LIGHT_BLOCKED } LightState;
+typedef enum {
+    LIGHT_BEHIND, // the shading normal is turned away from it
+    LIGHT_SEEN,
+    LIGHT_BLOCKED,
+    LIGHT_BEHIND_FACE // the face is turned away from it, the shading normal is not
+} LightState;
 
 #endif

@@ -12,7 +12,9 @@ typedef struct {
     Real normal_doubt, face_doubt, viewer_doubt;
     Count id, material;
     bool is_sphere;
-    Real room, edge; // the first over the second is the point's distance from the edges, at least
+    bool from_behind; // seen from a triangle's back or from inside a sphere
+    Corners corners;  // of a triangle
+    Real room, edge;  // the first over the second is the point's distance from the edges, at least
 } FatSurface;
 
 // What moves a vector of this length by `doubt` turns it by less than this.
@@ -39,9 +41,9 @@ static inline void interpolate_normal(FatSurface *surface, const Corners *normal
     surface->normal_doubt = turn_of(doubt, length_of(sum)) + 5.0f * (u + OWN_ROUNDOFF);
 }
 
-static inline void face_viewer(FatSurface *surface, bool front)
+static inline void face_viewer(FatSurface *surface)
 {
-    if (front)
+    if (!surface->from_behind)
         return;
     surface->normal = negative3(surface->normal);
     surface->face = negative3(surface->face);
@@ -87,8 +89,11 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
     const Real edges = largest_component(ab) * largest_component(ac);
     const Real u = ray->u + OWN_ROUNDOFF, r = 1.0f / sight.edges.determinant;
     const Real3 weights = {sight.edges.u * r, sight.edges.v * r, sight.edges.w * r};
-    FatSurface surface = {
-        .end = fat_point(ray, &corners, &sight, weights), .id = hit->id, .material = look.material};
+    FatSurface surface = {.end = fat_point(ray, &corners, &sight, weights),
+                          .id = hit->id,
+                          .material = look.material,
+                          .from_behind = !(sight.edges.determinant > 0.0f),
+                          .corners = corners};
     surface.normal = surface.face = surface.end.face;
     surface.face_doubt = turn_of(8.0f * u * edges, length_of(cross_product(ab, ac))) + 8.0f * u;
     surface.normal_doubt = surface.face_doubt;
@@ -97,11 +102,12 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
         interpolate_normal(&surface, &normals, weights, &corners, ray->u);
     }
     note_room(&surface, &corners, weights);
-    face_viewer(&surface, sight.edges.determinant > 0.0f);
+    face_viewer(&surface);
     return surface;
 }
 
-// The point is pulled onto the sphere, as the tracer does.
+// The point is pulled onto the sphere, as the tracer does.  Where the hit is sure, so is the wall:
+// the near one has an origin outside and the far one an origin inside (sure_sphere.cl).
 static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
                                     const Nearest *nearest)
 {
@@ -111,7 +117,8 @@ static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
     const Real3 met = sum3(ray->origin, scaled3(depth, ray->along));
     FatSurface surface = {.id = nearest->id,
                           .material = fetch_sphere_material(scene, nearest->index),
-                          .is_sphere = true};
+                          .is_sphere = true,
+                          .from_behind = nearest->id == ray->own || chord.enter.high < 0.0f};
     surface.normal = surface.face = unit_vector(difference(met, sphere.center));
     surface.end.point = sum3(sphere.center, scaled3(sphere.radius, surface.normal));
     surface.end.face = surface.normal;
@@ -169,8 +176,7 @@ static inline ThickRay thick_shadow_ray(const FatSurface *surface, Real3 light, 
     return ray;
 }
 
-// Whether the shaded side is turned to the light.
-static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
+static inline Answer normal_surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
     const Real cosine = dot_product(surface->normal, to_light->along);
     const Real doubt =
@@ -178,6 +184,25 @@ static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_
     if (!(fabs(cosine) > doubt))
         return ANSWER_UNKNOWN;
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
+}
+
+// Corners and lights are stored, so only rounding leaves a light's side of a triangle open.  From
+// outside, a sphere's face is its normal.
+static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay *to_light)
+{
+    if (surface->is_sphere)
+        return surface->from_behind ? ANSWER_NO : ANSWER_YES;
+    const FatPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
+    const int side = side_of(&surface->corners, &light, to_light->u);
+    if (side == 0)
+        return ANSWER_UNKNOWN;
+    return (side < 0) == surface->from_behind ? ANSWER_YES : ANSWER_NO;
+}
+
+// Whether the shading normal and the face are both turned to the light.
+static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
+{
+    return min(normal_surely_faces(surface, to_light), face_surely_faces(surface, to_light));
 }
 
 // Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near

@@ -113,6 +113,7 @@ static inline Real margin_of(const Sight *sight, Real u)
 // On which side of a triangle's plane a point lies: 1 before its front, -1 behind, 0 unknown; as
 // real arithmetic has it and as height_over does, which may also find zero where this is 0.  Its
 // error is below 12u n.|apart| + 12u E |apart|, its own threshold below the bound that is doubled.
+// So is the error of is_before_face (shade.cl), whose unit vector adds 4u n.|apart|.
 static inline int side_of(const Corners *corners, const FatPoint *fat, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);

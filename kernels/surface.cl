@@ -4,6 +4,14 @@
 // (pbrt, section 6.8).  New rays start right there: which triangles they may stop on is decided by
 // the side the point lies on (triangle.cl), so no offset moves contacts and shadows.  Only where
 // rounding put the point outside its own triangle, as the new ray sees it, is it moved.
+//
+// The shading normal and the true face can face opposite sides.  Two rules decide what then leaves
+// the surface or reaches it.  The face always counts as seen from where the ray came.
+//  - A light reaches a point only if the shading normal and the face both face it (shade.cl).  The
+//    course's renderers get there by starting shadow rays a little off the surface: the face then
+//    blocks a light behind it.  A sphere seen from inside keeps its outward normal, as in the
+//    course, so its inner face and its normal never face the same light and it stays unlit.
+//  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
 #include "fetch.cl"
@@ -13,6 +21,7 @@ typedef struct {
     Real3 point;
     Real3 normal;        // unit, interpolated, what is shaded with
     Real3 face;          // unit, of the true surface, on the side the ray came from
+    Real3 on_face;       // a corner of the triangle, exact; of a sphere the point
     Real3 toward_viewer; // unit
     Count id, material;
     Count index;     // of a triangle; NOTHING for spheres
@@ -101,12 +110,22 @@ static inline Surface triangle_surface(const SceneView *scene, const FrameData *
     const Real3 face = triangle_face(&corners, surface.toward_viewer);
     const Real3 normal = triangle_normal(scene, look.normals, weights, face);
     surface.face = choose3(front, face, negative3(face));
+    surface.on_face = corners.a;
     surface.normal = choose3(front, normal, negative3(normal));
     surface.id = hit->id;
     surface.index = hit->index;
     note_edges(&surface, &corners, weights);
     surface.material = look.material;
     return surface;
+}
+
+// Whether a ray that meets the sphere comes from outside.  sphere_distance chooses between the near
+// and the far wall by the same power, so the answer also holds where the ray grazes the sphere and
+// rounding may turn the normal away.
+static inline Truth comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
+{
+    const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
+    return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
 }
 
 // A sphere's normal points outward even where it is seen from inside, as in the course.
@@ -116,8 +135,9 @@ static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, con
     Surface surface;
     surface.toward_viewer = negative3(unit_vector(ray->direction));
     surface.point = sphere_point(&sphere, ray->origin, ray->direction, hit->t, &surface.normal);
-    const Truth outside = dot_product(surface.normal, surface.toward_viewer) >= 0.0f;
+    const Truth outside = comes_from_outside(&sphere, ray, hit);
     surface.face = choose3(outside, surface.normal, negative3(surface.normal));
+    surface.on_face = surface.point;
     surface.id = hit->id;
     surface.index = NOTHING;
     surface.room = 0.0f;
@@ -131,6 +151,7 @@ static inline Surface choose_surface(Truth first, const Surface *a, const Surfac
     return (Surface){choose3(first, a->point, b->point),
                      choose3(first, a->normal, b->normal),
                      choose3(first, a->face, b->face),
+                     choose3(first, a->on_face, b->on_face),
                      a->toward_viewer,
                      first ? a->id : b->id,
                      first ? a->material : b->material,

@@ -24,7 +24,7 @@ static json_t *primitive_json(const Scene *scene, uint32_t id)
 static json_t *light_json(const ExplainReport *report, const ExplainedLight *light,
                           const Material *material)
 {
-    static const char *const states[] = {"behind", "reaches", "blocked"};
+    static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
     const bool blocked = light->state == LIGHT_BLOCKED;
     return json_pack("{s:s, s:f, s:f, s:o, s:o, s:f, s:f}", "state", states[light->state], "cosine",
                      light->cosine, "distance", light->distance, "blocker",

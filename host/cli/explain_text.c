@@ -32,7 +32,9 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
 {
     fprintf(stream, "    light %-4u ", number);
     if (light->state == LIGHT_BEHIND)
-        fprintf(stream, "is behind the surface");
+        fprintf(stream, "does not reach it: the normal is turned away");
+    if (light->state == LIGHT_BEHIND_FACE)
+        fprintf(stream, "does not reach it: the face is turned away");
     if (light->state == LIGHT_BLOCKED) {
         fprintf(stream, "is blocked by ");
         write_primitive(report->scene, light->blocker, stream);

@@ -239,6 +239,7 @@ static Nearest meet_all(const Path *path, NUMBER reach)
 // Where a path has come to; normals have any length.
 typedef struct {
     Vector point, normal, face;
+    Vector corner; // of a triangle: a point of its plane without any error
     uint32_t id, material;
     bool is_sphere, is_inside;
 } Surface;
@@ -271,6 +272,7 @@ static Surface triangle_surface(const Path *path, const Stop *stop)
     const Vector corners[3] = {of_floats(triangle->a), of_floats(triangle->b),
                                of_floats(triangle->c)};
     Surface surface = {.point = weighted(corners, stop),
+                       .corner = corners[0],
                        .id = stop->id,
                        .material = triangle->material & ~TRIANGLE_TWO_SIDED};
     surface.normal = surface.face =
@@ -294,17 +296,40 @@ static void note(RealDecisions *decisions, uint32_t word)
     decisions->signature = mixed ^ mixed >> 15;
 }
 
+// 1 or -1, or 0 where the error hides it.
+static int clear_sign(NUMBER value, NUMBER error)
+{
+    return value > error ? 1 : value < -error ? -1 : 0;
+}
+
+// On which side of the plane across the shading normal the light lies.
+static int side_of_normal(const Path *path, const Surface *surface, Vector apart)
+{
+    const NUMBER error = path->tolerance * extent(surface->normal) *
+                         (extent(surface->point) + extent(apart)) * GROWTH;
+    return clear_sign(dot(surface->normal, apart), error);
+}
+
+// On which side of the face the light lies: 1 where the path came from.  A sphere seen from inside
+// has no light there which its outward normal is turned to, one seen from outside no other.
+static int side_of_face(const Surface *surface, Vector light)
+{
+    if (surface->is_sphere)
+        return surface->is_inside ? -1 : 1;
+    const Vector apart = minus(light, surface->corner);
+    const NUMBER error = TOLERANCE * extent(surface->face) * (extent(apart) + extent(light));
+    return clear_sign(dot(surface->face, apart), error);
+}
+
 // 0 where the surface is turned away from the light, 1 where it is lit, 2 in shadow.
 static uint32_t see_light(const Path *path, const Surface *surface, const PointLight *light,
                           bool *settled)
 {
-    const Vector apart = minus(of_floats(light->position), surface->point);
-    const NUMBER cosine = dot(surface->normal, apart);
-    const NUMBER error = path->tolerance * extent(surface->normal) *
-                         (extent(surface->point) + extent(apart)) * GROWTH;
-    *settled = *settled && size_of(cosine) > error;
-    if (cosine <= 0)
+    const Vector place = of_floats(light->position), apart = minus(place, surface->point);
+    const int normal = side_of_normal(path, surface, apart), face = side_of_face(surface, place);
+    if (normal < 0 || face < 0)
         return 0;
+    *settled = *settled && normal > 0 && face > 0;
     const Path shadow = {.view = path->view,
                          .tolerance = path->tolerance,
                          .origin = surface->point,

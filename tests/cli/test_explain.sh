@@ -53,6 +53,40 @@ check "... with weights" json out "[r['weight'] for r in d['samples'][0]['rays']
 check "... and kinds" json out "[r['kind'] for r in d['samples'][0]['rays']] == ['camera', 'reflected', 'reflected']"
 check "a blocker is named" run 0 "$scene" --explain-pixel 70,60 --json
 check "... with its kind and file" json out "all(b is None or b['kind'] == 'sphere' or b['file'].endswith('.ply') for s in d['samples'] for r in s['rays'] if r['hit'] for l in r['hit']['lights'] for b in [l['blocker']])"
+
+# The first light is behind the face alone, the second behind the normal too, as worked out there.
+cat >leaning.ply <<'END'
+ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face 1
+property list uchar int vertex_indices
+end_header
+-10 -10 0 0.6 0 0.8
+10 -10 0 0.6 0 0.8
+10 10 0 0.6 0 0.8
+3 0 1 2
+END
+cat >leaning.scn <<'END'
+size 5 5
+light 11 -2 -5 1
+light -9 -2 -5 1
+material 1
+ply_file leaning.ply
+up 0 1 0
+camera 1 -2 4 1 -2 0 90
+END
+check "lights behind a surface are explained" run 0 leaning.scn --explain-pixel 2,2
+check "... by its face" tells "light 1    does not reach it: the face is turned away; cosine 0.1788"
+check "... by its normal" tells "light 2    does not reach it: the normal is turned away; cosine -0.8944"
+check "lights behind a surface as JSON" run 0 leaning.scn --explain-pixel 2,2 --json
+check "... have both reasons" json out "[l['state'] for l in d['samples'][0]['rays'][0]['hit']['lights']] == ['behind_face', 'behind']"
 for form in "" "--aa=3" "--kernel ray --nodes pair" "--kernel ray --nodes wide" "--kernel packet --lanes 4" \
   "--precision fp64" "--precision fp64 --aa" "--no-bvh" "--max-level 1" "--max-level 0" "-j 1"; do
   # shellcheck disable=SC2086

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ten pixels whose rays were worked out by hand.  Pictures have 5 x 5 pixels and a field of view of
-// 90 degrees, so that the ray through pixel (2, 2) goes straight to the camera's aim, and those
+// Eleven pixels whose rays were worked out by hand.  Pictures have 5 x 5 pixels and a field of view
+// of 90 degrees, so that the ray through pixel (2, 2) goes straight to the camera's aim, and those
 // beside it lean by 0.4 or 0.8.  The floor is a square of two triangles, 0 below its diagonal from
 // (-10, -10) to (10, 10) and 1 above.
 #include "image/picture.h"
@@ -18,6 +18,13 @@ static const char floor_text[] =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
     "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "-10 -10 0\n10 -10 0\n10 10 0\n-10 10 0\n3 0 1 2\n3 0 2 3\n";
+
+// The floor's first triangle, lit as if it leaned by 0.6 toward x.
+static const char leaning_text[] =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "-10 -10 0 0.6 0 0.8\n10 -10 0 0.6 0 0.8\n10 10 0 0.6 0 0.8\n3 0 1 2\n";
 
 #define SCENE(text)                                                                                \
     "size 5 5\nambient 0.1\nbackground 0 0 1\n"                                                    \
@@ -296,6 +303,22 @@ static void floors_seen_from_below(void **state)
     assert_number(told.color[0], 0.08);
 }
 
+// The normal (0.6, 0, 0.8) is turned to the lamp, 10 beside and 5 below the point, at the cosine
+// (0.6 * 10 - 0.8 * 5) / sqrt(125); the face, which looks up, is turned away from it.
+static void a_face_turned_away_from_a_light(void **state)
+{
+    (void)state;
+    const Told told = tell(SCENE("light 11 -2 -5 1\nmaterial plain\nply_file leaning.ply\n"
+                                 "up 0 1 0\ncamera 1 -2 4 1 -2 0 90\n"),
+                           2, 2);
+    assert_floor(&told, 0, 0, 4);
+    assert_vector(told.rays[0].normal, 0.6, 0, 0.8);
+    assert_int_equal(told.lights[0].state, LIGHT_BEHIND_FACE);
+    assert_number(told.lights[0].cosine, 0.178885);
+    assert_number(told.lights[0].distance, 11.180340);
+    assert_number(told.color[0], 0.08);
+}
+
 static int make_folder(void **state)
 {
     char path[96];
@@ -304,6 +327,7 @@ static int make_folder(void **state)
     if (mkdtemp(folder) == NULL)
         return -1;
     write_file("floor.ply", floor_text, path);
+    write_file("leaning.ply", leaning_text, path);
     return 0;
 }
 
@@ -312,6 +336,8 @@ static int remove_folder(void **state)
     char path[96];
     (void)state;
     snprintf(path, sizeof path, "%s/floor.ply", folder);
+    unlink(path);
+    snprintf(path, sizeof path, "%s/leaning.ply", folder);
     unlink(path);
     snprintf(path, sizeof path, "%s/scene.scn", folder);
     unlink(path);
@@ -331,6 +357,7 @@ int main(void)
         cmocka_unit_test(a_ray_that_grazes_the_floor),
         cmocka_unit_test(a_mirror_ball_seen_from_inside),
         cmocka_unit_test(floors_seen_from_below),
+        cmocka_unit_test(a_face_turned_away_from_a_light),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

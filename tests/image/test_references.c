@@ -87,7 +87,7 @@ static void reflections_are_the_courses(void **state)
 static void four_samples_a_pixel_are_the_courses(void **state)
 {
     (void)state;
-    check("reflections.scn", "reflections-aa.exr", 2, 150);
+    check("reflections.scn", "reflections-aa.exr", 2, 120);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces and shades by the course's rules and clrt's: what a ray leaves cannot stop it, light
-// shines only where the interpolated normal faces it, and a reflected ray that would enter the
-// surface is mirrored out of it.
+// Traces and shades by the course's rules and clrt's: light shines only where the interpolated
+// normal faces it and the surface itself does not hide it, a ray meets the primitive that it leaves
+// only to shadow it, and a reflected ray that would enter the surface is mirrored out of it.
 #include "oracle/oracle.h"
 
 // The sine of a light's height over a true surface below which it grazes.  A float tracer lifts a
@@ -70,11 +70,24 @@ static OracleHit meet_spheres(const Scene *scene, const OracleRay *ray)
     return hit;
 }
 
-static bool light_reaches(const Oracle *oracle, const OracleSurface *surface, Vec3 toward_light,
-                          double distance)
+// A light as seen from a surface.
+typedef struct {
+    Vec3 toward; // of length 1
+    double cosine;
+    bool shines; // it reaches the surface
+} OracleLight;
+
+static OracleLight see_light(const Oracle *oracle, const OracleSurface *surface, const Light *light)
 {
-    const OracleRay ray = {surface->point, toward_light, surface->near, distance, surface->id};
-    return meet_spheres(oracle->scene, &ray).id == NOTHING && !blocks_block(&oracle->blocks, &ray);
+    const Vec3 apart = vec3_sub(light->position, surface->point);
+    const Vec3 toward = vec3_normalize(apart);
+    const OracleRay ray = {surface->point, toward, surface->near, sqrt(vec3_dot(apart, apart)),
+                           surface->id};
+    const double cosine = vec3_dot(surface->normal, toward);
+    const bool shines = cosine > 0 && !surface_blocks(surface, toward) &&
+                        meet_spheres(oracle->scene, &ray).id == NOTHING &&
+                        !blocks_block(&oracle->blocks, &ray);
+    return (OracleLight){toward, cosine, shines};
 }
 
 static double highlight(const Material *material, const OracleSurface *surface, Vec3 toward_light)
@@ -103,20 +116,16 @@ static Received light_received(const Oracle *oracle, const OracleSurface *surfac
     const Material *material = &scene->materials.data[surface->material];
     Received received = {0, 0};
     for (size_t i = 0; i < scene->lights.count; i++) {
-        const Light *light = &scene->lights.data[i];
-        const Vec3 apart = vec3_sub(light->position, surface->point);
-        const Vec3 toward_light = vec3_normalize(apart);
-        const double cosine = vec3_dot(surface->normal, toward_light);
-        const bool lit = cosine > 0 &&
-                         light_reaches(oracle, surface, toward_light, sqrt(vec3_dot(apart, apart)));
-        sign(decisions, lit);
-        if (cosine > 0 && fabs(vec3_dot(surface->face, toward_light)) < HORIZON)
+        const double intensity = scene->lights.data[i].intensity;
+        const OracleLight light = see_light(oracle, surface, &scene->lights.data[i]);
+        sign(decisions, light.shines);
+        if (light.cosine > 0 && fabs(vec3_dot(surface->face, light.toward)) < HORIZON)
             decisions->grazes = true;
-        if (!lit)
+        if (!light.shines)
             continue;
-        received.diffuse += light->intensity * cosine;
+        received.diffuse += intensity * light.cosine;
         if (material->shader == SHADER_BLINN_PHONG)
-            received.specular += light->intensity * highlight(material, surface, toward_light);
+            received.specular += intensity * highlight(material, surface, light.toward);
     }
     return received;
 }
@@ -194,12 +203,8 @@ OracleSample oracle_sample(const OracleView *view, double x, double y)
 static uint32_t lights_reaching(const Oracle *oracle, const OracleSurface *surface)
 {
     uint32_t count = 0;
-    for (size_t i = 0; i < oracle->scene->lights.count; i++) {
-        const Vec3 apart = vec3_sub(oracle->scene->lights.data[i].position, surface->point);
-        const Vec3 toward_light = vec3_normalize(apart);
-        count += vec3_dot(surface->normal, toward_light) > 0 &&
-                 light_reaches(oracle, surface, toward_light, sqrt(vec3_dot(apart, apart)));
-    }
+    for (size_t i = 0; i < oracle->scene->lights.count; i++)
+        count += see_light(oracle, surface, &oracle->scene->lights.data[i]).shines;
     return count;
 }
 

@@ -75,6 +75,13 @@ static void triangle_surface(OracleSurface *surface, const Scene *scene)
     }
 }
 
+bool surface_blocks(const OracleSurface *surface, Vec3 toward_light)
+{
+    const double viewer_height = vec3_dot(surface->face, surface->toward_viewer);
+    const double light_height = vec3_dot(surface->face, toward_light);
+    return viewer_height * light_height <= 0;
+}
+
 OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit)
 {
     OracleSurface surface = {.id = hit.id, .toward_viewer = vec3_scale(ray->direction, -1)};

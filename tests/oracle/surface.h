@@ -16,3 +16,8 @@ typedef struct {
 } OracleSurface;
 
 OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit);
+
+// Whether the surface itself stands between its point and a light in this direction.  The course
+// starts the ray to a light a little off the point.  As that distance shrinks, the surface there
+// becomes its tangent plane, which stops the ray unless light and viewer are on one side of it.
+bool surface_blocks(const OracleSurface *surface, Vec3 toward_light);

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: MIT
 """OpenGL and rays see the same outlines: where the two views of a scene whose objects each have a
 color of their own differ, an edge is at most two pixels away.  For every course scene and view, and
-clrt's own.  Usage: CLRT=path/to/clrt test_outlines.py"""
+clrt's own.  They also see the same lit and unlit sides of a coarse convex mesh with smooth normals.
+Usage: CLRT=path/to/clrt test_outlines.py"""
 
+import math
 import pathlib
 import tempfile
 
@@ -111,5 +113,48 @@ def outlines_agree_in_own_scenes(screen):
         agree(screen, path)
 
 
+def ball(rings=4, slices=7):
+    """A PLY file of a closed ball whose normals are those of a round one."""
+    corners, faces = [], []
+    for ring in range(rings + 1):
+        for part in range(slices):
+            low, around = math.pi * ring / rings, 2 * math.pi * part / slices
+            corners.append((math.sin(low) * math.cos(around), math.sin(low) * math.sin(around),
+                            math.cos(low)))
+    for ring in range(rings):
+        for part in range(slices):
+            beside = (part + 1) % slices
+            high, down = ring * slices, (ring + 1) * slices
+            if ring + 1 < rings:
+                faces.append((high + part, down + part, down + beside))
+            if ring > 0:
+                faces.append((high + part, down + beside, high + beside))
+    names = "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+    lines = [f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\n{names}element face {len(faces)}\n"
+             "property list uchar int vertex_indices\nend_header"]
+    lines += [" ".join(f"{value:.9g}" for value in 2 * corner) for corner in corners]
+    lines += [f"3 {a} {b} {c}" for a, b, c in faces]
+    return "\n".join(lines) + "\n"
+
+
+def light_falls_on_the_same_side_of_a_convex_mesh(screen):
+    """The light is so bright that every lit pixel is white."""
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "ball.ply").write_text(ball())
+        scene = pathlib.Path(folder) / "ball.scn"
+        scene.write_text("background 0 0 0\nambient 0\nmaterial 1\nlight -3 1 -2 1e6\n"
+                         "ply_file ball.ply\ncamera 0.4 -2.1 0.6 0 0 0 60\n")
+        window = Window(screen, scene, size=SIZE)
+        window.wait("OpenGL, view 1")
+        window.press("t", "text off")
+        drawn = window.read()
+        window.press("r", "ray traced")
+        traced = window.read()
+        window.close()
+    apart = compare("ball", "1", drawn, traced)
+    print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
+
+
 if __name__ == "__main__":
-    run_tests([outlines_agree_in_the_courses_scenes, outlines_agree_in_own_scenes], Screen())
+    run_tests([outlines_agree_in_the_courses_scenes, outlines_agree_in_own_scenes,
+               light_falls_on_the_same_side_of_a_convex_mesh], Screen())

@@ -197,7 +197,8 @@ static void add_light(PeerTile *tile, const PointLight *light, Met met[PACKETS])
         const Floats inverse = inverse_root(points_dot(direction, direction));
         toward_light[packet] = points_scale(direction, -inverse);
         cosine[packet] = points_dot(surfaces->normal, toward_light[packet]);
-        lit[packet] = met[packet].hit & (cosine[packet] > all(0)) &
+        const Floats height = points_dot(surfaces->face, toward_light[packet]);
+        lit[packet] = met[packet].hit & (cosine[packet] > all(0)) & (height > all(0)) &
                       (met[packet].looks.shader != SHADER_SILHOUETTE);
         set_rays(&rays[packet], origin, direction, 0, 1 - AWAY * inverse);
         count += lanes_of(lit[packet]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The materials under the scene's lights, without shadows; mirrors reflect the background.
+// The materials under the scene's lights, without shadows; mirrors reflect the background.  As in
+// the traced picture, a light counts where the shading normal and the face are turned to it.
 #define LIGHTS       64
 #define SILHOUETTE   0.5 // shaders below and above are numbered
 #define BLINN_PHONG  1.5
@@ -11,7 +12,7 @@ uniform float ambient, gain;
 uniform bool is_srgb;
 
 struct Surface {
-    vec3 place, normal, toward_viewer;
+    vec3 place, normal, face, toward_viewer; // the face on the side that is seen, of any length
     vec4 diffuse;  // color and kd
     vec4 specular; // color and ks
     vec4 look;     // shader, unused, shininess, reflectivity
@@ -30,7 +31,7 @@ vec3 shaded(Surface surface)
     for (int i = 0; i < light_count; i++) {
         vec3 toward_light = normalize(lights[i].xyz - surface.place);
         float cosine = dot(surface.normal, toward_light);
-        if (cosine <= 0.0)
+        if (cosine <= 0.0 || dot(surface.face, toward_light) <= 0.0)
             continue;
         vec3 half_vector = normalize(toward_light + surface.toward_viewer);
         float shine = max(dot(surface.normal, half_vector), 0.0);

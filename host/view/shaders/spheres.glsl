@@ -49,7 +49,8 @@ void main()
     vec3 offset = distance * direction;
     vec3 normal = (offset - sphere_shown.xyz) / sphere_shown.w;
     gl_FragDepth = 1.0 - nearest / dot(offset, forward);
-    color = seen(Surface(eye + offset, normal, -direction, diffuse_shown, specular_shown,
+    vec3 face = look_shown.y < 0.0 ? -normal : normal;
+    color = seen(Surface(eye + offset, normal, face, -direction, diffuse_shown, specular_shown,
                          look_shown));
 }
 #endif

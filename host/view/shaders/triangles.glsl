@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles, smooth or flat; a flat one's normal is found from how its places change.
+// Triangles, smooth or flat; how places change from pixel to pixel gives the face.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 position, normal;
@@ -22,9 +22,11 @@ void main()
 {
     vec3 toward_viewer = normalize(eye - place);
     vec3 face = cross(dFdx(place), dFdy(place));
-    vec3 normal = dot(face, toward_viewer) < 0.0 ? -face : face;
+    if (dot(face, toward_viewer) < 0.0)
+        face = -face;
+    vec3 normal = face;
     if (is_smooth && dot(bend, bend) > 0.0)
         normal = gl_FrontFacing ? bend : -bend;
-    color = seen(Surface(place, normalize(normal), toward_viewer, diffuse, specular, look));
+    color = seen(Surface(place, normalize(normal), face, toward_viewer, diffuse, specular, look));
 }
 #endif

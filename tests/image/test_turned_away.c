@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// No light reaches a point whose face is turned away from it, in color and channels, in every form
+// of the kernels.  The ball is convex, so nothing but its own faces can hide a light from it.
+#include "image/form.h"
+#include "image/rendered.h"
+#include "image/temporary.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PI     3.14159265358979
+#define SIDE   97
+#define RINGS  4
+#define SLICES 7
+#define SPOKES 24
+
+// Lights whose height over a face is smaller than this, in units of its normal, are not judged.
+#define CLEAR 1e-4
+
+static const KernelChoice forms[] = {
+    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
+#define FORMS (sizeof forms / sizeof *forms)
+
+typedef struct {
+    Vec3 corners[3], normals[3];
+} Triangle;
+
+typedef struct {
+    Triangle triangles[2 * RINGS * SLICES];
+    uint32_t count;
+} Solid;
+
+static void add_triangle(Solid *solid, Vec3 a, Vec3 b, Vec3 c)
+{
+    solid->triangles[solid->count++] = (Triangle){{a, b, c}, {a, b, c}};
+}
+
+static Vec3 on_ball(int ring, int slice)
+{
+    const double height = PI * ring / RINGS, around = 2 * PI * slice / SLICES;
+    return vec3(sin(height) * cos(around), sin(height) * sin(around), cos(height));
+}
+
+// A coarse ball of radius 1 with the normals of a round one.
+static Solid ball(void)
+{
+    Solid solid = {.count = 0};
+    for (int ring = 0; ring < RINGS; ring++)
+        for (int slice = 0; slice < SLICES; slice++) {
+            const Vec3 high = on_ball(ring, slice), low = on_ball(ring + 1, slice);
+            const Vec3 beside = on_ball(ring + 1, slice + 1), above = on_ball(ring, slice + 1);
+            if (ring + 1 < RINGS)
+                add_triangle(&solid, high, low, beside);
+            if (ring > 0)
+                add_triangle(&solid, high, beside, above);
+        }
+    return solid;
+}
+
+// Triangles in planes through the z axis, with normals that are turned to the axis.
+static Solid spokes(void)
+{
+    Solid solid = {.count = 0};
+    for (int spoke = 0; spoke < SPOKES; spoke++) {
+        const double around = 2 * PI * (spoke + 0.37) / SPOKES;
+        const Vec3 out = {cos(around), sin(around), 0}, up = {0, 0, 1};
+        const Vec3 a = vec3_scale(out, 0.31);
+        const Vec3 b = vec3_add(vec3_scale(out, 1.13), vec3_scale(up, -0.17));
+        const Vec3 c = vec3_add(vec3_scale(out, 0.87), vec3_scale(up, 0.71));
+        const Vec3 face = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+        add_triangle(&solid, a, b, c);
+        for (int corner = 0; corner < 3; corner++)
+            solid.triangles[spoke].normals[corner] = vec3_sub(face, out);
+    }
+    return solid;
+}
+
+static void write_solid(const Solid *solid, FILE *stream)
+{
+    fprintf(stream,
+            "ply\nformat ascii 1.0\nelement vertex %u\nproperty double x\nproperty double y\n"
+            "property double z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+            "element face %u\nproperty list uchar int vertex_indices\nend_header\n",
+            3 * solid->count, solid->count);
+    for (uint32_t i = 0; i < 3 * solid->count; i++) {
+        const Vec3 p = solid->triangles[i / 3].corners[i % 3];
+        const Vec3 n = solid->triangles[i / 3].normals[i % 3];
+        fprintf(stream, "%.17g %.17g %.17g %.9g %.9g %.9g\n", p.x, p.y, p.z, n.x, n.y, n.z);
+    }
+    for (uint32_t i = 0; i < solid->count; i++)
+        fprintf(stream, "3 %u %u %u\n", 3 * i, 3 * i + 1, 3 * i + 2);
+}
+
+// A white light and what it falls on, before black.
+typedef struct {
+    const Solid *solid; // NULL: a sphere of radius 1
+    const char *sides;
+    Vec3 eye, look_at, light;
+} Stage;
+
+typedef struct {
+    char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
+} Paths;
+
+static Paths stage_write(const Stage *stage)
+{
+    Paths paths;
+    FILE *mesh = temporary_open(paths.mesh);
+    if (stage->solid != NULL)
+        write_solid(stage->solid, mesh);
+    temporary_close(mesh);
+    FILE *scene = temporary_open(paths.scene);
+    fprintf(scene, "background 0 0 0\nambient 0\nmaterial 1\nsides %s\n", stage->sides);
+    fprintf(scene, "light %.17g %.17g %.17g 1\n", stage->light.x, stage->light.y, stage->light.z);
+    fprintf(scene, "camera %g %g %g %g %g %g 60\n", stage->eye.x, stage->eye.y, stage->eye.z,
+            stage->look_at.x, stage->look_at.y, stage->look_at.z);
+    if (stage->solid != NULL)
+        fprintf(scene, "ply_file %s\n", paths.mesh);
+    else
+        fprintf(scene, "sphere 0 0 0 1\n");
+    temporary_close(scene);
+    return paths;
+}
+
+// The contents of a pixel.
+typedef struct {
+    Vec3 normal, point;
+    uint32_t primitive;
+    bool lit; // by color and channel
+} Seen;
+
+static double float_of(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+static Vec3 vector_at(const uint32_t *values)
+{
+    return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
+}
+
+// The picture of SIDE x SIDE pixels.
+static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
+{
+    Layers layers = {0};
+    Error error = {0};
+    const Paths paths = stage_write(stage);
+    PictureRequest request = picture_request(paths.scene, 1);
+    request.width = request.height = SIDE;
+    request.choice = *form;
+    request.group_width = request.group_height = form_group(form);
+    request.layers = &layers;
+    if (!aov_read_list("normal,position,primitive,shadow", &request.aovs, &error))
+        fail_msg("%s", error.text);
+    Framebuffer picture = rendered(&request);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const uint32_t *v = layers_at(&layers, i % SIDE, i / SIDE);
+        seen[i] = (Seen){vector_at(v), vector_at(v + 3), v[6], float_of(v[7]) > 0};
+        assert_int_equal(seen[i].lit, picture.pixels[i][0] > 0);
+    }
+    framebuffer_free(&picture);
+    layers_free(&layers);
+    remove(paths.scene);
+    remove(paths.mesh);
+}
+
+// The light's height over the face that a pixel shows, on the side that the eye sees.
+static double height_over_face(const Stage *stage, const Seen *seen)
+{
+    const Vec3 *c = stage->solid->triangles[seen->primitive].corners;
+    const Vec3 face = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+    const double viewer = vec3_dot(face, vec3_sub(stage->eye, c[0]));
+    const double light = vec3_dot(face, vec3_sub(stage->light, c[0]));
+    return viewer < 0 ? -light : light;
+}
+
+typedef struct {
+    uint32_t judged, turned_away, lit; // pixels; of the second, the normal alone faces the light
+} Counts;
+
+// The pixels of a convex solid, seen from outside.
+static Counts judge_outside(const Stage *stage, const Seen *seen)
+{
+    Counts counts = {0};
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        if (seen[i].primitive == NOTHING)
+            continue;
+        const double cosine = vec3_dot(seen[i].normal, vec3_sub(stage->light, seen[i].point));
+        const double height = stage->solid == NULL ? cosine : height_over_face(stage, &seen[i]);
+        if (fabs(cosine) < CLEAR || fabs(height) < CLEAR)
+            continue;
+        counts.judged++;
+        counts.turned_away += cosine > 0 && height < 0;
+        counts.lit += seen[i].lit;
+        assert_int_equal(seen[i].lit, cosine > 0 && height > 0);
+    }
+    return counts;
+}
+
+static void check_outside(const Solid *solid)
+{
+    static const Vec3 lights[] = {{4, -0.3, 2}, {-3, 1, -2}, {1.2, -1, -2.9}};
+    for (size_t light = 0; light < sizeof lights / sizeof *lights; light++)
+        for (size_t form = 0; form < FORMS; form++) {
+            Seen seen[SIDE * SIDE];
+            const Stage stage = {solid, "one", {0.4, -2.1, 0.6}, {0, 0, 0}, lights[light]};
+            see(&stage, &forms[form], seen);
+            const Counts counts = judge_outside(&stage, seen);
+            assert_in_range(counts.judged, 2000, SIDE * SIDE);
+            assert_in_range(counts.lit, 50, counts.judged);
+            if (solid != NULL)
+                assert_in_range(counts.turned_away, 40, counts.judged);
+        }
+}
+
+static void faces_turned_away_get_no_light_through_a_one_sided_mesh(void **state)
+{
+    const Solid solid = ball();
+    (void)state;
+    check_outside(&solid);
+}
+
+static void a_sphere_seen_from_outside_is_lit_by_its_normal_alone(void **state)
+{
+    (void)state;
+    check_outside(NULL);
+}
+
+// All pixels show it from inside, and none is lit.
+static void check_inside(const Solid *solid)
+{
+    for (size_t form = 0; form < FORMS; form++) {
+        Seen seen[SIDE * SIDE];
+        const Stage stage = {solid, "two", {0.3, -0.2, 0.1}, {1, 1, 0.3}, {0.8, 1.3, 0.9}};
+        see(&stage, &forms[form], seen);
+        for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            assert_int_not_equal(seen[i].primitive, NOTHING);
+            assert_false(seen[i].lit);
+        }
+    }
+}
+
+static void no_light_enters_a_closed_two_sided_mesh(void **state)
+{
+    const Solid solid = ball();
+    (void)state;
+    check_inside(&solid);
+}
+
+static void no_light_enters_a_sphere(void **state)
+{
+    (void)state;
+    check_inside(NULL);
+}
+
+// The light lies in the planes of all spokes, as far as rounding lets it.
+static void all_points_of_a_triangle_agree_about_a_light_in_its_plane(void **state)
+{
+    const Solid solid = spokes();
+    (void)state;
+    for (size_t form = 0; form < FORMS; form++) {
+        Seen seen[SIDE * SIDE];
+        uint32_t dark[SPOKES] = {0}, lit[SPOKES] = {0}, spokes_seen = 0;
+        const Stage stage = {&solid, "two", {0.6, -1.4, 1.6}, {0, 0, 0.2}, {0, 0, 0.27}};
+        see(&stage, &forms[form], seen);
+        for (uint32_t i = 0; i < SIDE * SIDE; i++)
+            if (seen[i].primitive != NOTHING)
+                (seen[i].lit ? lit : dark)[seen[i].primitive]++;
+        for (int spoke = 0; spoke < SPOKES; spoke++) {
+            spokes_seen += lit[spoke] + dark[spoke] > 20;
+            assert_true(lit[spoke] == 0 || dark[spoke] == 0);
+        }
+        assert_in_range(spokes_seen, SPOKES / 2, SPOKES);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faces_turned_away_get_no_light_through_a_one_sided_mesh),
+        cmocka_unit_test(a_sphere_seen_from_outside_is_lit_by_its_normal_alone),
+        cmocka_unit_test(no_light_enters_a_closed_two_sided_mesh),
+        cmocka_unit_test(no_light_enters_a_sphere),
+        cmocka_unit_test(all_points_of_a_triangle_agree_about_a_light_in_its_plane),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
