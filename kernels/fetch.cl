@@ -100,7 +100,7 @@ static inline Look fetch_look(const SceneView *scene, const Hit *hit, uint spher
 #else
     (void)sphere_count;
     const Record record = record_at(scene->triangles, hit->index * WORDS(TriangleData));
-    return (Look){record_word(&record, 7) & ~TRIANGLE_TWO_SIDED, record_word(&record, 11)};
+    return (Look){record_word(&record, 7) & ~TRIANGLE_MARKS, record_word(&record, 11)};
 #endif
 }
 

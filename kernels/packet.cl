@@ -202,9 +202,10 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     const Shear *shear = &packet->rays.shear;
     const uint id = at->block->id[at->place];
     const Truth front = edges_face(&test->edges, shear);
-    Truth closed = test->inside && ray->own != (Count)(id & ~TRIANGLE_TWO_SIDED);
+    const Truth inner = (id & TRIANGLE_REVERSED) != 0 ? front : !front;
+    Truth closed = test->inside && ray->own != (Count)(id & ~TRIANGLE_MARKS);
     if ((id & TRIANGLE_TWO_SIDED) == 0)
-        closed = closed && front;
+        closed = closed && !inner;
     const Real t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const Real clear = closed && t > 0.0f ? t : INFINITY;
     Truth near = closed && t <= reach;
@@ -216,7 +217,7 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
-    const SurfaceRay surface = {ray->origin, front, length_of_ray(ray), blur_of(ray)};
+    const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
@@ -275,7 +276,7 @@ static ALWAYS_INLINE bool test_triangle(const BlockPlace *at, const Packet *pack
     if (!any_lane(test.inside))
         return false;
     const Real t = packet_distances(at, packet, &test, best->t);
-    const Count id = at->block->id[at->place] & ~TRIANGLE_TWO_SIDED;
+    const Count id = at->block->id[at->place] & ~TRIANGLE_MARKS;
     const Truth precedes = hit_precedes(t, id, best);
     best->t = precedes ? t : best->t;
     best->id = precedes ? id : best->id;

@@ -84,12 +84,6 @@ static inline Real3 corner_relative(global const float *corner, const Query *que
                     corner[query->axes.z] - query->origin.z);
 }
 
-// One-sided triangles stop what comes from the front.
-static inline bool triangle_is_open(global const TriangleData *triangle, bool front)
-{
-    return !(triangle->material & TRIANGLE_TWO_SIDED) && !front;
-}
-
 // Whether the ray stops on a triangle that its line meets within rounding of its own.
 static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
                                          const Corners *corners, bool from_back)
@@ -112,14 +106,16 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     if (!edges_contain(&edges))
         return INFINITY;
     const bool front = edges_face(&edges, &query->shear);
-    if (triangle_is_open(triangle, front) || triangle->id == ray->own)
+    const bool inner = front == ((triangle->material & TRIANGLE_REVERSED) != 0);
+    const bool one_sided = (triangle->material & TRIANGLE_TWO_SIDED) == 0;
+    if ((one_sided && inner) || triangle->id == ray->own)
         return INFINITY;
     const Real t = triangle_depth(&sheared, &edges) * query->shear.inverse_z;
     if (ray->kind == RAY_CAMERA && !triangle_is_at_origin(t, &query->shear))
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    const SurfaceRay surface = {ray->origin, front, length_of_ray(ray), blur_of(ray)};
+    const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
     Truth in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, !front))

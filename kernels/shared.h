@@ -61,19 +61,28 @@ typedef struct {
 } SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
 
-// A triangle's corners as they are tested, in the order of the leaves.
+// A triangle's corners as they are tested, in the order of the leaves.  The host sorts the corners
+// by their coordinates, so triangles with the same three corners are stored as the same bits, in
+// whatever order their files list them.  Every kernel computes a distance from the ray and these
+// bits alone, by the same operations, so the distances of such triangles are equal.  The marks only
+// decide whether a ray meets a triangle, and the lowest id wins among those that it meets.
 typedef struct {
     float a[3];
     uint id;
     float b[3];
-    uint material; // index; TRIANGLE_TWO_SIDED may be set
+    uint material; // index and marks
     float c[3];
     uint normals; // index of its CornerNormals, NOTHING where it is flat
 } TriangleData;
 CLRT_SAME_SIZE(TriangleData, 48)
-#define TRIANGLE_TWO_SIDED 0x80000000u
 
-// Vertex normals of a smooth triangle, corner by corner, of a common arbitrary length.
+// The marks of a triangle, in the highest bits of a word beside an index or id.
+#define TRIANGLE_TWO_SIDED 0x80000000u
+#define TRIANGLE_REVERSED  0x40000000u // sorting has swapped front and back
+#define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
+
+// Vertex normals of a smooth triangle, corner by corner as these are stored, of a common arbitrary
+// length.  They point to the stored front: those of a reversed triangle are negated.
 typedef struct {
     float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
 } CornerNormals;
@@ -111,7 +120,7 @@ CLRT_SAME_SIZE(BvhWide, 256)
 // triangle hold three corners at the origin, which no ray meets, and the id NOTHING.
 typedef struct {
     float corners[3][3][WIDE]; // [corner][axis][triangle]
-    uint id[WIDE];             // TRIANGLE_TWO_SIDED may be set
+    uint id[WIDE];             // and marks
 } TriangleBlock;
 CLRT_SAME_SIZE(TriangleBlock, 320)
 

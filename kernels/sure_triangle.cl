@@ -22,6 +22,7 @@ typedef struct {
     bool clear;  // the axis passes all edges by more than the blur
     bool inside; // and goes through
     bool faces;  // which side is seen is certain
+    bool inner;  // the back is seen, as the mesh has it
     bool broad;  // the triangle is so broad that its plane can be computed with
 } Sight;
 
@@ -147,7 +148,7 @@ static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *si
     const bool behind = front ? side < 0 : side > 0;
     if (candidate.high < -margin || (sight->faces && behind))
         return candidate_none();
-    const bool clear = front || candidate.low > margin;
+    const bool clear = !sight->inner || candidate.low > margin;
     candidate.met = sight->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;
     candidate.low = max(candidate.low, (Real)(0.0f));
     return candidate;
@@ -186,20 +187,18 @@ static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight
     return candidate;
 }
 
-// As triangle_is_open, where the side that is seen is certain.
-static inline bool is_surely_open(const Sight *sight, bool two_sided)
-{
-    return !two_sided && sight->faces && !(sight->edges.determinant > 0.0f);
-}
-
 static inline Candidate triangle_candidate(const ThickRay *ray, global const TriangleData *triangle)
 {
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     if (triangle->id == ray->own)
         return candidate_none();
-    const Sight sight = sight_of(ray, &corners);
-    const bool two_sided = (triangle->material & TRIANGLE_TWO_SIDED) != 0;
-    if ((sight.clear && !sight.inside) || is_surely_open(&sight, two_sided))
+    Sight sight = sight_of(ray, &corners);
+    if (sight.clear && !sight.inside)
+        return candidate_none();
+    const bool front = sight.edges.determinant > 0.0f;
+    const bool one_sided = (triangle->material & TRIANGLE_TWO_SIDED) == 0;
+    sight.inner = front == ((triangle->material & TRIANGLE_REVERSED) != 0);
+    if (one_sided && sight.faces && sight.inner)
         return candidate_none();
     if (ray->kind == RAY_CAMERA)
         return camera_candidate(ray, &sight, &corners);

@@ -53,7 +53,7 @@ static inline Truth OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// Whether the ray comes from the front, where the corners turn counter-clockwise.
+// Whether the ray comes from the stored front, where the corners turn counter-clockwise.
 static inline Truth OVERLOAD edges_face(const Edges *edges, const Shear *shear)
 {
     return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
@@ -143,7 +143,8 @@ static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *o
 // What a ray that leaves a surface knows beside its direction.
 typedef struct {
     Real3 point;  // of the surface
-    Truth front;  // it comes from the triangle's front
+    Truth front;  // it comes from the triangle's stored front
+    Truth inner;  // it comes from the triangle's back, as the mesh has it
     float length; // as a distance t: 1 up to a light, else INFINITY
     float blur;   // what the point may be off, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
@@ -158,11 +159,11 @@ typedef struct {
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Truth *in_doubt)
 {
-    const Truth inner = !ray->front;
     const Truth ahead = t > -error && t < ray->length - error;
     const Truth clear = t > (ray->blur > 0.0f ? error : -error);
-    const Real height = height_over(corners, ray->point, ray->blur);
-    const Truth beyond = inner ? height < 0.0f && clear : height > 0.0f;
-    *in_doubt = ahead && !beyond && (inner ? height <= 0.0f : height == 0.0f);
+    const Real above = height_over(corners, ray->point, ray->blur);
+    const Real height = ray->front ? above : -above; // on the side that the ray comes from
+    const Truth beyond = height > 0.0f && (clear || !ray->inner);
+    *in_doubt = ahead && !beyond && height >= 0.0f;
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;
 }

@@ -160,9 +160,10 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const WideShear *shear = &test->shear;
     const uint8 id = vload8(0, block->id);
     const int8 front = edges_face(&test->edges, shear);
+    const int8 inner = front == ((id & TRIANGLE_REVERSED) != 0);
     const int8 one_sided = (id & TRIANGLE_TWO_SIDED) == 0;
-    const int8 open = one_sided && !front;
-    const int8 own = (id & ~TRIANGLE_TWO_SIDED) == count_of(&ray->own, lane);
+    const int8 open = one_sided && inner;
+    const int8 own = (id & ~TRIANGLE_MARKS) == count_of(&ray->own, lane);
     const int8 closed = test->inside && !open && !own;
     const float8 t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const float8 clear = closed && t > 0.0f ? t : INFINITY;
@@ -176,7 +177,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const WideSurfaceRay surface = {splat3(&ray->origin, lane), front, length_of_ray(ray),
+    const WideSurfaceRay surface = {splat3(&ray->origin, lane), front, inner, length_of_ray(ray),
                                     blur_of(ray)};
     int8 in_doubt;
     const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
@@ -199,7 +200,7 @@ static inline bool lane_hits(const float8 *distances, const BlockPlace *start, u
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = lowest_bit(candidates);
         const float t = ((const float *)distances)[place];
-        const uint id = start->block->id[place] & ~TRIANGLE_TWO_SIDED;
+        const uint id = start->block->id[place] & ~TRIANGLE_MARKS;
         if (t < *best_t || (t == *best_t && id < *best_id)) {
             *best_t = t;
             *best_id = id;

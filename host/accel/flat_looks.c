@@ -6,6 +6,7 @@
 
 typedef struct {
     const MeshObject *object;
+    const uint8_t *orders;  // of its triangles, as in Triangles
     TriangleLook *looks;    // of its triangles
     CornerNormals *normals; // of its triangles; NULL where it is flat
     uint32_t first_normals; // their place among all
@@ -32,17 +33,24 @@ static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner
     return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
+// Returns the factor that turns a mesh's normals to the stored front.
+static int sign_of(const CornerOrder *order)
+{
+    return order->reversed ? -1 : 1;
+}
+
 // The lengths of a triangle's normals weigh them against each other, so they are kept; a power of
 // two common to the three keeps their squares in range.
-static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle)
+static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
+                          const CornerOrder *order)
 {
     Vec3 normals[3];
     double extent = 0;
     for (int corner = 0; corner < 3; corner++) {
-        normals[corner] = corner_normal(mesh, triangle, corner);
+        normals[corner] = corner_normal(mesh, triangle, order->places[corner]);
         extent = fmax(extent, vec3_extent(normals[corner]));
     }
-    const double scale = extent > 0 ? scalbn(1, -ilogb(extent)) : 1;
+    const double scale = sign_of(order) * (extent > 0 ? scalbn(1, -ilogb(extent)) : 1);
     for (int corner = 0; corner < 3; corner++) {
         data->normals[corner][0] = (float)(normals[corner].x * scale);
         data->normals[corner][1] = (float)(normals[corner].y * scale);
@@ -70,19 +78,20 @@ static float inverse_power(float value)
 }
 
 // scale_normals in float, which gives the same bits, where all three are given and of usual size.
-static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle)
+static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
+                                const CornerOrder *order)
 {
     const float *normals[3];
     float smallest = INFINITY, largest = 0;
     for (int corner = 0; corner < 3; corner++) {
-        normals[corner] = mesh->normals[triangle[corner]];
+        normals[corner] = mesh->normals[triangle[order->places[corner]]];
         const float extent = extent_of(normals[corner]);
         smallest = extent < smallest ? extent : smallest;
         largest = extent > largest ? extent : largest;
     }
     if (!(smallest > 0x1p-100f && largest < 0x1p100f))
         return false;
-    const float scale = inverse_power(largest);
+    const float scale = (float)sign_of(order) * inverse_power(largest);
     for (int corner = 0; corner < 3; corner++) {
         for (int axis = 0; axis < 3; axis++)
             data->normals[corner][axis] = normals[corner][axis] * scale;
@@ -101,9 +110,12 @@ static void make_chunk(void *context, uint32_t chunk, uint32_t worker)
     const bool smooth = looks->normals != NULL;
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
-        looks->looks[i] = (TriangleLook){material, smooth ? looks->first_normals + i : NOTHING};
-        if (smooth && !scale_usual_normals(&looks->normals[i], mesh, mesh->triangles[i]))
-            scale_normals(&looks->normals[i], mesh, mesh->triangles[i]);
+        const uint32_t *triangle = mesh->triangles[i];
+        const CornerOrder *order = &corner_orders[looks->orders[i]];
+        looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
+        looks->looks[i].normals = smooth ? looks->first_normals + i : NOTHING;
+        if (smooth && !scale_usual_normals(&looks->normals[i], mesh, triangle, order))
+            scale_normals(&looks->normals[i], mesh, triangle, order);
     }
 }
 
@@ -124,7 +136,8 @@ static uint32_t count_smooth_triangles(const Scene *scene)
 bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const Scene *scene = source->scene;
-    TriangleLook *next = flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
+    size_t first = 0;
+    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
     flat->normals = memory_raw(count_smooth_triangles(scene), sizeof *flat->normals, error);
     if (flat->looks == NULL || flat->normals == NULL)
         return false;
@@ -132,10 +145,11 @@ bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
         const MeshObject *object = &scene->objects.data[i];
         const uint32_t count = (uint32_t)object->mesh.triangle_count;
         const bool smooth = object_is_smooth(object);
-        ObjectLooks looks = {object, next, smooth ? flat->normals + flat->normals_count : NULL,
+        ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
+                             smooth ? flat->normals + flat->normals_count : NULL,
                              flat->normals_count};
         crew_run(source->crew, chunk_count(count), make_chunk, &looks);
-        next += count;
+        first += count;
         flat->normals_count += smooth ? count : 0;
     }
     return true;

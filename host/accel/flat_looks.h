@@ -4,6 +4,6 @@
 
 #include "accel/flat.h"
 
-// Fills flat's looks and normals.  A look carries the mark of two-sided triangles until the layout
-// moves it to its place.
+// Fills flat's looks and normals.  A look carries the marks of its triangle until the layout moves
+// them to their place.
 bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error);

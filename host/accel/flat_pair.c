@@ -65,6 +65,7 @@ void flat_pair_write(BvhPair *pairs, const Bvh *bvh)
 
 static void place_triangles(FlatScene *flat, const FlatSource *source)
 {
+    const Triangles *triangles = source->triangles;
     const uint32_t *order = source->bvh->order;
     for (uint32_t place = 0; place < flat->triangle_count; place++) {
         const uint32_t number = order == NULL ? place : order[place];
@@ -72,9 +73,10 @@ static void place_triangles(FlatScene *flat, const FlatSource *source)
         triangle->id = flat->sphere_count + number;
         triangle->material = flat->looks[number].material;
         triangle->normals = flat->looks[number].normals;
-        memcpy(triangle->a, triangles_corner(source->triangles, number, 0), sizeof triangle->a);
-        memcpy(triangle->b, triangles_corner(source->triangles, number, 1), sizeof triangle->b);
-        memcpy(triangle->c, triangles_corner(source->triangles, number, 2), sizeof triangle->c);
+        const uint8_t *corners = triangles_order(triangles, number)->places;
+        memcpy(triangle->a, triangles_corner(triangles, number, corners[0]), sizeof triangle->a);
+        memcpy(triangle->b, triangles_corner(triangles, number, corners[1]), sizeof triangle->b);
+        memcpy(triangle->c, triangles_corner(triangles, number, corners[2]), sizeof triangle->c);
     }
 }
 

@@ -172,19 +172,21 @@ static void write_missing(BvhWide *wide, uint32_t child)
 static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
 {
     const FlatScene *flat = collapse->flat;
+    const Triangles *triangles = collapse->source->triangles;
     const uint32_t *order = collapse->source->bvh->order;
     TriangleBlock *block = &flat->blocks[number];
     if (count < WIDE)
         memset(block, 0, sizeof *block);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t triangle = order == NULL ? first + i : order[first + i];
+        const CornerOrder *sorted = triangles_order(triangles, triangle);
         for (int corner = 0; corner < 3; corner++) {
-            const float *point = triangles_corner(collapse->source->triangles, triangle, corner);
+            const float *point = triangles_corner(triangles, triangle, sorted->places[corner]);
             for (int axis = 0; axis < 3; axis++)
                 block->corners[corner][axis][i] = point[axis];
         }
         block->id[i] =
-            (flat->sphere_count + triangle) | (flat->looks[triangle].material & TRIANGLE_TWO_SIDED);
+            (flat->sphere_count + triangle) | (flat->looks[triangle].material & TRIANGLE_MARKS);
     }
     for (uint32_t i = count; i < WIDE; i++)
         block->id[i] = NOTHING;
@@ -305,7 +307,7 @@ static void unmark_chunk(void *context, uint32_t chunk, uint32_t worker)
     const uint32_t end = chunk_end(chunk, flat->triangle_count);
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
-        flat->looks[i].material &= ~TRIANGLE_TWO_SIDED;
+        flat->looks[i].material &= ~TRIANGLE_MARKS;
 }
 
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)

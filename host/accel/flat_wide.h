@@ -4,6 +4,6 @@
 
 #include "accel/flat.h"
 
-// Fills flat's wides and blocks; the looks lose the mark of two-sided triangles to the blocks.
+// Fills flat's wides and blocks; the looks lose the marks of their triangles to the blocks.
 // Without a tree, blocks hold the triangles in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);

@@ -14,7 +14,7 @@ static void add_material(SceneTraits *traits, const Material *material)
 static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
 {
     return flat->layout == NODES_WIDE ? flat->looks[triangle].material
-                                      : flat->triangles[triangle].material & ~TRIANGLE_TWO_SIDED;
+                                      : flat->triangles[triangle].material & ~TRIANGLE_MARKS;
 }
 
 SceneTraits traits_of(const FlatScene *flat, bool statistics)

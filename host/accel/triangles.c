@@ -10,8 +10,15 @@ typedef struct {
     const Normalization *normalization;
     float (*points)[4];     // its own
     uint32_t (*corners)[3]; // its own
+    uint8_t *orders;        // its own
     uint32_t first_point;   // among all
 } Storing;
+
+// Returns the value, with +0 for -0: equal points must have equal bits.
+static float without_negative_zero(float value)
+{
+    return value + 0.0f;
+}
 
 static void store_points(void *context, uint32_t chunk, uint32_t worker)
 {
@@ -23,9 +30,9 @@ static void store_points(void *context, uint32_t chunk, uint32_t worker)
         const Vec3 p =
             normalize_point(storing->normalization, vec3(position[0], position[1], position[2]));
         float *point = storing->points[vertex];
-        point[0] = (float)p.x;
-        point[1] = (float)p.y;
-        point[2] = (float)p.z;
+        point[0] = without_negative_zero((float)p.x);
+        point[1] = without_negative_zero((float)p.y);
+        point[2] = without_negative_zero((float)p.z);
         point[3] = 0;
     }
 }
@@ -35,17 +42,25 @@ static void store_corners(void *context, uint32_t chunk, uint32_t worker)
     const Storing *storing = context;
     const uint32_t end = chunk_end(chunk, (uint32_t)storing->mesh->triangle_count);
     (void)worker;
-    for (uint32_t triangle = chunk * CHUNK_ELEMENTS; triangle < end; triangle++)
+    for (uint32_t triangle = chunk * CHUNK_ELEMENTS; triangle < end; triangle++) {
+        const uint32_t *vertices = storing->mesh->triangles[triangle];
         for (int corner = 0; corner < 3; corner++)
-            storing->corners[triangle][corner] =
-                storing->first_point + storing->mesh->triangles[triangle][corner];
+            storing->corners[triangle][corner] = storing->first_point + vertices[corner];
+        storing->orders[triangle] =
+            corner_order(storing->points[vertices[0]], storing->points[vertices[1]],
+                         storing->points[vertices[2]]);
+    }
 }
 
 static void store_mesh(Triangles *triangles, const Mesh *mesh, const Normalization *normalization,
                        Crew *crew)
 {
-    Storing storing = {mesh, normalization, triangles->points + triangles->point_count,
-                       triangles->corners + triangles->count, (uint32_t)triangles->point_count};
+    Storing storing = {mesh,
+                       normalization,
+                       triangles->points + triangles->point_count,
+                       triangles->corners + triangles->count,
+                       triangles->orders + triangles->count,
+                       (uint32_t)triangles->point_count};
     crew_run(crew, chunk_count((uint32_t)mesh->vertex_count), store_points, &storing);
     crew_run(crew, chunk_count((uint32_t)mesh->triangle_count), store_corners, &storing);
     triangles->point_count += mesh->vertex_count;
@@ -65,14 +80,15 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
-    // Ids share 32 bits with the spheres', and children on the traversal stack take one of them.
-    if (count + scene->spheres.count >= 0x7fffffff)
-        return error_set(error, "the scene has %zu triangles, more than 2^31 primitives", count);
+    // Ids share 32 bits with the spheres', and marks take two of them (kernels/shared.h).
+    if (count + scene->spheres.count >= 0x3fffffff)
+        return error_set(error, "the scene has %zu triangles, more than 2^30 primitives", count);
     if (points > UINT32_MAX)
         return error_set(error, "the scene has %zu vertices, more than 2^32", points);
     triangles->points = memory_raw(points, sizeof *triangles->points, error);
     triangles->corners = memory_raw(count, sizeof *triangles->corners, error);
-    if (triangles->points == NULL || triangles->corners == NULL) {
+    triangles->orders = memory_raw(count, sizeof *triangles->orders, error);
+    if (triangles->points == NULL || triangles->corners == NULL || triangles->orders == NULL) {
         triangles_free(triangles);
         return false;
     }
@@ -85,5 +101,6 @@ void triangles_free(Triangles *triangles)
 {
     free(triangles->points);
     free(triangles->corners);
+    free(triangles->orders);
     *triangles = (Triangles){0};
 }

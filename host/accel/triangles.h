@@ -3,12 +3,14 @@
 // Equal points give equal floats, which watertightness and the builders rest on.
 #pragma once
 
+#include "accel/corner_order.h"
 #include "base/parallel.h"
 #include "scene/normalize.h"
 
 typedef struct {
     float (*points)[4];     // all meshes' vertices in the normalized frame; the fourth is zero
-    uint32_t (*corners)[3]; // of each triangle: the places of its points
+    uint32_t (*corners)[3]; // of each triangle: the places of its points, as in the file
+    uint8_t *orders;        // of each triangle: the place of its order in corner_orders
     size_t count, point_count;
 } Triangles;
 
@@ -16,6 +18,11 @@ typedef struct {
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);
+
+static inline const CornerOrder *triangles_order(const Triangles *triangles, size_t triangle)
+{
+    return &corner_orders[triangles->orders[triangle]];
+}
 
 static inline const float *triangles_corner(const Triangles *triangles, size_t triangle, int corner)
 {

@@ -132,7 +132,8 @@ static Outcome meet_triangle(const Path *path, const TriangleData *triangle, Sto
     const bool faces = determinant > error;
     if (faces && (v < -error || w < -error || u < -error || t < -t_error))
         return MISSES;
-    if (faces && !front && !(triangle->material & TRIANGLE_TWO_SIDED))
+    const bool reversed = (triangle->material & TRIANGLE_REVERSED) != 0;
+    if (faces && front == reversed && !(triangle->material & TRIANGLE_TWO_SIDED))
         return MISSES;
     const bool inside = smallest(smallest(u, v), w) > error && faces && t > t_error;
     if (!inside && is_aside(path, corners))
@@ -274,7 +275,7 @@ static Surface triangle_surface(const Path *path, const Stop *stop)
     Surface surface = {.point = weighted(corners, stop),
                        .corner = corners[0],
                        .id = stop->id,
-                       .material = triangle->material & ~TRIANGLE_TWO_SIDED};
+                       .material = triangle->material & ~TRIANGLE_MARKS};
     surface.normal = surface.face =
         cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     if (triangle->normals != NOTHING) {

@@ -58,9 +58,44 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
         const TriangleData *triangle = &all.flat.triangles[place];
         const uint32_t number = triangle->id - 2;
         assert_int_equal(number, all.bvh.order[place]);
-        assert_memory_equal(triangle->b, triangles_corner(&all.triangles, number, 1),
+        const CornerOrder *order = triangles_order(&all.triangles, number);
+        assert_memory_equal(triangle->b, triangles_corner(&all.triangles, number, order->places[1]),
                             sizeof triangle->b);
+        assert_int_equal((triangle->material & TRIANGLE_REVERSED) != 0, order->reversed);
     }
+    release(&all);
+}
+
+// A triangle with its corners in all six orders, the three that turn the same way first, among
+// points that differ in the last coordinate alone.
+static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(void **state)
+{
+    static const float points[3][3] = {{1, 2, 5}, {1, 2, 4}, {1, -3, 6}};
+    static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                     {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        const int *file = orders[i];
+        const CornerOrder *order =
+            &corner_orders[corner_order(points[file[0]], points[file[1]], points[file[2]])];
+        for (int corner = 0; corner < 3; corner++)
+            assert_int_equal(file[order->places[corner]], 2 - corner);
+        assert_int_equal(order->reversed, i < 3); // 2, 1, 0 turns the other way than 0, 1, 2
+    }
+}
+
+static void zero_has_one_sign(void **state)
+{
+    static const double positions[3][3] = {{-1, -1, -1}, {1, 1, 1}, {1, -1, -0.0}};
+    Triangles triangles;
+    Error error = {0};
+    (void)state;
+    Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
+    memcpy(all.scene.objects.data[0].mesh.positions, positions, sizeof positions);
+    const Normalization frame = normalization_of(&all.scene);
+    assert_true(triangles_make(&triangles, &all.scene, &frame, NULL, &error));
+    assert_true(triangles.points[2][2] == 0 && !signbit(triangles.points[2][2]));
+    triangles_free(&triangles);
     release(&all);
 }
 
@@ -124,15 +159,18 @@ static void a_missing_vertex_normal_becomes_the_faces(void **state)
     (void)state;
     Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     assert_int_equal(all.flat.normals_count, 1);
-    const float *normal = all.flat.normals[0].normals[1];
-    assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] == 1);
+    const CornerOrder *order = triangles_order(&all.triangles, 0);
+    const float *of[3] = {NULL}; // the corners of the file
+    for (int corner = 0; corner < 3; corner++)
+        of[order->places[corner]] = all.flat.normals[0].normals[corner];
+    assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
     // Given normals keep their own lengths against each other.
-    assert_true(all.flat.normals[0].normals[2][0] == 2 * all.flat.normals[0].normals[0][0]);
+    assert_true(of[2][0] == 2 * of[0][0]);
     release(&all);
 }
 
 // Every scene here has one sphere, so that a triangle's id is its number and one more.
-#define NUMBER_OF(id) (((id) & ~TRIANGLE_TWO_SIDED) - 1)
+#define NUMBER_OF(id) (((id) & ~TRIANGLE_MARKS) - 1)
 
 static void check_block(const Flattened *all, uint32_t number, const Box *box, unsigned *seen)
 {
@@ -146,10 +184,13 @@ static void check_block(const Flattened *all, uint32_t number, const Box *box, u
                     assert_true(at == 0);
                     continue;
                 }
-                assert_true(
-                    at == triangles_corner(&all->triangles, NUMBER_OF(block->id[i]), corner)[axis]);
+                const uint32_t triangle = NUMBER_OF(block->id[i]);
+                const CornerOrder *order = triangles_order(&all->triangles, triangle);
+                const int place = order->places[corner];
+                assert_true(at == triangles_corner(&all->triangles, triangle, place)[axis]);
+                assert_true(((block->id[i] & TRIANGLE_REVERSED) != 0) == order->reversed);
                 assert_true(box->low[axis] < at && at < box->high[axis]);
-                seen[NUMBER_OF(block->id[i])]++;
+                seen[triangle]++;
             }
 }
 
@@ -260,6 +301,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ids_number_spheres_first_and_triangles_in_file_order),
+        cmocka_unit_test(corners_are_stored_in_one_order_whatever_their_order_in_the_file),
+        cmocka_unit_test(zero_has_one_sign),
         cmocka_unit_test(sphere_parts_add_up_to_the_double),
         cmocka_unit_test(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them),
         cmocka_unit_test(flat_objects_upload_no_normals),

@@ -11,40 +11,29 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Embree reads vertices as 16 bytes at a time.
-static bool add_triangles(RTCGeometry geometry, const Scene *scene,
-                          const Normalization *normalization)
+// Embree reads vertices as 16 bytes at a time.  Corners come in the order in which clrt stores
+// them, as their normals do.
+static bool add_triangles(RTCGeometry geometry, const Triangles *triangles)
 {
-    size_t vertices = 0, triangles = 0;
-    for (size_t i = 0; i < scene->objects.count; i++)
-        vertices += scene->objects.data[i].mesh.vertex_count;
-    float(*points)[3] = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                RTC_FORMAT_FLOAT3, sizeof *points, vertices);
-    uint32_t(*corners)[3] =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof *corners, scene_triangle_count(scene));
+    float(*points)[3] =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof *points, triangles->point_count);
+    uint32_t(*corners)[3] = rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof *corners, triangles->count);
     if (points == NULL || corners == NULL)
         return false;
-    uint32_t first = 0;
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        const Mesh *mesh = &scene->objects.data[i].mesh;
-        for (size_t v = 0; v < mesh->vertex_count; v++) {
-            const double *p = mesh->positions[v];
-            const Vec3 point = normalize_point(normalization, vec3(p[0], p[1], p[2]));
-            points[first + v][0] = (float)point.x;
-            points[first + v][1] = (float)point.y;
-            points[first + v][2] = (float)point.z;
-        }
-        for (size_t t = 0; t < mesh->triangle_count; t++, triangles++)
-            for (int corner = 0; corner < 3; corner++)
-                corners[triangles][corner] = first + mesh->triangles[t][corner];
-        first += (uint32_t)mesh->vertex_count;
-    }
+    for (size_t i = 0; i < triangles->point_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            points[i][axis] = triangles->points[i][axis];
+    for (size_t i = 0; i < triangles->count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            corners[i][corner] =
+                triangles->corners[i][triangles_order(triangles, i)->places[corner]];
     return true;
 }
 
-static bool build(PeerScene *peer, const Scene *scene, const Normalization *normalization,
-                  const PeerSettings *settings, Error *error)
+static bool build(PeerScene *peer, const Triangles *triangles, const PeerSettings *settings,
+                  Error *error)
 {
     char config[64];
     snprintf(config, sizeof config, "threads=%u", settings->threads);
@@ -54,7 +43,7 @@ static bool build(PeerScene *peer, const Scene *scene, const Normalization *norm
     rtcSetSceneFlags(peer->scene, settings->robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     RTCGeometry geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(geometry, settings->quality);
-    const bool filled = add_triangles(geometry, scene, normalization);
+    const bool filled = add_triangles(geometry, triangles);
     const double start = clock_seconds();
     if (filled) {
         rtcCommitGeometry(geometry);
@@ -75,7 +64,7 @@ static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
     for (uint32_t i = 0; i < flat->triangle_count; i++) {
         const TriangleData *triangle = &flat->triangles[i];
         peer->looks[triangle->id - flat->sphere_count] = (TriangleLook){
-            .material = triangle->material & ~TRIANGLE_TWO_SIDED, .normals = triangle->normals};
+            .material = triangle->material & ~TRIANGLE_MARKS, .normals = triangle->normals};
     }
     return true;
 }
@@ -120,7 +109,7 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     peer->camera = camera_make(&scene->viewpoints.data[0], &normalization, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, NULL, error) &&
                     flat_make(&flat, &source, error) && take_flat(peer, &flat, error) &&
-                    build(peer, scene, &normalization, settings, error);
+                    build(peer, &triangles, settings, error);
     flat_free(&flat);
     triangles_free(&triangles);
     return ok;

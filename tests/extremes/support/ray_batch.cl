@@ -235,7 +235,7 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     Packet packet;
     prepare_first(&packet, &scene, &ray);
     for (uint place = 0; place < WIDE; place++) {
-        const uint id = triangles[block].id[place] & ~TRIANGLE_TWO_SIDED;
+        const uint id = triangles[block].id[place] & ~TRIANGLE_MARKS;
         if (triangles[block].id[place] != NOTHING)
             hits[id - frame.sphere_count] =
                 (TestHit){distance_alone(triangles, block, place, &packet), id};

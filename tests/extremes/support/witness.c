@@ -44,13 +44,13 @@ static void meet_triangle(Probe *probe, const TriangleData *triangle)
     const double nearest_edge = fmin(fabs(u), fmin(fabs(v), fabs(w))) / fabs(sum);
     if (nearest_edge < MARGIN)
         probe->witness.clear = false;
-    const bool front = sum > 0;
+    const bool front = (sum > 0) != ((triangle->material & TRIANGLE_REVERSED) != 0);
     if (!inside || (!front && !(triangle->material & TRIANGLE_TWO_SIDED)))
         return;
     const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
     const double t = vec3_dot(normal, a) / vec3_dot(normal, probe->direction);
     if (t > 0)
-        take(probe, t, triangle->material & ~TRIANGLE_TWO_SIDED);
+        take(probe, t, triangle->material & ~TRIANGLE_MARKS);
 }
 
 static void meet_sphere(Probe *probe, const SphereData *sphere)
