@@ -186,12 +186,9 @@ static inline Answer normal_surely_faces(const FatSurface *surface, const ThickR
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Corners and lights are stored, so only rounding leaves a light's side of a triangle open.  From
-// outside, a sphere's face is its normal.
+// Corners and lights are stored, so only rounding leaves a light's side of a triangle open.
 static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
-    if (surface->is_sphere)
-        return surface->from_behind ? ANSWER_NO : ANSWER_YES;
     const FatPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
     const int side = side_of(&surface->corners, &light, to_light->u);
     if (side == 0)
@@ -199,10 +196,15 @@ static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay
     return (side < 0) == surface->from_behind ? ANSWER_YES : ANSWER_NO;
 }
 
-// Whether the shading normal and the face are both turned to the light.
+// Whether the shading normal and the face are both turned to the light.  From outside, a sphere's
+// face is its normal.  From inside it is the opposite, so only rounding can let a light near the
+// horizon pass both tests.
 static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
-    return min(normal_surely_faces(surface, to_light), face_surely_faces(surface, to_light));
+    const Answer normal = normal_surely_faces(surface, to_light);
+    if (!surface->is_sphere)
+        return min(normal, face_surely_faces(surface, to_light));
+    return surface->from_behind && normal == ANSWER_YES ? ANSWER_NO : normal;
 }
 
 // Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near

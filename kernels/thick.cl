@@ -31,8 +31,9 @@
 //  6. An interpolated normal: 3u on each weight and 3u of the interpolation; what is common to all
 //     does not turn it; and what sliding changes the weights by.
 //  7. Directions to lights: u on the difference, 4u on the unit vector; a shadow ray ends within u
-//     of its length from the light.  Reflection turns twice as far as the normal and as far as the
-//     ray, and rounds by 12u.
+//     of its length from the light.  The side of a face that a light is on depends on stored
+//     numbers alone (side_of).  Reflection turns twice as far as the normal and as far as the ray,
+//     and rounds by 12u.
 //  8. Spheres: sure_sphere.cl.
 #ifndef CLRT_THICK_CL
 #define CLRT_THICK_CL
