@@ -6,6 +6,7 @@
 #ifndef CLRT_SURE_SEARCH_CL
 #define CLRT_SURE_SEARCH_CL
 #include "sure_sphere.cl"
+#include "sure_twin.cl"
 
 // The nearest primitive that is met surely, and the least depth at which any other may be met.
 typedef struct {
@@ -33,6 +34,7 @@ typedef struct {
     const ThickRay *ray;
     Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
+    uint triangle;  // place of the nearest if that is a triangle, else NOTHING
     Answer blocked; // a shadow ray
 } Search;
 
@@ -56,6 +58,7 @@ static inline Search search_along(const ThickRay *ray)
                     .origin = {o.x, o.y, o.z},
                     .inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)},
                     .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
+                    .triangle = NOTHING,
                     .blocked = ANSWER_NO};
 }
 
@@ -131,15 +134,42 @@ static inline void wait_for_cone(const SceneView *scene, const Search *search, u
         wait_for_child(waiting, 2 * node + 1, second);
 }
 
+static inline Candidate leaf_candidate(const SceneView *scene, const ThickRay *ray, uint index)
+{
+    global const TriangleData *triangle = &scene->triangles[index];
+    const Candidate candidate = triangle_candidate(ray, triangle);
+    if (candidate.met == ANSWER_NO || ray->own_index == NOTHING ||
+        !are_twins(scene, ray->own_index, index))
+        return candidate;
+    const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
+    return surely_passes_twin(&corners, ray) ? candidate_none() : candidate;
+}
+
+// A twin of the nearest may win by its id but changes no distance.
+static inline void add_triangle(const SceneView *scene, Search *search, uint index,
+                                const Candidate *candidate)
+{
+    Nearest *nearest = &search->nearest;
+    const uint id = scene->triangles[index].id;
+    const bool is_twin = candidate->met == ANSWER_YES && search->triangle != NOTHING &&
+                         are_twins(scene, search->triangle, index);
+    if (!is_twin)
+        nearest_add(nearest, candidate, id, index);
+    else if (id < nearest->id)
+        *nearest = (Nearest){id, index, nearest->low, nearest->high, nearest->other};
+    if (nearest->id == id)
+        search->triangle = index;
+}
+
 static inline void search_leaf(const SceneView *scene, Search *search, uint2 range)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &scene->triangles[index];
         if (!(triangle_entry(search, triangle, search_reach(search)) < INFINITY))
             continue;
-        const Candidate candidate = triangle_candidate(search->ray, triangle);
+        const Candidate candidate = leaf_candidate(scene, search->ray, index);
         if (search->ray->kind != RAY_SHADOW)
-            nearest_add(&search->nearest, &candidate, triangle->id, index);
+            add_triangle(scene, search, index, &candidate);
         search->blocked = max(search->blocked, candidate.met);
     }
 }

@@ -10,7 +10,7 @@ typedef struct {
     FatPoint end;
     Real3 normal, face, toward_viewer; // as a Surface's
     Real normal_doubt, face_doubt, viewer_doubt;
-    Count id, material;
+    Count id, index, material; // as a Surface's
     bool is_sphere;
     bool from_behind; // seen from a triangle's back or from inside a sphere
     Corners corners;  // of a triangle
@@ -91,6 +91,7 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
     const Real3 weights = {sight.edges.u * r, sight.edges.v * r, sight.edges.w * r};
     FatSurface surface = {.end = fat_point(ray, &corners, &sight, weights),
                           .id = hit->id,
+                          .index = hit->index,
                           .material = look.material,
                           .from_behind = !(sight.edges.determinant > 0.0f),
                           .corners = corners};
@@ -116,6 +117,7 @@ static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
     const Real depth = 0.5f * (nearest->low + nearest->high);
     const Real3 met = sum3(ray->origin, scaled3(depth, ray->along));
     FatSurface surface = {.id = nearest->id,
+                          .index = NOTHING,
                           .material = fetch_sphere_material(scene, nearest->index),
                           .is_sphere = true,
                           .from_behind = nearest->id == ray->own || chord.enter.high < 0.0f};
@@ -169,6 +171,7 @@ static inline ThickRay thick_shadow_ray(const FatSurface *surface, Real3 light, 
                     .length = length,
                     .u = u,
                     .own = surface->id,
+                    .own_index = surface->index,
                     .kind = RAY_SHADOW,
                     .start = start,
                     .goal = {light, surface->face, 0.0f, 1.01f * rounding}};
@@ -230,6 +233,7 @@ static inline ThickRay thick_reflected_ray(const FatSurface *surface, const Thic
                     .length = INFINITY,
                     .u = before->u,
                     .own = surface->id,
+                    .own_index = surface->index,
                     .kind = RAY_REFLECTED,
                     .start = start};
     look_along(&ray, unit_vector(direction));

@@ -55,7 +55,7 @@ typedef struct {
     Real tilt;                      // at least the sine between them and the longest axis
     Real length;                    // of a shadow ray, up to the light; else INFINITY
     Real u;                         // unit roundoff of the tracer in question
-    Count own;                      // as a Ray's
+    Count own, own_index;           // as a Ray's
     RayKind kind;
     FatPoint start; // where it leaves a surface, or the eye
     FatPoint goal;  // of a shadow ray: where it ends, at the light
@@ -159,6 +159,7 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
         .length = INFINITY,
         .u = u,
         .own = NOTHING,
+        .own_index = NOTHING,
         .kind = RAY_CAMERA,
         .start = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
     look_along(&thick, unit_vector(ray.direction));

@@ -120,6 +120,42 @@ static Scene soup(void)
     return scene;
 }
 
+static void swap_corners(uint32_t corners[3], uint32_t one, uint32_t other)
+{
+    const uint32_t kept = corners[one];
+    corners[one] = corners[other];
+    corners[other] = kept;
+}
+
+static Mesh reordered(Mesh mesh, Random *random)
+{
+    for (size_t i = 0; i < mesh.triangle_count; i++) {
+        swap_corners(mesh.triangles[i], 2, random_below(random, 3));
+        swap_corners(mesh.triangles[i], 1, random_below(random, 2));
+    }
+    return mesh;
+}
+
+static Mesh coincident_floor(void)
+{
+    return shape_plane(vec3(-5, -5, -2.3), vec3(10, 0, 1), vec3(0, 10, 0), 6);
+}
+
+Scene extreme_coincident(void)
+{
+    Scene scene = scene_text_parse("size 384 384\n"
+                                   "light 6 -5 9 0.6\n"
+                                   "light -7 -2 4 0.4\n"
+                                   "camera 5 -9 4 0 0 -0.4 42\n");
+    Random random = {.state = 21};
+    const Vec3 center = {0.1, -0.2, 0.3};
+    shape_add(&scene, shape_sphere(14, center), 3);
+    shape_add(&scene, reordered(shape_sphere(14, center), &random), 2);
+    shape_add(&scene, reordered(coincident_floor(), &random), 1);
+    shape_add(&scene, coincident_floor(), 3);
+    return scene;
+}
+
 const ExtremeScene extreme_scenes[] = {
     {"slivers", slivers},   {"far_away", far_away},       {"planets", planets},
     {"contacts", contacts}, {"mirror_room", mirror_room}, {"mixed_scales", mixed_scales},

@@ -12,3 +12,6 @@ typedef struct {
 
 extern const ExtremeScene extreme_scenes[];
 extern const size_t extreme_scene_count;
+
+// A mirror ball over a floor, each triangle twice with its corners in two orders.
+Scene extreme_coincident(void);

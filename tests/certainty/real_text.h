@@ -6,6 +6,7 @@
 #include "certainty/real.h"
 
 #include <math.h>
+#include <string.h>
 
 #define GROWTH 4096
 
@@ -32,8 +33,9 @@ typedef struct {
     const RealView *view;
     NUMBER tolerance;
     Vector origin, direction;
-    uint32_t own;       // id
-    bool is_own_inside; // the ray runs on inside the sphere that it starts on
+    uint32_t own;                     // id
+    const TriangleData *own_triangle; // NULL for none
+    bool is_own_inside;               // the ray runs on inside the sphere that it starts on
 } Path;
 
 static NUMBER size_of(NUMBER a)
@@ -208,6 +210,33 @@ static bool nearest_is_settled(const Nearest *nearest)
     return nearest->other > stop->t + (stop->t - stop->low);
 }
 
+// Whether two triangles are the same points.  A ray meets both at one point, and one that leaves
+// either starts on both.
+static bool are_coincident(const TriangleData *one, const TriangleData *other)
+{
+    return memcmp(one->a, other->a, sizeof one->a) == 0 &&
+           memcmp(one->b, other->b, sizeof one->b) == 0 &&
+           memcmp(one->c, other->c, sizeof one->c) == 0;
+}
+
+static void take_triangle(Nearest *nearest, const Path *path, uint32_t place)
+{
+    Stop stop;
+    const FlatScene *flat = path->view->flat;
+    const TriangleData *triangle = &flat->triangles[place];
+    if (triangle->id == path->own ||
+        (path->own_triangle != NULL && are_coincident(triangle, path->own_triangle)))
+        return;
+    const Outcome outcome = meet_triangle(path, triangle, &stop);
+    const uint32_t first = nearest->stop.id;
+    stop.place = place;
+    if (outcome != MEETS || first == NOTHING || first < flat->sphere_count ||
+        !are_coincident(triangle, &flat->triangles[nearest->stop.place]))
+        take_stop(nearest, &stop, outcome);
+    else if (triangle->id < first)
+        nearest->stop = stop;
+}
+
 // Beyond reach nothing is looked for.
 static Nearest meet_all(const Path *path, NUMBER reach)
 {
@@ -226,21 +255,16 @@ static Nearest meet_all(const Path *path, NUMBER reach)
                     (double[3]){(double)d.x, (double)d.y, (double)d.z});
     const RealNode *leaf;
     while ((leaf = real_walk_next(&walk, (double)smallest(reach, nearest.stop.t) * (1 + 1e-9))))
-        for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
-            const uint32_t place = path->view->tree->order[i];
-            if (flat->triangles[place].id == path->own)
-                continue;
-            const Outcome outcome = meet_triangle(path, &flat->triangles[place], &stop);
-            stop.place = place;
-            take_stop(&nearest, &stop, outcome);
-        }
+        for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++)
+            take_triangle(&nearest, path, path->view->tree->order[i]);
     return nearest;
 }
 
 // Where a path has come to; normals have any length.
 typedef struct {
     Vector point, normal, face;
-    Vector corner; // of a triangle: a point of its plane without any error
+    Vector corner;                // of a triangle: a point of its plane without any error
+    const TriangleData *triangle; // NULL for a sphere
     uint32_t id, material;
     bool is_sphere, is_inside;
 } Surface;
@@ -274,6 +298,7 @@ static Surface triangle_surface(const Path *path, const Stop *stop)
                                of_floats(triangle->c)};
     Surface surface = {.point = weighted(corners, stop),
                        .corner = corners[0],
+                       .triangle = triangle,
                        .id = stop->id,
                        .material = triangle->material & ~TRIANGLE_MARKS};
     surface.normal = surface.face =
@@ -335,7 +360,8 @@ static uint32_t see_light(const Path *path, const Surface *surface, const PointL
                          .tolerance = path->tolerance,
                          .origin = surface->point,
                          .direction = apart,
-                         .own = surface->id};
+                         .own = surface->id,
+                         .own_triangle = surface->triangle};
     const Nearest nearest = meet_all(&shadow, 1);
     const NUMBER high = nearest.stop.t + (nearest.stop.t - nearest.stop.low);
     if (nearest.stop.id != NOTHING && high < 1)
@@ -374,6 +400,7 @@ static Path reflected(const Path *path, const Surface *surface)
                   .origin = surface->point,
                   .direction = direction,
                   .own = surface->id,
+                  .own_triangle = surface->triangle,
                   .is_own_inside = surface->is_inside};
 }
 

@@ -179,6 +179,17 @@ static void certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic(v
     judge(&sum);
 }
 
+// A tie between coincident triangles is as certain as a hit of either alone.
+static void coincident_triangles_are_certified(void **state)
+{
+    Sum sum = {0};
+    (void)state;
+    Scene scene = extreme_coincident();
+    check_views(&sum, &scene, "coincident", 980);
+    scene_free(&scene);
+    judge(&sum);
+}
+
 static int open_office(void **state)
 {
     Error error = {0};
@@ -202,6 +213,7 @@ int main(void)
         cmocka_unit_test(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic),
         cmocka_unit_test(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic),
         cmocka_unit_test(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic),
+        cmocka_unit_test(coincident_triangles_are_certified),
         cmocka_unit_test(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic),
     };
     return cmocka_run_group_tests(tests, open_office, close_office);
