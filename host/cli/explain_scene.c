@@ -4,12 +4,11 @@
 
 #include "cli/command_files.h"
 #include "cli/json_file.h"
-#include "cli/savings.h"
 #include "cli/scene_parts.h"
 
 #include <stdio.h>
 
-#define SCHEMA_VERSION 1
+#define SCHEMA_VERSION 2
 
 static void write_kernels(const Run *run)
 {
@@ -36,23 +35,16 @@ static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading,
     }
 }
 
-// What is not compiled, and what that saves.
-static void write_omissions(const ScenePart parts[SCENE_PARTS], KernelFamily family)
+static void write_omissions(const ScenePart parts[SCENE_PARTS])
 {
-    char saving[SAVING_TEXT];
     bool is_headed = false;
     for (int i = 0; i < SCENE_PARTS; i++) {
         if (parts[i].is_compiled)
             continue;
         printf("%s", is_headed ? "" : "left out\n");
         is_headed = true;
-        saving_describe(parts, (ScenePartKind)i, family, saving);
-        printf("  %-11s %s (%s)\n", parts[i].name, parts[i].reason, saving);
+        printf("  %-11s %s\n", parts[i].name, parts[i].reason);
     }
-    if (is_headed)
-        printf("savings as measured %s,\nwhere %.0f %% is noise (tests/bench/traits.txt); they "
-               "overlap, and empty arrays take no memory in any program\n",
-               saving_source(family), 100 * SAVING_NOISE);
 }
 
 static void write_arrays(const Run *run)
@@ -78,40 +70,20 @@ static void write_text(const Run *run)
     write_kernels(run);
     write_parts(parts, "compiled in", true);
     write_parts(parts, "compiled in and idle, since the program is general", false);
-    write_omissions(parts, run->starter.setup.source.choice.family);
+    write_omissions(parts);
     write_arrays(run);
-}
-
-static json_t *saving_json(const ScenePart parts[SCENE_PARTS], ScenePartKind kind,
-                           KernelFamily family)
-{
-    const Saving saving = saving_of(kind, family);
-    if (parts[kind].is_compiled || !saving_is_own(parts, kind))
-        return json_null();
-    return json_pack("{s:f, s:[f, f]}", "compiling", saving.compiling, "tracing",
-                     saving.tracing_least, saving.tracing_most);
 }
 
 static json_t *parts_json(const Run *run)
 {
     ScenePart parts[SCENE_PARTS];
     json_t *list = json_array();
-    const KernelFamily family = run->starter.setup.source.choice.family;
     scene_parts_list(run, parts);
     for (int i = 0; i < SCENE_PARTS; i++)
-        json_array_append_new(list,
-                              json_pack("{s:s, s:b, s:b, s:s, s:o}", "name", parts[i].name,
-                                        "needed", parts[i].is_needed, "compiled",
-                                        parts[i].is_compiled, "reason", parts[i].reason, "saves",
-                                        saving_json(parts, (ScenePartKind)i, family)));
+        json_array_append_new(list, json_pack("{s:s, s:b, s:b, s:s}", "name", parts[i].name,
+                                              "needed", parts[i].is_needed, "compiled",
+                                              parts[i].is_compiled, "reason", parts[i].reason));
     return list;
-}
-
-static json_t *savings_json(const Run *run)
-{
-    const KernelFamily family = run->starter.setup.source.choice.family;
-    return json_pack("{s:s, s:f, s:s}", "measured", saving_source(family), "noise", SAVING_NOISE,
-                     "table", "tests/bench/traits.txt");
 }
 
 static json_t *arrays_json(const Run *run)
@@ -128,13 +100,13 @@ static json_t *whole_json(const Run *run)
 {
     const KernelChoice *choice = &run->starter.setup.source.choice;
     return json_pack(
-        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o, s:o}", "schema",
+        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
         SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
         "device", run->starter.device.name, "kernels", "family", kernel_family_name(choice->family),
         "nodes", kernel_nodes_name(choice->nodes), "precision",
         kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
         "special", run->renderer.is_special, "reason", scene_program_reason(run), "parts",
-        parts_json(run), "savings", savings_json(run), "uploaded_bytes", arrays_json(run));
+        parts_json(run), "uploaded_bytes", arrays_json(run));
 }
 
 ExitCode explain_scene(Run *run, Error *error)
