@@ -70,7 +70,7 @@ static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
     if (device_open(&check->device, check->options->device, &cause) &&
         trace_leaks(check, cache, &cause))
         return true;
-    if (check->options->device != NULL || check->options->kernel.choice.precision == PRECISION_FP64)
+    if (check->options->device != NULL || check->options->kernel.precision == PRECISION_FP64)
         return error_set(error, "%s", cause.text);
     free(check->leaks);
     check->leaks = NULL;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/file_plan.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "scene/scene.h"
 
 // Adds every file that the options name, and those that scene was read from unless it is NULL.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/exit_code.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
 
 // Writes the report, and the picture of the differences where the options name one.
 ExitCode compare_files(const Options *options, Error *error);

@@ -23,12 +23,6 @@ typedef struct {
     char **mesh_names; // the last parts of these; owned, but not its strings
 } Conversion;
 
-bool convert_takes(const char *path, Error *error)
-{
-    return file_has_ending(path, ".scn") || file_has_ending(path, ".ply") ||
-           error_set(error, "clrt convert writes .scn and .ply, not '%s'", path);
-}
-
 typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
 
 // Writes to the file's place for the unfinished, whose stream is buffered: its end tells faults.
@@ -179,6 +173,11 @@ static ExitCode run(Conversion *conversion, Error *error)
 ExitCode convert_scene(const Options *options, Error *error)
 {
     Conversion conversion = {.options = options};
+    if (!file_has_ending(options->other_path, ".scn") &&
+        !file_has_ending(options->other_path, ".ply")) {
+        error_set(error, "clrt convert writes .scn and .ply, not '%s'", options->other_path);
+        return EXIT_USAGE;
+    }
     const ExitCode outcome = run(&conversion, error);
     for (size_t i = 0; conversion.mesh_paths != NULL && i < conversion.scene.objects.count; i++)
         free(conversion.mesh_paths[i]);

@@ -3,9 +3,6 @@
 #pragma once
 
 #include "cli/exit_code.h"
-#include "cli/options.h"
-
-// Whether it writes files with the ending of that path.
-bool convert_takes(const char *path, Error *error);
+#include "cli/options/options.h"
 
 ExitCode convert_scene(const Options *options, Error *error);

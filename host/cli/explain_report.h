@@ -2,7 +2,7 @@
 // The samples of a pixel -> text for people, or JSON.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "render/explainer.h"
 
 #include <jansson.h>

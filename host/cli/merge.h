@@ -3,6 +3,6 @@
 #pragma once
 
 #include "cli/exit_code.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
 
 ExitCode merge_parts(const Options *options, Error *error);

@@ -37,7 +37,7 @@ static double part(double value)
 static Options options_of(const Options *picture)
 {
     Options options = *picture;
-    options.kernel = (KernelWish){.choice.precision = PRECISION_FP64};
+    options.kernel = (KernelRequest){.precision = PRECISION_FP64};
     options.samples = 1;
     // Where the picture's levels follow from an error, the reference has as many as floats show.
     options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);

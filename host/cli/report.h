@@ -2,7 +2,7 @@
 // What a run cost, as text and as JSON.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "compare/difference.h"
 #include "image/stored_image.h"
 

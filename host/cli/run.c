@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "cli/check.h"
-#include "cli/option_table.h"
+#include "cli/options/table.h"
 #include "cli/scene_source.h"
 #include "cli/threads.h"
 #include "image/image_file.h"

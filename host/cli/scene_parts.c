@@ -74,12 +74,12 @@ void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS])
 
 const char *scene_family_reason(const Run *run)
 {
-    const KernelWish *wish = &run->options->kernel;
-    if (wish->choice.precision == PRECISION_FP64)
+    const KernelRequest *request = &run->options->kernel;
+    if (request->precision == PRECISION_FP64)
         return "--precision fp64 traces rays one by one";
-    if (wish->family_given)
+    if (request->family > 0)
         return "--kernel asks for it";
-    if (wish->nodes_given && wish->choice.nodes == NODES_PAIR)
+    if (request->nodes == 1 + NODES_PAIR)
         return "--nodes pair has no other";
     if (run->starter.is_quick)
         return "packets are not compiled and a picture of this size does not repay that";

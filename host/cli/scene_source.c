@@ -20,19 +20,14 @@ static bool take_input(Scene *scene, Take *take, Error *error)
     return ok;
 }
 
-bool scene_source_is_input(const Options *options)
-{
-    return strcmp(options->scene_path, "-") == 0;
-}
-
 bool scene_source_load(Scene *scene, const Options *options, Error *error)
 {
-    return scene_source_is_input(options) ? take_input(scene, scn_take, error)
-                                          : scn_load(scene, options->scene_path, error);
+    return options_read_input(options) ? take_input(scene, scn_take, error)
+                                       : scn_load(scene, options->scene_path, error);
 }
 
 bool scene_source_load_tolerantly(Scene *scene, const Options *options, Error *error)
 {
-    return scene_source_is_input(options) ? take_input(scene, scn_take_tolerantly, error)
-                                          : scn_load_tolerantly(scene, options->scene_path, error);
+    return options_read_input(options) ? take_input(scene, scn_take_tolerantly, error)
+                                       : scn_load_tolerantly(scene, options->scene_path, error);
 }

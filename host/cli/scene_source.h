@@ -2,11 +2,8 @@
 // The scene that the command line names -> Scene: a file, or standard input.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "scene/scene.h"
-
-// Whether the scene is read from standard input, which can be done once.
-bool scene_source_is_input(const Options *options);
 
 // As scn_load and scn_load_tolerantly do.
 bool scene_source_load(Scene *scene, const Options *options, Error *error);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/exit_code.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "device/cache.h"
 
 #include <stdio.h>

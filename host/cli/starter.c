@@ -88,11 +88,10 @@ void starter_decide(Starter *starter, bool wanted)
 // Whoever asks for certain kernels gets them, and whoever counts gets the same counts every time.
 static bool leaves_kernels_open(const Options *options)
 {
-    const KernelWish *wish = &options->kernel;
-    return options->action == ACTION_RENDER && !wish->family_given && !wish->nodes_given &&
-           wish->choice.lanes == 0 && wish->choice.precision == PRECISION_FP32 &&
-           options->uses_bvh && !options->statistics &&
-           options->specialization != SPECIALIZE_ALWAYS;
+    const KernelRequest *request = &options->kernel;
+    return options->action == ACTION_RENDER && request->family == 0 && request->nodes == 0 &&
+           request->lanes == 0 && request->precision == PRECISION_FP32 && options->uses_bvh &&
+           !options->statistics && options->specialization != SPECIALIZE_ALWAYS;
 }
 
 void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles)

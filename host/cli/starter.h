@@ -3,7 +3,7 @@
 // tree is built.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 
 #include <pthread.h>
 

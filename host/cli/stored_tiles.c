@@ -2,7 +2,7 @@
 // What tells the tiles is taken out of the settings: what is left of them names the whole picture.
 #include "cli/stored_tiles.h"
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "render/tile.h"
 
 #include <assert.h>

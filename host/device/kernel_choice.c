@@ -21,17 +21,27 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
                  choice->lanes);
 }
 
-bool kernel_check_wish(const KernelWish *wish, Error *error)
+static bool wants_family(const KernelRequest *request, KernelFamily family)
 {
-    const bool is_fp64 = wish->choice.precision == PRECISION_FP64;
-    if (is_fp64 && wish->family_given && wish->choice.family == FAMILY_PACKET)
+    return request->family == 1 + (int)family;
+}
+
+static bool wants_nodes(const KernelRequest *request, NodeLayout nodes)
+{
+    return request->nodes == 1 + (int)nodes;
+}
+
+bool kernel_check_request(const KernelRequest *request, Error *error)
+{
+    const bool is_fp64 = request->precision == PRECISION_FP64;
+    const bool wants_packets = wants_family(request, FAMILY_PACKET);
+    if (is_fp64 && wants_packets)
         return error_set(error, "--precision fp64 traces rays one by one: leave out --kernel "
                                 "packet");
-    if (is_fp64 && wish->nodes_given && wish->choice.nodes == NODES_WIDE)
+    if (is_fp64 && wants_nodes(request, NODES_WIDE))
         return error_set(error, "--precision fp64 walks nodes of two children: leave out --nodes "
                                 "wide");
-    if (wish->family_given && wish->choice.family == FAMILY_PACKET && wish->nodes_given &&
-        wish->choice.nodes == NODES_PAIR)
+    if (wants_packets && wants_nodes(request, NODES_PAIR))
         return error_set(error, "--kernel packet walks wide nodes: leave out --nodes pair");
     return true;
 }
@@ -48,19 +58,19 @@ bool kernel_suits_packets(const Device *device)
     return device->is_cpu;
 }
 
-KernelChoice kernel_choose(const KernelWish *wish, const Device *device)
+KernelChoice kernel_choose(const KernelRequest *request, const Device *device)
 {
     const bool suits_packets = kernel_suits_packets(device);
-    if (wish->choice.precision == PRECISION_FP64)
+    if (request->precision == PRECISION_FP64)
         return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
-    const bool wants_pairs = wish->nodes_given && wish->choice.nodes == NODES_PAIR;
+    const bool wants_pairs = wants_nodes(request, NODES_PAIR);
     KernelChoice choice = {.family = suits_packets && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
                            .nodes = suits_packets ? NODES_WIDE : NODES_PAIR,
-                           .lanes = wish->choice.lanes};
-    if (wish->family_given)
-        choice.family = wish->choice.family;
-    if (wish->nodes_given)
-        choice.nodes = wish->choice.nodes;
+                           .lanes = request->lanes > 0 ? 2u << request->lanes : 0};
+    if (request->family > 0)
+        choice.family = (KernelFamily)(request->family - 1);
+    if (request->nodes > 0)
+        choice.nodes = (NodeLayout)(request->nodes - 1);
     if (choice.family == FAMILY_PACKET)
         choice.nodes = NODES_WIDE;
     return choice;

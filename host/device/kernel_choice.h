@@ -24,18 +24,20 @@ typedef struct {
     Precision precision;
 } KernelChoice;
 
-// What the user asked for.
+// What the user asks for.  0 leaves each of the first three to the device.
 typedef struct {
-    bool family_given, nodes_given;
-    KernelChoice choice; // of which what is not given counts for nothing
-} KernelWish;
+    int family; // 1 + a KernelFamily
+    int nodes;  // 1 + a NodeLayout
+    int lanes;  // 1, 2 or 3 for 4, 8 or 16
+    Precision precision;
+} KernelRequest;
 
-// Fails where the wish contradicts itself.
-bool kernel_check_wish(const KernelWish *wish, Error *error);
+// Rejects requests that contradict themselves.
+bool kernel_check_request(const KernelRequest *request, Error *error);
 
 // Returns the requested form, completed by a fixed rule: packets on CPUs; rays over pairs on other
 // devices, in fp64, and on OpenCL implementations that are slow with packets.
-KernelChoice kernel_choose(const KernelWish *wish, const Device *device);
+KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 
 // Returns whether a picture is complete sooner with packets, compiling included.
 bool kernel_suits_packets(const Device *device);

@@ -10,7 +10,7 @@
 
 static bool open_device(ClrtRenderer *renderer, const char *name, Error *cause)
 {
-    const KernelWish none = {0};
+    const KernelRequest none = {0};
     if (!device_open(&renderer->device, name, cause))
         return false;
     const KernelChoice choice = kernel_choose(&none, &renderer->device);

@@ -8,7 +8,7 @@
 
 typedef struct {
     const char *device; // as for device_open
-    KernelWish kernel;
+    KernelRequest kernel;
     Specialization specialization;
     BvhBuilder builder;
     uint32_t group_width, group_height; // 0: what suits the kernels

@@ -70,7 +70,7 @@ static bool look(Certified *certified, const RendererSetup *setup, const Rendere
 
 static bool draw_plain(Certified *certified, const Office *office, const Scene *scene, Error *error)
 {
-    const KernelWish nothing = {0};
+    const KernelRequest nothing = {0};
     RendererSetup setup = {.device = &office->device, .cache = &office->cache};
     setup.source.choice = kernel_choose(&nothing, &office->device);
     RenderSettings settings = certified->settings;

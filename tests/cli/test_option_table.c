@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The table of options against itself and against its readers.
-#include "cli/option_help.h"
-#include "cli/option_table.h"
+#include "cli/help.h"
+#include "cli/options/table.h"
 #include "unit/cmocka_all.h"
 
 #include <ctype.h>
@@ -78,7 +78,7 @@ static void every_listed_word_is_understood(void **state)
         for (char *word = strsep(&rest, "|"); word != NULL; word = strsep(&rest, "|")) {
             Options options = {0};
             Error error = {0};
-            assert_true(is_name(word) || option_table[i].read(&options, word, &error));
+            assert_true(is_name(word) || option_store(&option_table[i], &options, word, &error));
         }
     }
 }
@@ -99,7 +99,7 @@ static void every_understood_word_is_listed(void **state)
             strcat(strcat(expected, gap), word);
         }
         strcat(expected, ", not 'nonsense'");
-        assert_false(option_table[i].read(&options, "nonsense", &error));
+        assert_false(option_store(&option_table[i], &options, "nonsense", &error));
         assert_string_equal(error.text, expected);
     }
 }

@@ -31,7 +31,7 @@ static KernelChoice usual_choice(void)
 {
     Device device;
     Error error = {0};
-    const KernelWish nothing = {0};
+    const KernelRequest nothing = {0};
     if (!device_open(&device, getenv("CLRT_DEVICE"), &error)) {
         fprintf(stderr, "%s\n", error.text);
         exit(1);

@@ -11,11 +11,11 @@
 #define AROUND 48 // of a ring's vertices
 #define ACROSS 24 // of each of its rounds
 
-static const KernelWish forms[] = {
-    {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
-    {true, true, {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
-    {true, true, {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
-    {true, true, {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}},
+static const KernelRequest forms[] = {
+    {1 + FAMILY_RAY, 1 + NODES_PAIR, 0, PRECISION_FP32},
+    {1 + FAMILY_RAY, 1 + NODES_WIDE, 0, PRECISION_FP32},
+    {1 + FAMILY_PACKET, 1 + NODES_WIDE, 0, PRECISION_FP32},
+    {1 + FAMILY_RAY, 1 + NODES_PAIR, 0, PRECISION_FP64},
 };
 #define FORMS (sizeof forms / sizeof forms[0])
 

@@ -3,10 +3,10 @@
 #include "device/kernel_choice.h"
 #include "unit/cmocka_all.h"
 
-static void assert_choice(const KernelWish *wish, const Device *device, KernelFamily family,
+static void assert_choice(const KernelRequest *request, const Device *device, KernelFamily family,
                           NodeLayout nodes)
 {
-    const KernelChoice choice = kernel_choose(wish, device);
+    const KernelChoice choice = kernel_choose(request, device);
     assert_int_equal(choice.family, family);
     assert_int_equal(choice.nodes, nodes);
 }
@@ -14,7 +14,7 @@ static void assert_choice(const KernelWish *wish, const Device *device, KernelFa
 static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void **state)
 {
     (void)state;
-    const KernelWish none = {0};
+    const KernelRequest none = {0};
     const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
     const Device other = {.platform = "Oclgrind", .is_cpu = true};
     const Device intel = {.platform = "Intel(R) OpenCL", .is_cpu = true};
@@ -28,7 +28,7 @@ static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void 
 static void other_devices_get_rays(void **state)
 {
     (void)state;
-    const KernelWish none = {0};
+    const KernelRequest none = {0};
     const Device pocl = {.platform = "Portable Computing Language"};
     const Device mesa = {.platform = "rusticl"};
     assert_choice(&none, &pocl, FAMILY_RAY, NODES_PAIR);
@@ -39,8 +39,8 @@ static void a_choice_by_the_user_is_kept(void **state)
 {
     (void)state;
     const Device mesa = {.platform = "rusticl", .is_cpu = true};
-    const KernelWish packets = {.family_given = true, .choice = {.family = FAMILY_PACKET}};
-    const KernelWish wide = {.nodes_given = true, .choice = {.nodes = NODES_WIDE}};
+    const KernelRequest packets = {.family = 1 + FAMILY_PACKET};
+    const KernelRequest wide = {.nodes = 1 + NODES_WIDE};
     assert_int_equal(kernel_choose(&packets, &mesa).family, FAMILY_PACKET);
     assert_int_equal(kernel_choose(&packets, &mesa).nodes, NODES_WIDE);
     assert_int_equal(kernel_choose(&wide, &mesa).family, FAMILY_RAY);
@@ -51,7 +51,7 @@ static void fp64_is_rays_over_pairs_everywhere(void **state)
 {
     (void)state;
     const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
-    const KernelWish fp64 = {.choice = {.precision = PRECISION_FP64}};
+    const KernelRequest fp64 = {.choice = {.precision = PRECISION_FP64}};
     assert_choice(&fp64, &pocl, FAMILY_RAY, NODES_PAIR);
     assert_int_equal(kernel_choose(&fp64, &pocl).precision, PRECISION_FP64);
 }

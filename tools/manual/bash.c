@@ -3,7 +3,7 @@
 // three words, and values of options whose value may be left out follow '=' alone.
 #include "bash.h"
 
-#include "cli/command.h"
+#include "cli/options/command.h"
 #include "command_names.h"
 #include "value.h"
 
@@ -58,7 +58,7 @@ static void write_names(FILE *stream, const Command *command)
 {
     fprintf(stream, "        %s) words='", command == NULL ? "*" : command->name);
     for (size_t i = 0; i < option_count; i++) {
-        if (!command_takes(command, option_table[i].name))
+        if (!command_takes(command, &option_table[i]))
             continue;
         fprintf(stream, "--%s ", option_table[i].name);
         if (option_table[i].letter != 0)

@@ -2,7 +2,7 @@
 // A line for each option, offered where the command before it, if any, takes it.
 #include "fish.h"
 
-#include "cli/command.h"
+#include "cli/options/command.h"
 #include "command_names.h"
 #include "value.h"
 
@@ -19,13 +19,13 @@ static void write_condition(FILE *stream, const Option *option)
 {
     fputs(" -n '", stream);
     const char *separator = "";
-    if (command_takes(NULL, option->name)) {
+    if (command_takes(NULL, option)) {
         fputs("not __fish_seen_subcommand_from ", stream);
         command_names_write(stream, " ");
         separator = "; or ";
     }
     for (size_t i = 0; i < command_count; i++)
-        if (command_takes(&command_table[i], option->name)) {
+        if (command_takes(&command_table[i], option)) {
             fprintf(stream, "%s__fish_seen_subcommand_from %s", separator, command_table[i].name);
             separator = "; or ";
         }

@@ -2,7 +2,7 @@
 // mdoc: option names become .Fl, their values .Ar or, where they are words to be typed, .Cm.
 #include "man_page.h"
 
-#include "cli/command.h"
+#include "cli/options/command.h"
 #include "cli/show.h"
 #include "render/aov.h"
 #include "value.h"
@@ -81,6 +81,23 @@ static void write_synopsis(FILE *stream)
                 command_table[i].operands);
 }
 
+// Lists the options that a command takes.
+static void write_taken(FILE *stream, const Command *command)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < option_count; i++)
+        left += command_takes(command, &option_table[i]);
+    for (size_t i = 0; i < option_count; i++) {
+        if (!command_takes(command, &option_table[i]))
+            continue;
+        left--;
+        fprintf(stream, ".Fl \\-%s%s\n", option_table[i].name,
+                left == 0   ? " ."
+                : left == 1 ? "\nand"
+                            : " ,");
+    }
+}
+
 static void write_commands(FILE *stream)
 {
     fputs(".Bl -tag -width Ds\n", stream);
@@ -88,12 +105,7 @@ static void write_commands(FILE *stream)
         fprintf(stream, ".It Cm %s Ar %s\n", command_table[i].name, command_table[i].operands);
         write_sentence(stream, command_table[i].help);
         fputs("It takes the options\n", stream);
-        const char *const *names = command_table[i].options;
-        for (size_t j = 0; names[j] != NULL; j++)
-            fprintf(stream, ".Fl \\-%s%s\n", names[j],
-                    names[j + 1] == NULL   ? " ."
-                    : names[j + 2] == NULL ? "\nand"
-                                           : " ,");
+        write_taken(stream, &command_table[i]);
     }
     fputs(".El\n", stream);
 }

@@ -39,7 +39,7 @@ ValueKind value_kind(const Option *option, char words[VALUE_WORDS_SIZE])
         return VALUE_NONE;
     if (strstr(option->argument, "FILE") != NULL)
         return VALUE_FILE;
-    const bool is_format = option->read == read_format;
+    const bool is_format = strcmp(option->name, "format") == 0;
     if (!is_format && strchr(option->argument, '|') == NULL)
         return VALUE_OTHER;
     if (is_format)

@@ -2,7 +2,7 @@
 // What can be said of an option's value.
 #pragma once
 
-#include "cli/option_table.h"
+#include "cli/options/table.h"
 
 typedef enum {
     VALUE_NONE, // the option takes none

@@ -2,7 +2,7 @@
 // A list for _arguments for drawing and one for each command.
 #include "zsh.h"
 
-#include "cli/command.h"
+#include "cli/options/command.h"
 #include "command_names.h"
 #include "value.h"
 
@@ -59,7 +59,7 @@ static void write_options(FILE *stream, const Command *command)
 {
     fprintf(stream, "    %s)\n        options=(\n", command == NULL ? "*" : command->name);
     for (size_t i = 0; i < option_count; i++)
-        if (command_takes(command, option_table[i].name))
+        if (command_takes(command, &option_table[i]))
             write_option(stream, &option_table[i]);
     fputs("        )\n        ;;\n", stream);
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What options mean together.
+// Rules about options that come together.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/options/options.h"
+
+// Rejects options that exclude each other, whatever they are for.
+bool options_check_conflicts(const Options *options, Error *error);
 
 // Decides whether the scene goes to a file, in which format, or to the window, and refuses options
 // that are for the other.

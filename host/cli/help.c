@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Words what --help shows: names on the left, sentences broken into lines on the right.
-#include "cli/option_help.h"
+#include "cli/help.h"
 
-#include "cli/command.h"
-#include "cli/option_table.h"
+#include "cli/options/command.h"
+#include "cli/options/table.h"
 #include "cli/show.h"
 
 #include <string.h>

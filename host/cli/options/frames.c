@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names are numbered as other programs that take pictures apart and put them together expect.
-#include "cli/frames.h"
+#include "cli/options/frames.h"
 
 #include "base/array.h"
 #include "base/number.h"

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Command line -> Options.
+// What the command line asks for.
 #pragma once
 
 #include "accel/bvh.h"
-#include "cli/crop.h"
-#include "cli/frames.h"
+#include "cli/options/crop.h"
+#include "cli/options/frames.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"
+
+#include <string.h>
 
 typedef enum {
     ACTION_RENDER,
@@ -45,8 +47,11 @@ typedef enum {
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
-// The contrast that --aa-adaptive leaves unless it is given.
-#define OPTIONS_CONTRAST 0.02
+// The most that options take.
+#define VIEW_MOST       1000000
+#define GROUP_SIDE_MOST 1024
+#define THREADS_MOST    4096
+#define QUIT_AFTER_MOST 1000000
 
 // Strings point into the command line.
 typedef struct {
@@ -81,7 +86,7 @@ typedef struct {
     uint32_t repeat;            // how often the picture is drawn, from 1
     uint32_t tile_width, tile_height;
     uint32_t group_width, group_height; // 0: what suits the kernels
-    KernelWish kernel;
+    KernelRequest kernel;
     Specialization specialization;
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
@@ -106,5 +111,8 @@ static inline bool options_are_adaptive(const Options *options)
     return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;
 }
 
-// Fills options from the words of the command line; false where they are not understood.
-bool options_parse(Options *options, int count, char **words, Error *error);
+// Returns whether the scene is read from standard input, which can be read once.
+static inline bool options_read_input(const Options *options)
+{
+    return strcmp(options->scene_path, "-") == 0;
+}

@@ -1,29 +1,77 @@
 // SPDX-License-Identifier: MIT
-// Options that would have no effect are refused, so that none is given in vain.
-#include "cli/option_check.h"
+// clrt rejects options that would have no effect.
+#include "cli/options/check.h"
 
-#include "cli/option_table.h"
-#include "cli/scene_source.h"
+#include "cli/options/table.h"
 
 #include <string.h>
 
-// Returns the first of names, which ends in NULL, that the command line names; NULL for none.
-static const char *first_given(const Options *options, const char *const *names)
+#define NAMES_MOST 4
+
+// Options that exclude each other because the command line gives them, whatever their values.
+typedef struct {
+    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL behind the last
+    const char *sentence;                               // %s stands for the name
+} Conflict;
+
+#define REFINES "aa-adaptive", "error", "time"
+
+static const Conflict conflicts[] = {
+    {{"quiet"}, {"verbose"}, "--quiet and --verbose contradict each other: give one"},
+    {{"aa", REFINES},
+     {"aa", REFINES},
+     "--aa, --aa-adaptive, --error and --time each choose the samples: give one"},
+    {{"crop", "part", "resume"},
+     {REFINES},
+     "--%s does not go with --aa-adaptive, --error and --time, which refine the picture as a "
+     "whole: "
+     "give --aa"},
+    {{"part"}, {"no-metadata"}, "--part needs the metadata: leave out --no-metadata"},
+    {{"resume"}, {"repeat"}, "--repeat times whole pictures: leave out --resume"},
+    {{"frames", "turntable"},
+     {"expect-hash"},
+     "--frames and --turntable draw many pictures, and --expect-hash is of one"},
+    {{"frames", "turntable"},
+     {"resume"},
+     "--frames and --turntable draw many pictures, and --resume is of one: name those that are "
+     "missing by --frames"},
+};
+
+// Returns the first of names that the command line gives, other than `but`; NULL for none.
+static const char *first_given(const Options *options, const char *const names[NAMES_MOST],
+                               const char *but)
 {
-    while (*names != NULL && !option_is_given(options, *names))
-        names++;
-    return *names;
+    for (int i = 0; i < NAMES_MOST && names[i] != NULL; i++)
+        if (option_is_given(options, names[i]) && (but == NULL || strcmp(names[i], but) != 0))
+            return names[i];
+    return NULL;
+}
+
+bool options_check_conflicts(const Options *options, Error *error)
+{
+    for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++) {
+        const Conflict *conflict = &conflicts[i];
+        const char *name = first_given(options, conflict->names, NULL);
+        if (name != NULL && first_given(options, conflict->others, name) != NULL)
+            return error_set(error, conflict->sentence, name);
+    }
+    return true;
+}
+
+// Returns the first option of the command line that is for one use and not for another.
+static const char *first_for(const Options *options, unsigned use, unsigned other)
+{
+    for (size_t i = 0; i < option_count; i++)
+        if (option_is_given(options, option_table[i].name) && (option_table[i].uses & use) != 0 &&
+            (option_table[i].uses & other) == 0)
+            return option_table[i].name;
+    return NULL;
 }
 
 #ifdef CLRT_WITH_WINDOW
 static bool check_window(Options *options, Error *error)
 {
-    static const char *const of_files[] = {
-        "format",      "tile", "bad-geometry", "aa-adaptive", "error",
-        "time",        "crop", "part",         "resume",      "frames",
-        "turntable",   "aov",  "reference",    "repeat",      "reference-samples",
-        "no-metadata", "hash", "expect-hash",  NULL};
-    const char *refused = first_given(options, of_files);
+    const char *refused = first_for(options, FOR_FILE, FOR_WINDOW);
     options->action = ACTION_VIEW;
     if (options->fits_level)
         refused = "max-level auto";
@@ -32,7 +80,7 @@ static bool check_window(Options *options, Error *error)
     if (refused != NULL)
         return error_set(error, "--%s is for files: give one with -o FILE%s", refused,
                          options->aovs != 0 ? ".exr" : "");
-    return !scene_source_is_input(options) ||
+    return !options_read_input(options) ||
            error_set(error, "the window reads its scene again and again, and standard input "
                             "can be read once: give -o FILE");
 }
@@ -64,7 +112,7 @@ static bool check_certainty(const Options *options, Error *error)
     if (options_are_adaptive(options))
         return error_set(error, "--aov certainty is of the samples of --aa: leave out "
                                 "--aa-adaptive, --error and --time");
-    return options->kernel.choice.precision == PRECISION_FP32 ||
+    return options->kernel.precision == PRECISION_FP32 ||
            error_set(error, "--aov certainty is of pictures in fp32: leave out --precision fp64");
 }
 
@@ -78,40 +126,20 @@ static bool check_aovs(const Options *options, Error *error)
                      options->format);
 }
 
-// What refining does depends on all pixels around.
-static bool check_unrefined(const Options *options, const char *name, Error *error)
-{
-    return !options_are_adaptive(options) ||
-           error_set(error,
-                     "%s does not go with --aa-adaptive, --error and --time, which refine "
-                     "the picture as a whole: give --aa",
-                     name);
-}
-
 static bool check_part(const Options *options, Error *error)
 {
     if (options->parts == 0)
         return true;
     if (!image_format_takes_layers(options->format))
         return error_set(error, "--part needs an EXR file (-o FILE.exr), which clrt merge reads");
-    if (!check_unrefined(options, "--part", error))
-        return false;
-    if (options->reference)
-        return error_set(error, "--reference is of whole pictures: leave out --part");
-    return !options->no_metadata ||
-           error_set(error, "--part needs the metadata: leave out --no-metadata");
+    return !options->reference ||
+           error_set(error, "--reference is of whole pictures: leave out --part");
 }
 
 static bool check_resume(const Options *options, Error *error)
 {
-    if (!options->resume)
-        return true;
-    if (strcmp(options->output_path, "-") == 0)
-        return error_set(error, "--resume goes on with a file: standard output is none");
-    if (!check_unrefined(options, "--resume", error))
-        return false;
-    return !option_is_given(options, "repeat") ||
-           error_set(error, "--repeat times whole pictures: leave out --resume");
+    return !options->resume || strcmp(options->output_path, "-") != 0 ||
+           error_set(error, "--resume goes on with a file: standard output is none");
 }
 
 static bool check_frames(Options *options, Error *error)
@@ -124,8 +152,6 @@ static bool check_frames(Options *options, Error *error)
         {strcmp(options->output_path, "-") == 0, "standard output takes one: give -o FILE"},
         {options->statistics_path != NULL, "--stats=FILE is of one"},
         {options->reference_path != NULL, "--reference=FILE is of one"},
-        {options->expected_hash != NULL, "--expect-hash is of one"},
-        {options->resume, "--resume is of one: name those that are missing by --frames"},
     };
     if (!frames_are_many(frames))
         return true;
@@ -142,26 +168,15 @@ static bool check_frames(Options *options, Error *error)
     return true;
 }
 
-static bool check_samples(const Options *options, Error *error)
-{
-    static const char *const ways_to_sample[] = {"aa", "aa-adaptive", "error", "time"};
-    int ways = 0;
-    for (size_t i = 0; i < sizeof ways_to_sample / sizeof ways_to_sample[0]; i++)
-        ways += option_is_given(options, ways_to_sample[i]);
-    return ways <= 1 ||
-           error_set(error, "--aa, --aa-adaptive, --error and --time each choose the samples: give "
-                            "one");
-}
-
 // What float arithmetic is off by, 4e-5 measured, must not weigh beside what is asked for.
 #define ERROR_OF_FP64 1.6e-4
 
 static void choose_precision(Options *options)
 {
-    KernelWish *wish = &options->kernel;
-    if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 && !wish->family_given &&
-        !wish->nodes_given && !option_is_given(options, "precision"))
-        wish->choice.precision = PRECISION_FP64;
+    KernelRequest *kernel = &options->kernel;
+    if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 && kernel->family == 0 &&
+        kernel->nodes == 0 && !option_is_given(options, "precision"))
+        kernel->precision = PRECISION_FP64;
 }
 
 // One thing at most goes to standard output.
@@ -179,17 +194,12 @@ static bool check_streams(const Options *options, Error *error)
 
 bool options_check_purpose(Options *options, Error *error)
 {
-    static const char *const of_windows[] = {"keys", "quit-after", NULL};
-    const char *path = options->output_path;
-    if (!check_samples(options, error))
-        return false;
     choose_precision(options);
-    if (path == NULL)
+    if (options->output_path == NULL)
         return check_window(options, error);
-    if (first_given(options, of_windows) != NULL)
+    if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_aovs(options, error) &&
-           (!option_is_given(options, "crop") || check_unrefined(options, "--crop", error)) &&
            check_part(options, error) && check_resume(options, error) &&
            check_frames(options, error) && check_certainty(options, error) &&
            check_streams(options, error);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // getopt walks the words, the table takes the values, and then all are looked at together.
-#include "cli/options.h"
+#include "cli/options/parse.h"
 
 #include "base/word.h"
-#include "cli/command.h"
-#include "cli/convert.h"
-#include "cli/option_check.h"
-#include "cli/option_table.h"
+#include "cli/options/check.h"
+#include "cli/options/command.h"
+#include "cli/options/table.h"
 
 #include <assert.h>
 #include <getopt.h>
@@ -66,23 +65,17 @@ static bool note_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-static bool check_talk(const Options *options, Error *error)
-{
-    return !options->quiet || !options->verbose ||
-           error_set(error, "--quiet and --verbose contradict each other: give one");
-}
-
 static bool check_purposes(const Options *options, const Command *command, Error *error)
 {
     char takers[256];
     for (size_t i = 0; i < option_count; i++) {
-        const char *name = option_table[i].name;
-        if (!option_is_given(options, name) || command_takes(command, name))
+        const Option *option = &option_table[i];
+        if (!option_is_given(options, option->name) || command_takes(command, option))
             continue;
         if (command != NULL)
-            return error_set(error, "clrt %s takes no --%s", command->name, name);
-        command_list_takers(name, takers, sizeof takers);
-        return error_set(error, "--%s is for %s", name, takers);
+            return error_set(error, "clrt %s takes no --%s", command->name, option->name);
+        command_list_takers(option, takers, sizeof takers);
+        return error_set(error, "--%s is for %s", option->name, takers);
     }
     return true;
 }
@@ -94,8 +87,7 @@ static bool read_two(Options *options, const Command *command, int count, char *
         return error_set(error, "clrt %s wants %s", command->name, command->two_operands);
     options->scene_path = words[optind];
     options->other_path = words[optind + 1];
-    return options->action == ACTION_COMPARE ? options_check_compare(options, error)
-                                             : convert_takes(options->other_path, error);
+    return options->action != ACTION_COMPARE || options_check_compare(options, error);
 }
 
 static bool read_parts(Options *options, int count, char **words, Error *error)
@@ -110,7 +102,7 @@ static bool read_parts(Options *options, int count, char **words, Error *error)
 static bool read_scene(Options *options, int count, char **words, Error *error)
 {
     if (optind >= count && options->action == ACTION_WARM)
-        return kernel_check_wish(&options->kernel, error);
+        return kernel_check_request(&options->kernel, error);
     if (optind >= count)
         return error_set(error, "no scene is named; clrt --help shows the usage");
     if (optind + 1 < count)
@@ -119,7 +111,7 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
                          "need an equals sign)",
                          words[optind + 1], words[optind]);
     options->scene_path = words[optind];
-    return kernel_check_wish(&options->kernel, error) &&
+    return kernel_check_request(&options->kernel, error) &&
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
@@ -135,13 +127,14 @@ static bool read_options(Options *options, int count, char **words, Error *error
         const char *word = words[optind > 0 ? optind : 1];
         const int found = getopt_long(count, words, shorts, longs, NULL);
         if (found == -1)
-            return check_talk(options, error);
+            return options_check_conflicts(options, error);
         if (found == ':')
             return error_set(error, "%s wants a value", words[optind - 1]);
         if (found == '?')
             return unknown_option(word != NULL && optind > 1 ? words[optind - 1] : word, error);
         const size_t row = option_of(found);
-        if (!note_given(options, row, error) || !option_table[row].read(options, optarg, error))
+        if (!note_given(options, row, error) ||
+            !option_store(&option_table[row], options, optarg, error))
             return false;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pixels stay those of the whole picture: a part of it is the same bits.
-#include "cli/crop.h"
+#include "cli/options/crop.h"
 
 #include "base/number.h"
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// A row of the table of options.
+#pragma once
+
+#include "cli/options/options.h"
+
+#include <stddef.h>
+
+// --help lists the groups in this order.
+typedef enum {
+    GROUP_OUTPUT,
+    GROUP_PICTURE,
+    GROUP_QUALITY,
+    GROUP_SPEED,
+    GROUP_JOB,
+    GROUP_DEVICE,
+    GROUP_STATISTICS,
+    GROUP_GEOMETRY,
+    GROUP_REPORT,
+    GROUP_WINDOW,
+    GROUP_TALK,
+    OPTION_GROUPS
+} OptionGroup;
+
+// How a setting may change the picture.
+typedef enum {
+    CLASS_NONE,        // selects another picture, or none
+    CLASS_EXACT,       // same bits
+    CLASS_BOUNDED,     // the error has a stated bound
+    CLASS_STATISTICAL, // the error can be measured
+    OPTION_CLASSES
+} OptionClass;
+
+typedef enum {
+    OPTION_FLAG,   // no text; stores true in a bool
+    OPTION_ACTION, // no text; stores limit in the action
+    OPTION_COUNT,  // an integer from 1 to limit; stores a uint32_t
+    OPTION_PART,   // a number above 0 and up to 1; stores a double
+    OPTION_AREA,   // "WxH", each from 1 to limit; stores two uint32_t
+    OPTION_WORD,   // one of the words of argument; stores its place in an enumeration
+    OPTION_TEXT,   // any text; stores the pointer
+    OPTION_ODD     // calls set
+} OptionKind;
+
+// The uses of clrt that take an option.
+enum {
+    FOR_FILE = 1,      // a picture in a file, and --warm
+    FOR_WINDOW = 2,    // the window
+    FOR_CHECK = 4,     // clrt check
+    FOR_COMPARE = 8,   // clrt compare
+    FOR_MERGE = 16,    // clrt merge
+    FOR_CONVERT = 32,  // clrt convert
+    FOR_PIXEL = 64,    // --explain-pixel
+    FOR_EXPLAIN = 128, // --explain
+    FOR_PICTURE = FOR_FILE | FOR_WINDOW,
+    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // whatever traces rays
+};
+
+// Stores text in options; text is NULL where the command line gives none.
+typedef bool SetOption(Options *options, const char *text, Error *error);
+
+typedef struct {
+    const char *name;
+    const char *argument; // NULL without one; words separated by '|' for a choice; in brackets, and
+                          // given with '=' alone, where it may be left out
+    char letter;          // 0 without a short form
+    OptionKind kind;
+    size_t offset;        // of the field in Options
+    int64_t limit;        // of OPTION_COUNT, OPTION_AREA and OPTION_ACTION
+    const char *fallback; // the text where the command line may leave it out
+    SetOption *set;       // of OPTION_ODD
+    OptionGroup group;
+    OptionClass class;
+    unsigned uses;
+    const char *help;
+} Option;
+
+bool option_argument_is_optional(const Option *option);
+
+// Returns whether the value is the name of a file.
+bool option_names_file(const Option *option);
+
+// Stores text in the field that the option names, or rejects it with a message that names the
+// option.
+bool option_store(const Option *option, Options *options, const char *text, Error *error);

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The table itself, in the order of --help.
+#include "cli/options/table.h"
+
+#include "cli/options/setters.h"
+
+#include <assert.h>
+#include <string.h>
+
+#define FIELD(kind, field) OPTION_##kind, offsetof(Options, field)
+#define FLAG(field)        FIELD(FLAG, field), 0, NULL, NULL
+#define ACTION(action)     OPTION_ACTION, 0, action, NULL, NULL
+#define COUNT(field, most) FIELD(COUNT, field), most, NULL, NULL
+#define AREA(field, most)  FIELD(AREA, field), most, NULL, NULL
+#define WORD(field)        FIELD(WORD, field), 0, NULL, NULL
+#define TEXT(field)        FIELD(TEXT, field), 0, NULL, NULL
+#define ODD(setter)        OPTION_ODD, 0, 0, NULL, setter
+
+const Option option_table[] = {
+    {"output", "FILE", 'o', ODD(set_output), GROUP_OUTPUT, CLASS_NONE,
+     FOR_PICTURE | FOR_COMPARE | FOR_MERGE,
+     "write the picture; its ending tells the format; - is standard output"},
+    {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
+     FOR_FILE | FOR_COMPARE | FOR_MERGE,
+     "write this format, whatever the ending (png for standard output)"},
+    {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
+     "8-bit files: raw values (default) or srgb"},
+    {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
+     "add channels to an EXR file; the names are below"},
+    {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
+     "leave out of the file what tells where the picture comes from"},
+    {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
+     "print a hash of the pixels, as they are traced, on standard output"},
+    {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
+     "exit 1 where the pixels have another hash"},
+
+    {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
+     FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
+     "size of the picture in pixels (the scene's, or 512x512)"},
+    {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_FILE,
+     "draw the pixels from X0,Y0 up to and without X1,Y1 alone; with a dot in a number, all four "
+     "are parts of the sides; an EXR file tells where they lie"},
+    {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
+     FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
+     "look through the scene's N-th camera (1); without any, the course's six"},
+
+    {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
+     CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
+     "anti-alias with N x N samples a pixel (2)"},
+    {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
+     CLASS_STATISTICAL, FOR_FILE,
+     "anti-alias where neighbors differ, down to a contrast of T in a pixel (0.02)"},
+    {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
+     "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
+     "scene's highest reflectivity; auto: the least N for which that shows in no file"},
+    {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
+     "choose samples, levels and precision for a root mean square error of E, as 0.005 or 0.5%"},
+    {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
+     "choose the samples so that tracing takes S seconds"},
+    {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
+     FOR_TRACING,
+     "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
+
+    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+     "build the tree by the surface area heuristic (default) or by midpoints; unless one is "
+     "named, up to 32 triangles get none"},
+    {"no-bvh", NULL, 0, ODD(set_no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+     "build no tree, test every triangle instead"},
+    {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
+     "size of the tiles that the picture is traced in (128x128)"},
+    {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
+     FOR_PICTURE, "size of the device's work-groups (8x8; 2x2 packets)"},
+    {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
+     FOR_PICTURE | FOR_EXPLAIN,
+     "compile kernels for the scene: where it pays (default), always or never"},
+    {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+     "trace rays one by one or packets of 4x4 pixels; auto (default) asks the device"},
+    {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+     "nodes of two children or of eight; auto (default) is what suits the kernel"},
+    {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+     "width of the kernels' vectors; auto (default) is the device's"},
+
+    {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
+     "draw N pictures, each with the camera turned by one N-th further about what it looks at; "
+     "the file's name is numbered in place of its #### or before its ending"},
+    {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
+     "draw the views A to B, or those pictures of the turntable, or every S-th of them"},
+    {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
+     "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
+    {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
+     "keep finished tiles in FILE.part until the picture is whole, and go on from there or from an "
+     "EXR file that was stopped"},
+
+    {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
+     "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
+    {"list-devices", "[=text|json]", 0, ODD(set_list_devices), GROUP_DEVICE, CLASS_NONE,
+     FOR_PICTURE, "list the OpenCL devices"},
+    {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
+     "threads of a CPU device (all that the process may use)"},
+    {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE,
+     "compile the kernels ahead, and those for SCENE where one is named; draw nothing"},
+
+    {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE, FOR_PICTURE | FOR_EXPLAIN,
+     "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
+    {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
+     "measure the picture against one in fp64 with many samples; write that to FILE"},
+    {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
+     FOR_FILE, "samples a pixel of the reference, an even number (256)"},
+    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE,
+     FOR_FILE | FOR_EXPLAIN,
+     "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
+    {"explain", NULL, 0, ACTION(ACTION_EXPLAIN_SCENE), GROUP_STATISTICS, CLASS_NONE,
+     FOR_PICTURE | FOR_EXPLAIN,
+     "tell what of the kernels and the scene's arrays is used, what is left out, and why, and draw "
+     "nothing"},
+    {"explain-pixel", "X,Y", 0, ODD(set_explain_pixel), GROUP_STATISTICS, CLASS_NONE,
+     FOR_PICTURE | FOR_PIXEL,
+     "tell how the color of a pixel comes about, ray by ray, and draw nothing; X counts from the "
+     "left and Y from the top, both from 0"},
+
+    {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
+     FOR_FILE | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
+     "triangles of no area: drop (default) or fail, naming the first"},
+
+    {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
+     "compare: exit 1 past rmse=V, max=V, share1=V, share4=V, hits=V or below psnr=V"},
+    {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
+     FOR_CHECK | FOR_COMPARE | FOR_PIXEL | FOR_EXPLAIN,
+     "write the report of check or compare, or an explanation, as JSON, to FILE or "
+     "instead of the text"},
+
+    {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
+     "press these keys in the window, each once the one before is shown"},
+    {"quit-after", "N", 0, COUNT(quit_after, QUIT_AFTER_MOST), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
+     "close the window after N frames, counted once the keys are played"},
+
+    {"quiet", NULL, 'q', FLAG(quiet), GROUP_TALK, CLASS_NONE,
+     FOR_TRACING | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "say nothing but errors"},
+    {"verbose", NULL, 'v', FLAG(verbose), GROUP_TALK, CLASS_NONE,
+     FOR_TRACING | FOR_COMPARE | FOR_CONVERT, "say what is done and with what"},
+    {"version", NULL, 0, ACTION(ACTION_VERSION), GROUP_TALK, CLASS_NONE, FOR_PICTURE,
+     "print the version"},
+    {"help", NULL, 'h', ACTION(ACTION_HELP), GROUP_TALK, CLASS_NONE, FOR_PICTURE, "print this"},
+};
+
+const size_t option_count = sizeof option_table / sizeof option_table[0];
+_Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
+               "arrays of OPTIONS_MOST hold the table");
+
+const char *const option_group_names[OPTION_GROUPS] = {
+    [GROUP_OUTPUT] = "Output",
+    [GROUP_PICTURE] = "Picture",
+    [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",
+    [GROUP_JOB] = "Long jobs",
+    [GROUP_DEVICE] = "Device",
+    [GROUP_STATISTICS] = "Statistics",
+    [GROUP_GEOMETRY] = "Geometry",
+    [GROUP_REPORT] = "Reports of check and compare",
+    [GROUP_WINDOW] = "Window",
+    [GROUP_TALK] = "Talk",
+};
+
+const char *const option_class_names[OPTION_CLASSES] = {
+    [CLASS_NONE] = "",
+    [CLASS_EXACT] = "exact",
+    [CLASS_BOUNDED] = "bounded",
+    [CLASS_STATISTICAL] = "statistical",
+};
+
+const char *const option_class_meanings[OPTION_CLASSES] = {
+    [CLASS_NONE] = "",
+    [CLASS_EXACT] = "the same bits, whatever it is set to",
+    [CLASS_BOUNDED] = "the picture is off by no more than the bound that is stated",
+    [CLASS_STATISTICAL] = "how far off the picture is can be measured, not promised",
+};
+
+bool option_is_given(const Options *options, const char *name)
+{
+    size_t row = 0;
+    while (row < option_count && strcmp(option_table[row].name, name) != 0)
+        row++;
+    assert(row < option_count);
+    return (options->given >> row & 1) != 0;
+}
