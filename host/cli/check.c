@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads the scene, takes the census, traces the leak rays where there is a device, and reports.
-#include "cli/check.h"
+#include "cli/commands.h"
 
 #include "base/clock.h"
 #include "cli/check_report.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads both files, measures, and reports; the limits decide about the exit status.
-#include "cli/compare.h"
+#include "cli/commands.h"
 
 #include "base/output_file.h"
 #include "cli/compare_report.h"

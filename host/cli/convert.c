@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads everything before anything is written, and writes over nothing that was read.
-#include "cli/convert.h"
+#include "cli/commands.h"
 
 #include "base/file.h"
 #include "base/output_file.h"
-#include "cli/check.h"
 #include "cli/command_files.h"
 #include "cli/scene_source.h"
 #include "scene/mesh_join.h"

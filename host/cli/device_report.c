@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The device module finds the devices; Jansson writes the JSON.
-#include "cli/device_report.h"
+#include "cli/commands.h"
 
 #include "cli/json_file.h"
 #include "device/cache.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces the pixel's samples one after the other and reports each at once, so that only one is
 // kept, in text; JSON is written whole.
-#include "cli/explain.h"
+#include "cli/commands.h"
 
 #include "cli/command_files.h"
 #include "cli/explain_report.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Goes as far as a picture does before it is drawn, and tells what stands there.
-#include "cli/explain_scene.h"
+#include "cli/commands.h"
 
 #include "cli/command_files.h"
 #include "cli/json_file.h"

@@ -2,9 +2,9 @@
 // Words what --help shows: names on the left, sentences broken into lines on the right.
 #include "cli/help.h"
 
+#include "cli/commands.h"
 #include "cli/options/command.h"
 #include "cli/options/table.h"
-#include "cli/show.h"
 
 #include <string.h>
 

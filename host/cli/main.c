@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The program: does what the command line asks for, and words what went wrong.
-#include "cli/check.h"
 #include "cli/command_files.h"
-#include "cli/compare.h"
-#include "cli/convert.h"
+#include "cli/commands.h"
 #include "cli/crash.h"
-#include "cli/device_report.h"
-#include "cli/explain.h"
-#include "cli/explain_scene.h"
 #include "cli/help.h"
-#include "cli/merge.h"
 #include "cli/options/parse.h"
-#include "cli/picture.h"
-#include "cli/show.h"
 #include "cli/stack.h"
 #include "cli/threads.h"
-#include "cli/warm.h"
 
 #include <signal.h>
 #include <stdio.h>

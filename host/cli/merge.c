@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One part is read after the other, and its tiles are copied into the whole.  The parts must be of
 // one picture: the same scene, version and settings, and every part once.
-#include "cli/merge.h"
+#include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/provenance.h"
+#include "cli/report_provenance.h"
 #include "cli/stored_tiles.h"
 #include "image/image_read.h"
 #include "render/tile.h"
@@ -167,7 +167,7 @@ static ExitCode run(Merging *merging, Error *error)
     if (!write_whole(merging, error))
         return EXIT_OUTPUT;
     const char *hash = merging->provenance.texts[STORED_PIXEL_HASH];
-    return provenance_tell_hash(options, hash, error) ? EXIT_DONE : EXIT_FAULTS;
+    return report_print_hash(options, hash, error) ? EXIT_DONE : EXIT_FAULTS;
 }
 
 ExitCode merge_parts(const Options *options, Error *error)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The pipeline from a scene file to a picture file.
-#include "cli/picture.h"
+#include "cli/commands.h"
 
 #include "base/clock.h"
 #include "base/output_file.h"
 #include "cli/certain_picture.h"
 #include "cli/command_files.h"
-#include "cli/provenance.h"
 #include "cli/reference.h"
 #include "cli/refined_picture.h"
+#include "cli/report_provenance.h"
 #include "cli/stop.h"
 #include "image/image_file.h"
 #include "render/aov_pass.h"
@@ -171,7 +171,7 @@ static bool write_picture(Run *run, Error *error)
     const Options *options = run->options;
     double moment = clock_seconds();
     framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
-    provenance_fill(&provenance, &run->report);
+    report_fill_provenance(&provenance, &run->report);
     provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
@@ -305,9 +305,11 @@ static void look(Run *run, uint32_t number)
 // Black, but for the tiles that are there.
 static bool begin_picture(Run *run, Error *error)
 {
+    Provenance own;
     RenderSettings *settings = &run->settings;
+    report_fill_provenance(&own, &run->report);
     const bool ok = framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
-                    resume_open(&run->resume, &run->report, settings, &run->framebuffer, error);
+                    resume_open(&run->resume, &own, settings, &run->framebuffer, error);
     run->renderer.settings.ready_tiles = settings->ready_tiles;
     return ok;
 }
@@ -334,7 +336,7 @@ static ExitCode finish(Run *run, double start, Error *error)
     resume_close(&run->resume, run->report.complete);
     if (run->stopped_by > 0)
         return tell_stopped(run, error);
-    if (!provenance_tell_hash(run->options, run->report.pixel_hash, error))
+    if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }

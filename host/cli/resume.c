@@ -2,7 +2,6 @@
 // Tiles are finished in the order of their numbers, so that what is there is told by a count alone.
 #include "cli/resume.h"
 
-#include "cli/provenance.h"
 #include "cli/stored_tiles.h"
 #include "image/image_read.h"
 #include "render/tile.h"
@@ -123,16 +122,14 @@ static bool go_on(Resume *resume, const Provenance *own, RenderSettings *setting
     return ok;
 }
 
-bool resume_open(Resume *resume, const Report *report, RenderSettings *settings,
+bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error)
 {
-    Provenance own;
     const Tile largest = tile_largest(settings);
     if (resume->path == NULL)
         return true;
     resume->tile = memory_raw(tile_size(&largest), 1, error);
-    provenance_fill(&own, report);
-    return resume->tile != NULL && go_on(resume, &own, settings, framebuffer, error);
+    return resume->tile != NULL && go_on(resume, own, settings, framebuffer, error);
 }
 
 bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "cli/journal.h"
-#include "cli/report.h"
-#include "image/stored_image.h"
+#include "cli/options/options.h"
+#include "image/provenance.h"
 
 typedef struct {
     char *path;         // of the journal; NULL without --resume; owned
@@ -25,9 +25,9 @@ char *resume_journal_name(const char *output_path, Error *error);
 bool resume_look(Resume *resume, const Options *options, Error *error);
 
 // Fills framebuffer with the tiles that are there, whose number is left in settings->ready_tiles,
-// and opens the journal.  The report tells scene and settings, which must be those of the earlier
+// and opens the journal.  The scene and the settings among own's texts must be those of the earlier
 // run.
-bool resume_open(Resume *resume, const Report *report, RenderSettings *settings,
+bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);
 
 // Keeps a tile of the framebuffer in the journal, in the order of their numbers.

@@ -3,7 +3,7 @@
 #include "cli/run.h"
 
 #include "base/clock.h"
-#include "cli/check.h"
+#include "cli/commands.h"
 #include "cli/options/table.h"
 #include "cli/scene_source.h"
 #include "cli/threads.h"

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "accel/flat.h"
-#include "cli/exit_code.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/resume.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The one file of the command line that knows the window, which a build may be without.
-#include "cli/show.h"
+#include "cli/commands.h"
 
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The general kernels, and those for a scene where one is named.
-#include "cli/warm.h"
+#include "cli/commands.h"
 
 #include <stdio.h>
 

@@ -2,8 +2,8 @@
 // mdoc: option names become .Fl, their values .Ar or, where they are words to be typed, .Cm.
 #include "man_page.h"
 
+#include "cli/commands.h"
 #include "cli/options/command.h"
-#include "cli/show.h"
 #include "render/aov.h"
 #include "value.h"
 

@@ -27,6 +27,16 @@ typedef enum {
     ACTION_EXPLAIN_SCENE
 } Action;
 
+// What the process returns: 128 + signal when a signal stopped it.
+typedef enum {
+    EXIT_DONE = 0,
+    EXIT_FAULTS = 1, // found by check, limits broken in compare, another hash, or a goal missed
+    EXIT_USAGE = 2,
+    EXIT_SCENE = 3, // or a picture that is read
+    EXIT_DEVICE = 4,
+    EXIT_OUTPUT = 5
+} ExitCode;
+
 // What happens to triangles of no area, which no ray can meet.
 typedef enum {
     BAD_GEOMETRY_DROP, // those with two equal corners are left out; the others are harmless
