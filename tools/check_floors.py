@@ -13,19 +13,26 @@ BELOW = {
     "base": [],
     "image": ["base"],
     "compare": ["base", "image"],
-    "scene": ["base"],
-    "foreign": ["base", "scene"],
-    "accel": ["base", "scene"],
-    "device": ["base", "scene", "accel"],
-    "render": ["base", "scene", "accel", "device", "image"],
-    "refine": ["base", "scene", "accel", "device", "image", "render"],
-    "library": ["base", "scene", "accel", "device", "image", "render"],
-    "view": ["base", "scene", "accel", "device", "image", "render"],
-    "cli": ["base", "scene", "accel", "device", "image", "compare", "render", "refine", "view"],
+    "mesh": ["base"],
+    "scene": ["base", "mesh"],
+    "foreign": ["base", "mesh", "scene"],
+    "accel": ["base", "mesh", "scene"],
+    "device": ["base", "mesh", "scene", "accel"],
+    "render": ["base", "mesh", "scene", "accel", "device", "image"],
 }
+TRACING = [*BELOW["render"], "render"]
+BELOW |= {
+    "refine": TRACING,
+    "check": TRACING,
+    "library": [*TRACING, "check"],
+    "view": TRACING,
+    "cli/options": [*TRACING, "compare"],
+}
+BELOW["explain"] = BELOW["jobs"] = [*TRACING, "compare", "cli/options"]
+BELOW["cli"] = [floor for floor in BELOW if floor not in ("foreign", "library")]
 
 # The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.
-CORE = ["base", "scene", "accel"]
+CORE = ["base", "mesh", "scene", "accel"]
 FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
 # The one file that starts threads, for all of the core.
@@ -45,9 +52,15 @@ def read_includes(file):
         yield text.count("\n", 0, match.start()) + 1, match[1], match[2]
 
 
+def floor_of(name):
+    """The options are a floor below the rest of the command line; other folders in folders are not
+    floors of their own."""
+    return "cli/options" if name.startswith("cli/options/") else name.split("/")[0]
+
+
 def judge_own(name, target):
     """Says what is wrong with a host file's include of a host file; None where nothing is."""
-    floor, other = name.split("/")[0], target.split("/")[0]
+    floor, other = floor_of(name), floor_of(target)
     if not target.endswith(".h"):
         return f"{target} is not a header"
     if other != floor and other not in BELOW[floor]:
@@ -63,7 +76,7 @@ def judge_outside(name, quote, target):
         return None if name == SHARED_BY else f"only {SHARED_BY} includes {SHARED}"
     if (name, target) == THREADS:
         return None
-    if name.split("/")[0] in CORE and FOREIGN.match(target):
+    if floor_of(name) in CORE and FOREIGN.match(target):
         return f"the core does without <{target}>"
     return None
 
@@ -97,7 +110,7 @@ def check_host(host):
         yield f"{host}: no source files"
     graph = {name: [] for name in files}
     for name, file in files.items():
-        if name.split("/")[0] not in BELOW:
+        if floor_of(name) not in BELOW:
             yield f"host/{name}: the folder is no floor that tools/check_floors.py knows"
             continue
         for line, quote, target in read_includes(file):

@@ -3,7 +3,7 @@
 #include "cli/certain_picture.h"
 
 #include "base/clock.h"
-#include "cli/threads.h"
+#include "device/threads.h"
 #include "render/certifier.h"
 
 #include <string.h>

@@ -3,11 +3,11 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "cli/check_report.h"
+#include "check/bad_geometry.h"
+#include "check/report.h"
 #include "cli/command_files.h"
 #include "cli/scene_source.h"
-#include "cli/threads.h"
-#include "scene/bad_geometry.h"
+#include "device/threads.h"
 
 #include <stdio.h>
 #include <stdlib.h>

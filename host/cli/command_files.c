@@ -2,7 +2,7 @@
 // Every option that writes a file stands in one of the two lists here.
 #include "cli/command_files.h"
 
-#include "cli/resume.h"
+#include "jobs/resume.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 // The command line, and the scene once it is read -> the files of the run.
 #pragma once
 
-#include "cli/file_plan.h"
+#include "base/file_plan.h"
 #include "cli/options/options.h"
 #include "scene/scene.h"
 

@@ -3,8 +3,8 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/compare_report.h"
 #include "compare/difference_picture.h"
+#include "compare/report.h"
 #include "image/image_file.h"
 #include "image/image_read.h"
 

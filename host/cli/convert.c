@@ -6,8 +6,8 @@
 #include "base/output_file.h"
 #include "cli/command_files.h"
 #include "cli/scene_source.h"
+#include "mesh/ply_write.h"
 #include "scene/mesh_join.h"
-#include "scene/ply_write.h"
 #include "scene/scn_write.h"
 
 #include <errno.h>

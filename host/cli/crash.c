@@ -5,7 +5,7 @@
 // the program's sigaction, which comes before the C library's, keeps SIGABRT.
 #include "cli/crash.h"
 
-#include "cli/exit_code.h"
+#include "cli/options/options.h"
 
 #include <signal.h>
 #include <stdatomic.h>

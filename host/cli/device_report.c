@@ -2,9 +2,9 @@
 // The device module finds the devices; Jansson writes the JSON.
 #include "cli/commands.h"
 
-#include "cli/json_file.h"
 #include "device/cache.h"
 #include "device/device.h"
+#include "image/json_file.h"
 
 #include <stdio.h>
 

@@ -4,8 +4,8 @@
 #include "cli/commands.h"
 
 #include "cli/command_files.h"
-#include "cli/explain_report.h"
-#include "cli/json_file.h"
+#include "explain/report.h"
+#include "image/json_file.h"
 #include "scene/camera.h"
 
 static bool has_pixel(const Run *run, Error *error)

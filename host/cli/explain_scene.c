@@ -3,8 +3,8 @@
 #include "cli/commands.h"
 
 #include "cli/command_files.h"
-#include "cli/json_file.h"
 #include "cli/scene_parts.h"
+#include "image/json_file.h"
 
 #include <stdio.h>
 

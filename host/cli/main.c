@@ -6,7 +6,7 @@
 #include "cli/help.h"
 #include "cli/options/parse.h"
 #include "cli/stack.h"
-#include "cli/threads.h"
+#include "device/threads.h"
 
 #include <signal.h>
 #include <stdio.h>

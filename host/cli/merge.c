@@ -5,8 +5,8 @@
 
 #include "base/output_file.h"
 #include "cli/report_provenance.h"
-#include "cli/stored_tiles.h"
 #include "image/image_read.h"
+#include "jobs/stored_tiles.h"
 #include "render/tile.h"
 
 #include <stdlib.h>

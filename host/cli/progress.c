@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
-#include "cli/stop.h"
+#include "base/stop.h"
 
 #include <stdio.h>
 #include <stdlib.h>

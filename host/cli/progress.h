@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Watches a picture being traced: progress on standard error, and the signals that stop it, which
-// cli/stop.h takes.
+// base/stop.h takes.
 #pragma once
 
 #include "render/renderer.h"

@@ -3,9 +3,9 @@
 #include "cli/refined_picture.h"
 
 #include "base/clock.h"
-#include "cli/threads.h"
+#include "device/threads.h"
+#include "refine/adaptive.h"
 #include "refine/goal.h"
-#include "render/adaptive.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "cli/report.h"
 
 #include "accel/levels.h"
-#include "cli/json_file.h"
+#include "image/json_file.h"
 #include "render/tile.h"
 
 #include <inttypes.h>

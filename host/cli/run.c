@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/options/table.h"
 #include "cli/scene_source.h"
-#include "cli/threads.h"
+#include "device/threads.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
 #include "scene/missing.h"

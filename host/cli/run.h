@@ -7,8 +7,8 @@
 #include "accel/flat.h"
 #include "cli/progress.h"
 #include "cli/report.h"
-#include "cli/resume.h"
 #include "cli/starter.h"
+#include "jobs/resume.h"
 #include "render/certifier.h"
 
 typedef struct {

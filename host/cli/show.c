@@ -4,7 +4,7 @@
 
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
-#include "cli/threads.h"
+#include "device/threads.h"
 #include "view/viewer.h"
 #include "view/words.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt-foreign PATH: reads one model with Assimp and writes it to standard output as
-// scene/foreign_stream.h says.  clrt starts it, and nobody else.
+// mesh/foreign_stream.h says.  clrt starts it, and nobody else.
 #include "foreign/limits.h"
 #include "foreign/model.h"
 #include "foreign/send.h"

@@ -2,7 +2,7 @@
 // Assimp's materials -> what clrt can show of them: two colors and an exponent.
 #pragma once
 
-#include "scene/foreign_stream.h"
+#include "mesh/foreign_stream.h"
 
 #include <assimp/material.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model in any format that Assimp reads -> the records of scene/foreign_stream.h.
+// A model in any format that Assimp reads -> the records of mesh/foreign_stream.h.
 #pragma once
 
 #include "foreign/files.h"

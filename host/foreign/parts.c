@@ -3,9 +3,9 @@
 // coordinates pass unchanged; a mirroring one turns triangles, so that fronts stay fronts.
 #include "foreign/parts.h"
 
+#include "base/limits.h"
 #include "foreign/materials.h"
 #include "foreign/send.h"
-#include "scene/limits.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 // coordinates of the whole file.
 #pragma once
 
-#include "scene/foreign_stream.h"
+#include "mesh/foreign_stream.h"
 
 #include <assimp/scene.h>
 #include <stdio.h>

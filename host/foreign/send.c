@@ -2,7 +2,7 @@
 // Writes heads and what belongs behind them.
 #include "foreign/send.h"
 
-#include "scene/ply_write.h"
+#include "mesh/ply_write.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Records of scene/foreign_stream.h -> a stream.  Failures show when it is flushed.
+// Records of mesh/foreign_stream.h -> a stream.  Failures show when it is flushed.
 #pragma once
 
-#include "scene/foreign_stream.h"
+#include "mesh/foreign_stream.h"
 
 #include <stdio.h>
 

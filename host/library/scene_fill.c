@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Numbers of the caller's -> the elements of a scene that are no mesh.
+#include "base/limits.h"
 #include "library/check.h"
 #include "library/scene_handle.h"
 #include "scene/define.h"
-#include "scene/limits.h"
 
 static Vec3 vector_of(const double vector[3])
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Arrays of the caller's -> a mesh of a scene.
+#include "base/limits.h"
 #include "library/check.h"
 #include "library/scene_handle.h"
-#include "scene/limits.h"
 
 #include <string.h>
 

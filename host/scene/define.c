@@ -2,9 +2,9 @@
 // Reads material definitions; what a definition leaves out is the course's for its kind.
 #include "scene/define.h"
 
+#include "base/limits.h"
 #include "base/number.h"
 #include "base/word.h"
-#include "scene/limits.h"
 
 #include <math.h>
 #include <stdlib.h>

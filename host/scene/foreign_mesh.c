@@ -2,9 +2,9 @@
 // Materials are named FILE:NAME, so that those of two files do not meet.
 #include "scene/foreign_mesh.h"
 
+#include "mesh/foreign_process.h"
+#include "mesh/foreign_stream.h"
 #include "scene/define.h"
-#include "scene/foreign_process.h"
-#include "scene/foreign_stream.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "scene/mesh_join.h"
 
 #include "base/array.h"
-#include "scene/limits.h"
+#include "base/limits.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 // How a mesh file is to be taken into a scene.
 #pragma once
 
-#include "scene/ply.h"
+#include "mesh/ply.h"
 #include "scene/scene.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/file.h"
-#include "scene/ply.h"
+#include "mesh/ply.h"
 #include "scene/scene.h"
 
 // Whether a file's bytes are a mesh and not scene text.

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "base/trigonometry.h"
-#include "scene/foreign_format.h"
+#include "mesh/foreign_format.h"
 #include "scene/foreign_mesh.h"
 #include "scene/ply_mesh.h"
 

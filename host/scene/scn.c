@@ -4,10 +4,10 @@
 #include "scene/scn.h"
 
 #include "base/file.h"
+#include "base/limits.h"
 #include "base/word.h"
+#include "mesh/foreign_format.h"
 #include "scene/define.h"
-#include "scene/foreign_format.h"
-#include "scene/limits.h"
 #include "scene/mesh_scene.h"
 #include "scene/mesh_statement.h"
 #include "scene/tokens.h"

@@ -2,8 +2,8 @@
 // Cuts scene text into tokens and words the messages about them.
 #include "scene/tokens.h"
 
+#include "base/limits.h"
 #include "base/number.h"
-#include "scene/limits.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/camera.h"
-#include "view/shader.h"
+#include "view/draw/shader.h"
 
 typedef struct {
     CameraData camera; // in the normalized frame; a step is half a pixel

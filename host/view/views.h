@@ -2,15 +2,15 @@
 // All that OpenGL keeps for a model, and the order in which a frame is drawn from it.
 #pragma once
 
-#include "view/boxes.h"
-#include "view/canvas.h"
-#include "view/line_view.h"
-#include "view/ray_view.h"
-#include "view/sphere_view.h"
+#include "view/draw/boxes.h"
+#include "view/draw/canvas.h"
+#include "view/draw/line_view.h"
+#include "view/draw/ray_view.h"
+#include "view/draw/sphere_view.h"
+#include "view/draw/target.h"
+#include "view/draw/text_view.h"
+#include "view/draw/triangle_view.h"
 #include "view/state.h"
-#include "view/target.h"
-#include "view/text_view.h"
-#include "view/triangle_view.h"
 
 typedef struct {
     Target target;

@@ -3,7 +3,7 @@
 // says what it wishes and looks what news there are; nothing else passes between the two.
 #pragma once
 
-#include "view/canvas.h"
+#include "view/draw/canvas.h"
 #include "view/tracer.h"
 
 // What the window wants.

@@ -8,7 +8,7 @@
 #include "support/tier.h"
 #include "support/trial.h"
 
-#include "scene/ply.h"
+#include "mesh/ply.h"
 
 #include <math.h>
 #include <string.h>

@@ -9,7 +9,7 @@
 
 #include "accel/triangles.h"
 #include "base/file.h"
-#include "scene/ply.h"
+#include "mesh/ply.h"
 #include "scene/scn.h"
 
 #include <dirent.h>

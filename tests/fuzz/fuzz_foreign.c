@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes as what the program with Assimp writes.  A model that comes out must
-// keep the promises of scene/foreign_stream.h, and a failure must leave a sentence and no model.
-#include "scene/foreign_stream.h"
+// keep the promises of mesh/foreign_stream.h, and a failure must leave a sentence and no model.
+#include "mesh/foreign_stream.h"
 
 #include <math.h>
 #include <stdlib.h>

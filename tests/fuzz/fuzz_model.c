@@ -3,7 +3,7 @@
 // first byte chooses the format.  What is sent must be a stream that is read without fault, or
 // there must be a sentence.  Crashes of Assimp are no findings: clrt expects them.
 #include "foreign/model.h"
-#include "scene/foreign_stream.h"
+#include "mesh/foreign_stream.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes as a PLY file.  Beyond what the sanitizers see, a mesh that comes
-// out must keep the promises of scene/mesh.h, and a failure must leave a sentence and no mesh.
+// out must keep the promises of mesh/mesh.h, and a failure must leave a sentence and no mesh.
 // Read tolerantly it keeps them too, and clrt check can judge it.
-#include "scene/closedness.h"
-#include "scene/features.h"
-#include "scene/ply.h"
+#include "check/closedness.h"
+#include "check/features.h"
+#include "mesh/ply.h"
 
 #include <math.h>
 #include <stdlib.h>

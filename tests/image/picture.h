@@ -2,10 +2,10 @@
 // A scene file -> its picture, by the same stages as the program's main, for tests.
 #pragma once
 
+#include "explain/explainer.h"
+#include "refine/adaptive.h"
 #include "refine/goal.h"
-#include "render/adaptive.h"
 #include "render/aov.h"
-#include "render/explainer.h"
 
 // Is shown a picture, and an explainer of its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays on the device find the holes that meshes have, however small, and none in those that are
 // closed, with every form of the kernels.
-#include "render/leaks.h"
+#include "check/leaks.h"
 
 #include "unit/cmocka_all.h"
 

@@ -2,7 +2,7 @@
 // What the tests of scene/ply share: a file under construction, and parsing under strict watch.
 #pragma once
 
-#include "scene/ply.h"
+#include "mesh/ply.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A stream of scene/foreign_stream.h under construction, and parsing it under watch.
+// A stream of mesh/foreign_stream.h under construction, and parsing it under watch.
 #pragma once
 
-#include "scene/foreign_stream.h"
+#include "mesh/foreign_stream.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a mesh is aimed at, from where, and how rays are judged.
-#include "accel/aims.h"
+#include "check/aims.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sets of cells: what is added is there and nothing else, and widening is as defined.
-#include "render/cell_set.h"
+#include "refine/cell_set.h"
 #include "unit/cmocka_all.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What clrt check counts, each on a mesh or scene that has it and one that has not.
-#include "scene/census.h"
-#include "scene/ply.h"
+#include "check/census.h"
+#include "mesh/ply.h"
 #include "scene/scn.h"
 
 #include "unit/cmocka_all.h"

@@ -2,7 +2,7 @@
 // A program that crashes, hangs, writes without end or is not there is one sentence.  Shell scripts
 // stand for the program.
 #undef _FORTIFY_SOURCE // with it the system's headers define readlink themselves
-#include "scene/foreign_process.h"
+#include "mesh/foreign_process.h"
 
 #include "base/clock.h"
 #include "unit/cmocka_all.h"

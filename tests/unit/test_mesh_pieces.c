@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pieces of meshes, whoever shares the work.
-#include "render/mesh_pieces.h"
+#include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which cells a convex outline touches and samples, judged cell by cell.
-#include "render/outline.h"
+#include "refine/outline.h"
 #include "unit/cmocka_all.h"
 
 #define TRIALS 3000

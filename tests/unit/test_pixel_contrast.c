@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contrasts of pixels, compared several at once, are those that one pixel after the other has.
-#include "render/pixel_contrast.h"
+#include "refine/pixel_contrast.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A mesh that is written and read again is the same, bit for bit, and is as long as announced.
-#include "scene/ply.h"
-#include "scene/ply_write.h"
+#include "mesh/ply.h"
+#include "mesh/ply_write.h"
 
 #include "unit/cmocka_all.h"
 

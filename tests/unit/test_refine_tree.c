@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which cells of a refined picture are neighbors, and how large it may be.
-#include "render/refine_tree.h"
+#include "refine/refine_tree.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Seams against steps whose place is known.
-#include "render/seam.h"
+#include "refine/seam.h"
 #include "unit/cmocka_all.h"
 
 #define SIDE  27u

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which cells are cut for thin triangles, where those are hard to project or too many.
-#include "render/mesh_pieces.h"
-#include "render/thin_parts.h"
+#include "refine/mesh_pieces.h"
+#include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"
 

@@ -3,8 +3,8 @@
 // that are played, files that change, pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
-#include "view/boxes.h"
-#include "view/canvas.h"
+#include "view/draw/boxes.h"
+#include "view/draw/canvas.h"
 #include "view/plan.h"
 #include "view/script.h"
 #include "view/watch.h"

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// A file that exists is its device and inode.  A file that does not is its folder's device and
+// inode, and its name.  Sorting brings equal files together, so that a million frames stay cheap.
+#include "base/file_plan.h"
+
+#include "base/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define LINKS_MOST 40 // in a row; the system follows no more
+
+static char *copy_text(const char *text, Error *error)
+{
+    const size_t size = strlen(text) + 1;
+    char *copy = memory_raw(size, 1, error);
+    if (copy != NULL)
+        memcpy(copy, text, size);
+    return copy;
+}
+
+static void take_identity(PlannedFile *file, const struct stat *status)
+{
+    file->device = (uint64_t)status->st_dev;
+    file->inode = (uint64_t)status->st_ino;
+}
+
+// Returns what the symbolic link at path points to, as seen from here; NULL where path is no link.
+static char *read_link(const char *path, Error *error)
+{
+    char target[4096];
+    const ssize_t length = readlink(path, target, sizeof target - 1);
+    if (length < 0)
+        return NULL;
+    target[length] = '\0';
+    return file_path_beside(path, target, error);
+}
+
+// Returns the path that writing to path would create: its own, or where its links end.
+static char *follow_links(const char *path, Error *error)
+{
+    char *end = copy_text(path, error);
+    for (int links = 0; end != NULL && links < LINKS_MOST; links++) {
+        char *next = read_link(end, error);
+        if (next == NULL)
+            break;
+        free(end);
+        end = next;
+    }
+    return end;
+}
+
+// Identifies a file that does not exist.  A missing folder leaves inode 0, which no file has.
+static bool identify_new(PlannedFile *file, Error *error)
+{
+    struct stat status;
+    char *path = follow_links(file->path, error);
+    if (path == NULL)
+        return false;
+    const char *slash = strrchr(path, '/');
+    file->name = copy_text(slash != NULL ? slash + 1 : path, error);
+    char *folder = file_path_beside(path, ".", error);
+    if (folder != NULL && stat(folder, &status) == 0)
+        take_identity(file, &status);
+    const bool ok = file->name != NULL && folder != NULL;
+    free(folder);
+    free(path);
+    return ok;
+}
+
+static bool stat_file(const char *path, FileUse use, struct stat *status)
+{
+    const int standard = use == FILE_INPUT ? STDIN_FILENO : STDOUT_FILENO;
+    return (strcmp(path, "-") == 0 ? fstat(standard, status) : stat(path, status)) == 0;
+}
+
+static void free_file(PlannedFile *file)
+{
+    free(file->path);
+    free(file->name);
+}
+
+bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *path, Error *error)
+{
+    struct stat status;
+    const bool exists = stat_file(path, use, &status);
+    if (exists ? !S_ISREG(status.st_mode) : use == FILE_INPUT)
+        return true;
+    PlannedFile file = {.use = use, .role = role, .path = copy_text(path, error)};
+    if (exists)
+        take_identity(&file, &status);
+    const bool ok = file.path != NULL && (exists || identify_new(&file, error));
+    // A file without a folder cannot be written either, which a later check reports.
+    if (ok && file.inode != 0 && array_push(&plan->list, file, error))
+        return true;
+    free_file(&file);
+    return ok && file.inode == 0;
+}
+
+static int compare_numbers(uint64_t a, uint64_t b)
+{
+    return (a > b) - (a < b);
+}
+
+// Zero where both are the same file.
+static int compare_identity(const PlannedFile *a, const PlannedFile *b)
+{
+    const int device = compare_numbers(a->device, b->device);
+    const int inode = device != 0 ? device : compare_numbers(a->inode, b->inode);
+    if (inode != 0)
+        return inode;
+    return strcmp(a->name != NULL ? a->name : "", b->name != NULL ? b->name : "");
+}
+
+// By identity, inputs first, then in the order in which they were added.
+static int compare_files(const void *one, const void *other)
+{
+    const PlannedFile *a = *(const PlannedFile *const *)one,
+                      *b = *(const PlannedFile *const *)other;
+    const int identity = compare_identity(a, b);
+    if (identity != 0)
+        return identity;
+    return a->use != b->use ? (a->use > b->use) - (a->use < b->use) : (a > b) - (a < b);
+}
+
+static bool check_sorted(const PlannedFile *const *files, size_t count, Error *error)
+{
+    for (size_t i = 1; i < count; i++) {
+        const PlannedFile *first = files[i - 1], *second = files[i];
+        if (second->use == FILE_OUTPUT && compare_identity(first, second) == 0)
+            return error_set(error, "%s%s and %s%s are the same file: choose another name",
+                             second->role, second->path, first->role, first->path);
+    }
+    return true;
+}
+
+bool file_plan_check(const FilePlan *plan, Error *error)
+{
+    const size_t count = plan->list.count;
+    const PlannedFile **files = memory_raw(count, sizeof *files, error);
+    if (files == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        files[i] = &plan->list.data[i];
+    qsort(files, count, sizeof *files, compare_files);
+    const bool ok = check_sorted(files, count, error);
+    free(files);
+    return ok;
+}
+
+void file_plan_free(FilePlan *plan)
+{
+    for (size_t i = 0; i < plan->list.count; i++)
+        free_file(&plan->list.data[i]);
+    free(plan->list.memory);
+    *plan = (FilePlan){0};
+}

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+// A ray that comes from within the cone that all triangles around its aim face must end on one of
+// them, unless its rounding carries it past them all.  Bounds of that rounding are generous: what
+// is too sharp or too small for them is not aimed at.
+#include "check/aims.h"
+
+#include "base/array.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EYES         32
+#define EYE_DISTANCE 3.0 // radii from the center
+
+// The least cosine between a ray from afar, or from close by, and the normals it comes to.
+#define FACING_FROM_AFAR  0.1
+#define FACING_FROM_CLOSE 0.01
+
+// A ray passes its aim within these parts of its length and of the aim's coordinates: what
+// triangle.cl accepts lies within 22 units of rounding (2^-24) of the ray, and directions and aims
+// are rounded themselves.
+#define LENGTH_ERROR     0x1p-19
+#define COORDINATE_ERROR 0x1p-22
+
+// Where along an edge, from its lower point, its aim lies: where coordinates have to be rounded.
+#define EDGE_PART 0.4
+
+// How far beyond an open edge a ray is aimed, in radii: well past the rounding.
+#define BEYOND 0x1p-14
+
+// The part of an aim that is gathered from one triangle after the other.
+typedef struct {
+    Vec3 outward;
+    double facing, size;
+    uint32_t triangle;
+} Star;
+
+typedef struct {
+    const AimSource *source;
+    Aims *aims;
+    Star *stars; // by point
+    size_t step; // every so many of the aims are kept
+    size_t seen;
+} Maker;
+
+static Vec3 point_of(const Triangles *triangles, uint32_t vertex)
+{
+    const float *point = triangles->points[vertex];
+    return vec3((double)point[0], (double)point[1], (double)point[2]);
+}
+
+static Vec3 corner_of(const Triangles *triangles, uint32_t triangle, int corner)
+{
+    return point_of(triangles, triangles->corners[triangle][corner]);
+}
+
+static double length_of(Vec3 v)
+{
+    return sqrt(vec3_dot(v, v));
+}
+
+static Vec3 normal_of(const AimSource *source, uint32_t triangle)
+{
+    const Vec3 a = corner_of(source->triangles, triangle, 0);
+    const Vec3 b = corner_of(source->triangles, triangle, 1);
+    const Vec3 c = corner_of(source->triangles, triangle, 2);
+    const Vec3 normal = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    return source->is_inside_out ? vec3_scale(normal, -1) : normal;
+}
+
+// The distance from a corner to the line through the two others.
+static double height_at(const Triangles *triangles, uint32_t triangle, int corner)
+{
+    const Vec3 apex = corner_of(triangles, triangle, corner);
+    const Vec3 from = corner_of(triangles, triangle, (corner + 1) % 3);
+    const Vec3 to = corner_of(triangles, triangle, (corner + 2) % 3);
+    const Vec3 base = vec3_sub(to, from);
+    const double length = length_of(base);
+    return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
+}
+
+// The angle of a triangle at a corner: normals weighed by it do not depend on how faces are cut
+// into triangles.
+static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
+{
+    const Vec3 apex = corner_of(triangles, triangle, corner);
+    const Vec3 a = vec3_sub(corner_of(triangles, triangle, (corner + 1) % 3), apex);
+    const Vec3 b = vec3_sub(corner_of(triangles, triangle, (corner + 2) % 3), apex);
+    return atan2(length_of(vec3_cross(a, b)), vec3_dot(a, b));
+}
+
+// Whether the next aim is one of those that are kept.
+static bool is_chosen(Maker *maker)
+{
+    return maker->seen++ % maker->step == 0;
+}
+
+static void keep(Maker *maker, Vec3 point, const Star *star)
+{
+    maker->aims->aims[maker->aims->count++] = (Aim){.point = point,
+                                                    .outward = star->outward,
+                                                    .facing = star->facing,
+                                                    .size = star->size,
+                                                    .triangle = star->triangle};
+}
+
+static void sum_stars(const Maker *maker)
+{
+    const AimSource *source = maker->source;
+    for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
+        const Vec3 normal = normal_of(source, triangle);
+        for (int corner = 0; corner < 3; corner++) {
+            Star *star =
+                &maker->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+            const double angle = angle_at(source->triangles, triangle, corner);
+            star->outward = vec3_add(star->outward, vec3_scale(normal, angle));
+            star->triangle = triangle;
+        }
+    }
+}
+
+static void bound_stars(const Maker *maker)
+{
+    const AimSource *source = maker->source;
+    for (size_t point = 0; point < source->mesh->vertex_count; point++) {
+        maker->stars[point].outward = vec3_normalize(maker->stars[point].outward);
+        maker->stars[point].facing = 1;
+        maker->stars[point].size = INFINITY;
+    }
+    for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
+        const Vec3 normal = normal_of(source, triangle);
+        for (int corner = 0; corner < 3; corner++) {
+            Star *star =
+                &maker->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+            star->facing = fmin(star->facing, vec3_dot(normal, star->outward));
+            star->size = fmin(star->size, height_at(source->triangles, triangle, corner));
+        }
+    }
+}
+
+static void aim_at_points(Maker *maker)
+{
+    const AimSource *source = maker->source;
+    for (uint32_t point = 0; point < source->mesh->vertex_count; point++)
+        if (source->weld->points[point] == point && is_chosen(maker))
+            keep(maker, point_of(source->triangles, point), &maker->stars[point]);
+}
+
+// The triangles at an edge.
+static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t count)
+{
+    Star star = {.facing = 1, .size = INFINITY, .triangle = sides[0].triangle};
+    for (size_t side = 0; side < count; side++)
+        star.outward = vec3_add(star.outward, normal_of(source, sides[side].triangle));
+    star.outward = vec3_normalize(star.outward);
+    for (size_t side = 0; side < count; side++) {
+        const uint32_t triangle = sides[side].triangle;
+        star.facing = fmin(star.facing, vec3_dot(normal_of(source, triangle), star.outward));
+        for (int corner = 0; corner < 3; corner++)
+            star.size = fmin(star.size, EDGE_PART * height_at(source->triangles, triangle, corner));
+    }
+    return star;
+}
+
+static void aim_at_edge(Maker *maker, uint32_t point, const EdgeSide *sides, size_t count)
+{
+    const Triangles *triangles = maker->source->triangles;
+    const Vec3 low = point_of(triangles, point), high = point_of(triangles, sides[0].high);
+    const Vec3 along = vec3_sub(high, low);
+    const Vec3 aim = vec3_add(low, vec3_scale(along, EDGE_PART));
+    const Star star = edge_star(maker->source, sides, count);
+    if (is_chosen(maker))
+        keep(maker, aim, &star);
+    if (count > 1 || !is_chosen(maker))
+        return;
+    Vec3 away = vec3_normalize(vec3_cross(along, star.outward));
+    if (vec3_dot(away, vec3_sub(point_of(triangles, sides[0].opposite), low)) > 0)
+        away = vec3_scale(away, -1);
+    keep(maker, vec3_add(aim, vec3_scale(away, BEYOND * maker->aims->radius)), &star);
+}
+
+static void aim_at_edges(Maker *maker)
+{
+    const Edges *edges = maker->source->edges;
+    for (uint32_t point = 0; point < maker->source->mesh->vertex_count; point++) {
+        size_t place = edges->first[point];
+        while (place < edges->first[point + 1]) {
+            const size_t end = edges_end(edges, point, place);
+            aim_at_edge(maker, point, &edges->sides[place], end - place);
+            place = end;
+        }
+    }
+}
+
+static size_t count_aims(const AimSource *source)
+{
+    size_t count = 0;
+    for (uint32_t point = 0; point < source->mesh->vertex_count; point++) {
+        count += source->weld->points[point] == point;
+        size_t place = source->edges->first[point];
+        while (place < source->edges->first[point + 1]) {
+            const size_t end = edges_end(source->edges, point, place);
+            count += end - place > 1 ? 1 : 2;
+            place = end;
+        }
+    }
+    return count;
+}
+
+static void find_sphere(Aims *aims, const Triangles *triangles)
+{
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t triangle = 0; triangle < triangles->count; triangle++)
+        for (int corner = 0; corner < 3; corner++) {
+            low = vec3_lower(low, corner_of(triangles, triangle, corner));
+            high = vec3_upper(high, corner_of(triangles, triangle, corner));
+        }
+    aims->center = vec3_scale(vec3_add(low, high), 0.5);
+    aims->radius = length_of(vec3_sub(high, low)) / 2;
+}
+
+bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error)
+{
+    const size_t total = count_aims(source);
+    *aims = (Aims){.total = total};
+    Maker maker = {.source = source, .aims = aims, .step = (total + most - 1) / most};
+    maker.stars = memory_zeroed(source->mesh->vertex_count, sizeof *maker.stars, error);
+    aims->aims = memory_raw(total / (maker.step + (total == 0)) + 1, sizeof *aims->aims, error);
+    const bool ok = maker.stars != NULL && aims->aims != NULL;
+    if (ok && total > 0) {
+        find_sphere(aims, source->triangles);
+        sum_stars(&maker);
+        bound_stars(&maker);
+        aim_at_points(&maker);
+        aim_at_edges(&maker);
+        assert(maker.seen == total);
+    }
+    free(maker.stars);
+    if (!ok)
+        aims_free(aims);
+    return ok;
+}
+
+void aims_free(Aims *aims)
+{
+    free(aims->aims);
+    *aims = (Aims){0};
+}
+
+// Directions spread over the sphere: equal heights, each turned by the golden angle.
+static Vec3 eye_at(const Aims *aims, int eye)
+{
+    const double height = 1 - (2 * eye + 1) / (double)EYES;
+    const double across = sqrt(1 - height * height), turn = 2.399963229728653 * eye;
+    const Vec3 direction = {across * cos(turn), across * sin(turn), height};
+    return vec3_add(aims->center, vec3_scale(direction, EYE_DISTANCE * aims->radius));
+}
+
+static Vec3 rounded(Vec3 v)
+{
+    return vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
+}
+
+// The cosine between a direction and the normal around the aim that is farthest from it, at least.
+static double facing_from(const Aim *aim, Vec3 direction)
+{
+    const double off = vec3_dot(aim->outward, direction);
+    const double sines = (1 - fmin(off * off, 1)) * (1 - fmin(aim->facing * aim->facing, 1));
+    return aim->facing * off - sqrt(sines);
+}
+
+static double error_at(const Aim *aim, double distance)
+{
+    return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
+}
+
+// Aims from the origin where that leaves no doubt.
+static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
+{
+    const Vec3 back = vec3_sub(origin, aim->point);
+    const double distance = length_of(back);
+    const double error = error_at(aim, distance);
+    const double facing = facing_from(aim, vec3_scale(back, 1 / distance));
+    if (!(facing >= least_facing) || !(aim->size * facing > 4 * error))
+        return false;
+    const Vec3 direction = vec3_scale(back, -1);
+    *ray = (AimRay){{(float)origin.x, (float)origin.y, (float)origin.z, 0},
+                    {(float)direction.x, (float)direction.y, (float)direction.z, 0}};
+    aim->tolerance = (float)(4 * error / (facing * distance));
+    return true;
+}
+
+// The eye that sees the aim most squarely.
+static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
+{
+    uint32_t best = 0;
+    double squarest = -1;
+    for (uint32_t eye = 0; eye < EYES; eye++) {
+        const Vec3 back = vec3_sub(eyes[eye], aim->point);
+        const double along = vec3_dot(back, aim->outward);
+        const double square = along * fabs(along) / vec3_dot(back, back);
+        if (square > squarest) {
+            squarest = square;
+            best = eye;
+        }
+    }
+    return best;
+}
+
+// Finds every aim's eye, and how many rays those before each eye have.
+static void choose_eyes(Aims *aims, const Vec3 eyes[EYES], size_t starts[EYES + 2])
+{
+    AimRay unused;
+    for (size_t i = 0; i < aims->count; i++) {
+        Aim *aim = &aims->aims[i];
+        aim->eye = best_eye(aim, eyes);
+        if (!shoot(aim, eyes[aim->eye], FACING_FROM_AFAR, &unused))
+            aim->eye = EYES;
+        starts[aim->eye + 1]++;
+    }
+    for (int eye = 0; eye < EYES; eye++)
+        starts[eye + 1] += starts[eye];
+}
+
+size_t aims_shoot_from_afar(Aims *aims, AimRay *rays, uint32_t *targets)
+{
+    Vec3 eyes[EYES];
+    size_t starts[EYES + 2] = {0};
+    for (int eye = 0; eye < EYES; eye++)
+        eyes[eye] = rounded(eye_at(aims, eye));
+    choose_eyes(aims, eyes, starts);
+    const size_t count = starts[EYES];
+    for (size_t i = 0; i < aims->count; i++) {
+        Aim *aim = &aims->aims[i];
+        if (aim->eye == EYES)
+            continue;
+        const size_t place = starts[aim->eye]++;
+        shoot(aim, eyes[aim->eye], FACING_FROM_AFAR, &rays[place]);
+        targets[place] = (uint32_t)i;
+    }
+    return count;
+}
+
+size_t aims_shoot_from_close(Aims *aims, AimRay *rays, uint32_t *targets)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < aims->count; i++) {
+        Aim *aim = &aims->aims[i];
+        const Vec3 origin = rounded(vec3_add(aim->point, vec3_scale(aim->outward, aim->size)));
+        if ((aim->state == AIM_UNTRIED || aim->state == AIM_HIDDEN) &&
+            shoot(aim, origin, FACING_FROM_CLOSE, &rays[count]))
+            targets[count++] = (uint32_t)i;
+    }
+    return count;
+}
+
+void aims_judge(Aims *aims, const uint32_t *targets, const float *distances, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        Aim *aim = &aims->aims[targets[i]];
+        aim->state = distances[i] > 1 + aim->tolerance   ? AIM_LEAKED
+                     : distances[i] < 1 - aim->tolerance ? AIM_HIDDEN
+                                                         : AIM_REACHED;
+    }
+}

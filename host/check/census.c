@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Duplicates of any kind are found by sorting: equal ones then follow each other.
+#include "check/census.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+// What makes two things the same.
+typedef struct {
+    double numbers[4];
+} Identity;
+
+static int compare_identities(const void *first, const void *second)
+{
+    return memcmp(first, second, sizeof(Identity));
+}
+
+static size_t count_duplicates(Identity *identities, size_t count)
+{
+    size_t duplicates = 0;
+    qsort(identities, count, sizeof *identities, compare_identities);
+    for (size_t i = 1; i < count; i++)
+        duplicates += compare_identities(&identities[i - 1], &identities[i]) == 0;
+    return duplicates;
+}
+
+// Zeros of both signs are one number.
+static Identity identity_of(Vec3 position, double radius)
+{
+    return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};
+}
+
+static Identity identity_of_mesh(const Mesh *mesh)
+{
+    Identity identity = {{0}};
+    const XXH128_hash_t positions =
+        XXH3_128bits(mesh->positions, mesh->vertex_count * sizeof *mesh->positions);
+    const XXH128_hash_t triangles =
+        XXH3_128bits(mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    const uint64_t words[4] = {positions.low64, positions.high64, triangles.low64,
+                               triangles.high64};
+    memcpy(identity.numbers, words, sizeof words);
+    return identity;
+}
+
+static bool find_duplicates(Census *census, const Scene *scene, Error *error)
+{
+    const size_t count = scene->objects.count + scene->spheres.count + scene->lights.count;
+    Identity *identities = memory_zeroed(count, sizeof *identities, error);
+    if (identities == NULL)
+        return false;
+    size_t meshes = 0;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        if (scene->objects.data[i].mesh.triangle_count > 0)
+            identities[meshes++] = identity_of_mesh(&scene->objects.data[i].mesh);
+    census->duplicate_meshes = count_duplicates(identities, meshes);
+    for (size_t i = 0; i < scene->spheres.count; i++)
+        identities[i] = identity_of(scene->spheres.data[i].center, scene->spheres.data[i].radius);
+    census->duplicate_spheres = count_duplicates(identities, scene->spheres.count);
+    for (size_t i = 0; i < scene->lights.count; i++)
+        identities[i] = identity_of(scene->lights.data[i].position, 0);
+    census->duplicate_lights = count_duplicates(identities, scene->lights.count);
+    free(identities);
+    return true;
+}
+
+static bool find_unused_materials(Census *census, const Scene *scene, Error *error)
+{
+    bool *is_used = memory_zeroed(scene->materials.count, sizeof *is_used, error);
+    if (is_used == NULL)
+        return false;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        is_used[scene->objects.data[i].material] = true;
+    for (size_t i = 0; i < scene->spheres.count; i++)
+        is_used[scene->spheres.data[i].material] = true;
+    for (size_t i = COURSE_MATERIALS; i < scene->materials.count; i++)
+        census->unused_materials += !is_used[i];
+    free(is_used);
+    return true;
+}
+
+static bool take_mesh(MeshCensus *census, const Mesh *mesh, const Normalization *normalization,
+                      Error *error)
+{
+    Weld weld = {0};
+    Edges edges = {0};
+    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
+                    closedness_find(&census->closedness, mesh, &weld, &edges, error);
+    census->features = features_of(mesh, normalization);
+    census->unused_vertices = weld.unused_count;
+    census->repeated_vertices = weld.repeated_count;
+    edges_free(&edges);
+    weld_free(&weld);
+    return ok;
+}
+
+bool census_take(Census *census, const Scene *scene, const Normalization *normalization,
+                 Error *error)
+{
+    *census = (Census){.mesh_count = scene->objects.count};
+    census->meshes = memory_zeroed(scene->objects.count, sizeof *census->meshes, error);
+    bool ok = census->meshes != NULL;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        census->empty_meshes += mesh->triangle_count == 0;
+        ok = take_mesh(&census->meshes[i], mesh, normalization, error);
+    }
+    ok = ok && find_duplicates(census, scene, error) && find_unused_materials(census, scene, error);
+    if (!ok)
+        census_free(census);
+    return ok;
+}
+
+void census_free(Census *census)
+{
+    free(census->meshes);
+    *census = (Census){0};
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Goes through the edges once.  Corners that edges join at a point form its fans (a union-find
+// over the corners); a point with more than one fan is pinched.
+#include "check/closedness.h"
+
+#include "base/array.h"
+
+#include <stdlib.h>
+
+typedef struct {
+    const Mesh *mesh;
+    const Weld *weld;
+    uint32_t *parents; // by corner, 3 * triangle + corner: a corner of the same fan
+} Fans;
+
+static uint32_t fan_of(const Fans *fans, uint32_t corner)
+{
+    uint32_t *parents = fans->parents;
+    while (parents[corner] != corner) {
+        parents[corner] = parents[parents[corner]];
+        corner = parents[corner];
+    }
+    return corner;
+}
+
+// The triangle's corner at a point that it has.
+static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
+{
+    const uint32_t *corners = fans->mesh->triangles[triangle];
+    for (uint32_t corner = 0; corner < 2; corner++)
+        if (fans->weld->points[corners[corner]] == point)
+            return 3 * triangle + corner;
+    return 3 * triangle + 2;
+}
+
+static void join_fans(Fans *fans, uint32_t point, uint32_t triangle, uint32_t other)
+{
+    const uint32_t a = fan_of(fans, corner_at(fans, triangle, point));
+    const uint32_t b = fan_of(fans, corner_at(fans, other, point));
+    // The lower corner leads, so that every fan's first triangle names it.
+    fans->parents[a > b ? a : b] = a > b ? b : a;
+}
+
+static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t count)
+{
+    uint32_t lowest = sides[0].triangle;
+    for (size_t side = 1; side < count; side++) {
+        lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
+        // Counted at the edge of their two lower points alone.
+        if (sides[side].opposite == sides[side - 1].opposite &&
+            sides[side].opposite > sides[side].high)
+            mesh_fault_add(&closedness->duplicates, sides[side].triangle);
+    }
+    closedness->edge_count++;
+    if (count == 1)
+        mesh_fault_add(&closedness->open, lowest);
+    else if (count > 2)
+        mesh_fault_add(&closedness->crowded, lowest);
+    else if (sides[0].falling == sides[1].falling)
+        mesh_fault_add(&closedness->turned, lowest);
+}
+
+static void visit_edges(Closedness *closedness, const Edges *edges, Fans *fans)
+{
+    for (uint32_t point = 0; point < fans->mesh->vertex_count; point++) {
+        size_t place = edges->first[point];
+        while (place < edges->first[point + 1]) {
+            const size_t end = edges_end(edges, point, place);
+            const EdgeSide *sides = &edges->sides[place];
+            judge_edge(closedness, sides, end - place);
+            for (size_t side = 1; side < end - place; side++) {
+                join_fans(fans, point, sides[0].triangle, sides[side].triangle);
+                join_fans(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
+            }
+            place = end;
+        }
+    }
+}
+
+static bool count_pinched(Closedness *closedness, const Fans *fans, Error *error)
+{
+    const Mesh *mesh = fans->mesh;
+    bool *has_fan = memory_zeroed(mesh->vertex_count, sizeof *has_fan, error);
+    bool *is_pinched = memory_zeroed(mesh->vertex_count, sizeof *is_pinched, error);
+    const bool ok = has_fan != NULL && is_pinched != NULL;
+    for (uint32_t corner = 0; ok && corner < 3 * mesh->triangle_count; corner++) {
+        const uint32_t point = fans->weld->points[mesh->triangles[corner / 3][corner % 3]];
+        if (fans->parents[corner] != corner)
+            continue;
+        if (has_fan[point] && !is_pinched[point]) {
+            mesh_fault_add(&closedness->pinched, corner / 3);
+            is_pinched[point] = true;
+        }
+        has_fan[point] = true;
+    }
+    free(has_fan);
+    free(is_pinched);
+    return ok;
+}
+
+static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
+{
+    const double *position = mesh->positions[mesh->triangles[triangle][corner]];
+    return vec3(position[0], position[1], position[2]);
+}
+
+// Six times the volume around the first corner, which counts what is enclosed from behind as
+// positive.  Scaled, so that nothing overflows.
+static double signed_volume(const Mesh *mesh)
+{
+    double volume = 0;
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    mesh_add_bounds(mesh, &low, &high);
+    const double scale = 1 / vec3_extent(vec3_sub(high, low));
+    const Vec3 origin = corner_position(mesh, 0, 0);
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+        Vec3 corners[3];
+        for (int corner = 0; corner < 3; corner++)
+            corners[corner] =
+                vec3_scale(vec3_sub(corner_position(mesh, triangle, corner), origin), scale);
+        volume += vec3_dot(corners[0], vec3_cross(corners[1], corners[2]));
+    }
+    return volume;
+}
+
+bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
+                     Error *error)
+{
+    const size_t corners = 3 * mesh->triangle_count;
+    *closedness = (Closedness){0};
+    if (corners > UINT32_MAX)
+        return error_set(error, "%zu triangles of one mesh are more than can be checked",
+                         mesh->triangle_count);
+    Fans fans = {mesh, weld, memory_raw(corners, sizeof *fans.parents, error)};
+    if (fans.parents == NULL)
+        return false;
+    for (uint32_t corner = 0; corner < corners; corner++)
+        fans.parents[corner] = corner;
+    visit_edges(closedness, edges, &fans);
+    const bool ok = count_pinched(closedness, &fans, error);
+    closedness->is_closed = mesh->triangle_count > 0 && closedness->open.count == 0 &&
+                            closedness->crowded.count == 0 && closedness->turned.count == 0 &&
+                            closedness->pinched.count == 0;
+    closedness->is_inside_out = closedness->is_closed && signed_volume(mesh) < 0;
+    free(fans.parents);
+    return ok;
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Mesh -> its edges, each with the triangles on its sides.
+#pragma once
+
+#include "mesh/weld.h"
+
+// A triangle at an edge.
+typedef struct {
+    uint32_t high;     // the edge's higher point
+    uint32_t opposite; // the triangle's third point
+    uint32_t triangle : 31;
+    uint32_t falling : 1; // it runs from the higher point to the lower one
+} EdgeSide;
+
+// The sides of a point's edges to higher points are [first[point], first[point + 1]), ordered by
+// the higher point, the opposite one and the triangle: those of one edge follow each other.
+typedef struct {
+    EdgeSide *sides; // three a triangle
+    size_t *first;   // vertex_count + 1
+} Edges;
+
+bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
+void edges_free(Edges *edges);
+
+// One past the last side of the edge whose first is at place.
+static inline size_t edges_end(const Edges *edges, uint32_t point, size_t place)
+{
+    size_t end = place + 1;
+    while (end < edges->first[point + 1] && edges->sides[end].high == edges->sides[place].high)
+        end++;
+    return end;
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Lengths are compared as squares: one root a feature, not one an edge.
+#include "check/features.h"
+
+#define FLOAT_DIGITS 23 // of a float's fraction
+
+typedef struct {
+    Vec3 corners[3];
+} Shape;
+
+static Shape shape_of(const Mesh *mesh, size_t triangle)
+{
+    Shape shape;
+    for (int corner = 0; corner < 3; corner++) {
+        const double *p = mesh->positions[mesh->triangles[triangle][corner]];
+        shape.corners[corner] = vec3(p[0], p[1], p[2]);
+    }
+    return shape;
+}
+
+static Vec3 doubled_area(const Shape *shape)
+{
+    return vec3_cross(vec3_sub(shape->corners[1], shape->corners[0]),
+                      vec3_sub(shape->corners[2], shape->corners[0]));
+}
+
+// Scaled by a power of two first: squares of what a file may hold leave the range of fp64.
+static Shape scaled_shape(const Shape *shape, double scale)
+{
+    return (Shape){{vec3_scale(shape->corners[0], scale), vec3_scale(shape->corners[1], scale),
+                    vec3_scale(shape->corners[2], scale)}};
+}
+
+static bool is_flat(const Shape *shape)
+{
+    return vec3_extent(doubled_area(shape)) == 0;
+}
+
+bool features_is_flat(const Mesh *mesh, size_t triangle)
+{
+    const Shape shape = shape_of(mesh, triangle);
+    return is_flat(&shape);
+}
+
+// The distance between the floats nearest to the shape's largest coordinate.
+static double step_at(const Shape *shape)
+{
+    double largest = 0x1p-126;
+    for (int corner = 0; corner < 3; corner++)
+        largest = fmax(largest, vec3_extent(shape->corners[corner]));
+    return scalbn(1, ilogb(largest) - FLOAT_DIGITS);
+}
+
+// Squares of the shortest and the longest edge.
+typedef struct {
+    double shortest, longest;
+} EdgeSquares;
+
+static EdgeSquares edge_squares(const Shape *shape)
+{
+    EdgeSquares squares = {INFINITY, 0};
+    for (int corner = 0; corner < 3; corner++) {
+        const Vec3 edge = vec3_sub(shape->corners[(corner + 1) % 3], shape->corners[corner]);
+        const double square = vec3_dot(edge, edge);
+        squares.shortest = fmin(squares.shortest, square);
+        squares.longest = fmax(squares.longest, square);
+    }
+    return squares;
+}
+
+static void take_shorter(Feature *feature, double square, double step, size_t triangle)
+{
+    if (!(square < feature->steps * step * (feature->steps * step)))
+        return;
+    feature->size = sqrt(square);
+    feature->steps = feature->size / step;
+    feature->triangle = triangle;
+}
+
+static Shape shape_in_frame(const Shape *shape, const Normalization *normalization)
+{
+    Shape moved;
+    for (int corner = 0; corner < 3; corner++)
+        moved.corners[corner] = normalize_point(normalization, shape->corners[corner]);
+    return moved;
+}
+
+static void add_in_frame(Features *features, const Shape *shape, size_t triangle)
+{
+    const double step = step_at(shape);
+    const EdgeSquares squares = edge_squares(shape);
+    take_shorter(&features->edge, squares.shortest, step, triangle);
+    const Vec3 area = doubled_area(shape);
+    const double height_square = vec3_dot(area, area) / squares.longest;
+    if (height_square > 0)
+        take_shorter(&features->height, height_square, step, triangle);
+}
+
+static bool is_float(Vec3 v)
+{
+    return (double)(float)v.x == v.x && (double)(float)v.y == v.y && (double)(float)v.z == v.z;
+}
+
+static void find_bounds(Features *features, const Mesh *mesh)
+{
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    mesh_add_bounds(mesh, &low, &high);
+    if (mesh->triangle_count == 0)
+        return;
+    features->extent = vec3_extent(vec3_sub(high, low));
+    features->offset = vec3_extent(vec3_scale(vec3_add(low, high), 0.5));
+}
+
+Features features_of(const Mesh *mesh, const Normalization *normalization)
+{
+    const double scale = normalization->scale;
+    Features features = {.edge.steps = INFINITY,
+                         .height.steps = INFINITY,
+                         .written_edge.steps = INFINITY,
+                         .holds_floats = true};
+    find_bounds(&features, mesh);
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+        const Shape written = shape_of(mesh, triangle);
+        const Shape scaled = scaled_shape(&written, scale);
+        const Shape framed = shape_in_frame(&written, normalization);
+        take_shorter(&features.written_edge, edge_squares(&scaled).shortest, step_at(&scaled),
+                     triangle);
+        add_in_frame(&features, &framed, triangle);
+        if (is_flat(&written))
+            mesh_fault_add(&features.flat, triangle);
+        for (int corner = 0; corner < 3; corner++)
+            features.holds_floats = features.holds_floats && is_float(written.corners[corner]);
+    }
+    features.edge.size /= scale;
+    features.height.size /= scale;
+    features.written_edge.size /= scale;
+    return features;
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// Faults that make a picture lack or leak something fail the check: what is not finite, has no
+// area or comes twice, and leaks of closed meshes.  Everything else may be meant.
+#include "check/findings.h"
+
+#include "scene/missing.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// Fewer steps of float than this show: an edge is off by a thirtieth of its length.
+#define FEW_STEPS 16.0
+
+// How much larger than a mesh its distance from the origin, or the scene, has to be to blame.
+#define MUCH 4.0
+
+typedef enum {
+    FAULT_BAD_POSITIONS,
+    FAULT_BAD_NORMALS,
+    FAULT_LOST_CORNERS,
+    FAULT_EQUAL_CORNERS,
+    FAULT_FLAT,
+    FAULT_DUPLICATES,
+    FAULT_LEAKS,
+    FAULT_OPEN,
+    FAULT_CROWDED,
+    FAULT_TURNED,
+    FAULT_PINCHED,
+    FAULT_KINDS
+} FaultKind;
+
+static const struct {
+    const char *kind, *text;
+    const char *place; // what the number of the first counts
+    bool fails;
+} faults[FAULT_KINDS] = {
+    [FAULT_BAD_POSITIONS] = {"not_finite_positions",
+                             "vertices with a coordinate that is not finite or past 1e30", "vertex",
+                             true},
+    [FAULT_BAD_NORMALS] = {"not_finite_normals", "normals that are not finite", "vertex", true},
+    [FAULT_LOST_CORNERS] = {"lost_triangles", "triangles at such a vertex, left out", "triangle",
+                            true},
+    [FAULT_EQUAL_CORNERS] = {"equal_corners", "triangles with two equal corners, left out",
+                             "triangle", true},
+    [FAULT_FLAT] = {"zero_area", "triangles of no area, their corners on a line", "triangle", true},
+    [FAULT_DUPLICATES] = {"duplicate_triangles", "triangles with the corners of another",
+                          "triangle", true},
+    [FAULT_LEAKS] = {"leaks", "rays that pass through where triangles meet", "at triangle", true},
+    [FAULT_OPEN] = {"open_edges", "edges of a single triangle", "at triangle", false},
+    [FAULT_CROWDED] = {"crowded_edges", "edges of more than two triangles", "at triangle", false},
+    [FAULT_TURNED] = {"turned_edges", "edges whose triangles face opposite sides", "at triangle",
+                      false},
+    [FAULT_PINCHED] = {"pinched_points", "points where parts touch that share no edge",
+                       "at triangle", false},
+};
+
+__attribute__((format(printf, 3, 4))) static bool add(Findings *findings, Finding finding,
+                                                      const char *format, ...)
+{
+    Error unused = {0};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(finding.text, sizeof finding.text, format, arguments);
+    va_end(arguments);
+    return array_push(&findings->list, finding, &unused);
+}
+
+static bool add_fault(Findings *findings, size_t object, FaultKind kind, MeshFault fault)
+{
+    const Finding finding = {faults[kind].kind, object, faults[kind].fails, fault.count, ""};
+    return fault.count == 0 || add(findings, finding, "%zu %s, the first %s %zu", fault.count,
+                                   faults[kind].text, faults[kind].place, fault.first);
+}
+
+static bool add_mesh_faults(Findings *findings, const CheckResult *result, size_t object)
+{
+    const Mesh *mesh = &result->scene->objects.data[object].mesh;
+    const MeshCensus *census = &result->census->meshes[object];
+    const Closedness *closed = &census->closedness;
+    const bool leaks = result->leaks != NULL && closed->is_closed;
+    const MeshFault counts[FAULT_KINDS] = {
+        [FAULT_BAD_POSITIONS] = mesh->bad_positions,
+        [FAULT_BAD_NORMALS] = mesh->bad_normals,
+        [FAULT_LOST_CORNERS] = mesh->lost_corners,
+        [FAULT_EQUAL_CORNERS] = mesh->equal_corners,
+        [FAULT_FLAT] = census->features.flat,
+        [FAULT_DUPLICATES] = closed->duplicates,
+        [FAULT_LEAKS] = leaks ? result->leaks[object].leaks : (MeshFault){0},
+        [FAULT_OPEN] = closed->open,
+        [FAULT_CROWDED] = closed->crowded,
+        [FAULT_TURNED] = closed->turned,
+        [FAULT_PINCHED] = closed->pinched,
+    };
+    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
+        if (!add_fault(findings, object, kind, counts[kind]))
+            return false;
+    return true;
+}
+
+static bool add_shape(Findings *findings, const CheckResult *result, size_t object)
+{
+    const MeshObject *mesh = &result->scene->objects.data[object];
+    const MeshCensus *census = &result->census->meshes[object];
+    const Finding empty = {"empty_mesh", object, false, 1, ""};
+    const Finding inside = {"inside_out", object, false, 1, ""};
+    const Finding unused = {"unused_vertices", object, false, census->unused_vertices, ""};
+    if (mesh->mesh.triangle_count == 0 && !add(findings, empty, "the mesh has no triangles"))
+        return false;
+    if (census->closedness.is_inside_out && !mesh->two_sided &&
+        !add(findings, inside, "its fronts face inwards: seen from outside it shows its far side"))
+        return false;
+    return census->unused_vertices == 0 ||
+           add(findings, unused, "%zu vertices that no triangle uses", census->unused_vertices);
+}
+
+// The steps are those of floats.  What is written too coarsely cannot be mended by tracing it.
+static bool add_advice(Findings *findings, const CheckResult *result, size_t object)
+{
+    const Features *features = &result->census->meshes[object].features;
+    const double scene_size = 2 / result->normalization->scale;
+    const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
+    const Finding recenter = {"advice_recenter", object, false, 1, ""};
+    const Finding scale = {"advice_scale", object, false, 1, ""};
+    const Finding thin = {"advice_thin", object, false, 1, ""};
+    if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
+        features->offset > MUCH * features->extent)
+        return add(findings, recenter,
+                   "recenter it before it is written: its coordinates, %.3g from the origin, are "
+                   "floats, and its shortest edge is %.3g of their steps there",
+                   features->offset, features->written_edge.steps);
+    if (features->edge.steps < FEW_STEPS && ratio > MUCH)
+        return add(findings, scale,
+                   "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
+                   "shortest edge is %.3g steps of float there; draw them apart",
+                   ratio, features->edge.steps);
+    if (features->edge.steps < FEW_STEPS)
+        return add(findings, thin,
+                   "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
+                   "that lie so close",
+                   features->edge.triangle, features->edge.steps);
+    return features->height.steps >= 1 ||
+           add(findings, thin,
+               "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
+               features->height.triangle, features->height.steps);
+}
+
+static bool add_scene(Findings *findings, const CheckResult *result)
+{
+    const Census *census = result->census;
+    const struct {
+        const char *kind, *text;
+        size_t count;
+        bool fails;
+    } counts[] = {
+        {"duplicate_meshes", "meshes with the triangles of another", census->duplicate_meshes,
+         true},
+        {"duplicate_spheres", "spheres that are the same as another", census->duplicate_spheres,
+         true},
+        {"duplicate_lights", "lights at the place of another", census->duplicate_lights, false},
+        {"unused_materials", "materials that are defined and not used", census->unused_materials,
+         false},
+    };
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        const Finding finding = {counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count,
+                                 ""};
+        if (counts[i].count > 0 &&
+            !add(findings, finding, "%zu %s", counts[i].count, counts[i].text))
+            return false;
+    }
+    const MissingPart missing = scene_missing(result->scene);
+    const Finding note = {missing.kind, FINDING_SCENE, false, 1, ""};
+    if (missing.kind != NULL && !add(findings, note, "%s", missing.text))
+        return false;
+    const Finding fault = {"scale", FINDING_SCENE, true, 1, ""};
+    return result->frame_fault[0] == '\0' ||
+           add(findings, fault, "it cannot be drawn: %s", result->frame_fault);
+}
+
+bool findings_make(Findings *findings, const CheckResult *result, Error *error)
+{
+    *findings = (Findings){0};
+    bool ok = true;
+    for (size_t object = 0; ok && object < result->scene->objects.count; object++)
+        ok = add_mesh_faults(findings, result, object) && add_shape(findings, result, object) &&
+             add_advice(findings, result, object);
+    ok = ok && add_scene(findings, result);
+    if (!ok)
+        findings_free(findings);
+    return ok || error_set(error, "out of memory for the findings");
+}
+
+void findings_free(Findings *findings)
+{
+    free(findings->list.memory);
+    *findings = (Findings){0};
+}
+
+size_t findings_count_failing(const Findings *findings)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < findings->list.count; i++)
+        count += findings->list.data[i].fails;
+    return count;
+}

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// Runs the kernel for one sample and puts its notes into words of the scene.
+#include "explain/explainer.h"
+
+#include <stdlib.h>
+
+// kernels/explain.cl, made at build time.
+extern const char explain_source[];
+
+static uint32_t level_room(const Explainer *explainer)
+{
+    const uint32_t levels = explainer->frame.max_level;
+    return levels > 0 ? levels : 1;
+}
+
+static size_t level_values(const Explainer *explainer)
+{
+    return LEVEL_VALUES + (size_t)explainer->frame.light_count * LIGHT_VALUES;
+}
+
+static size_t level_words(const Explainer *explainer)
+{
+    return LEVEL_WORDS + (size_t)explainer->frame.light_count * LIGHT_WORDS;
+}
+
+static size_t scalar_size(const Explainer *explainer)
+{
+    return explainer->is_fp64 ? sizeof(double) : sizeof(float);
+}
+
+static bool make_buffer(const Explainer *explainer, size_t size, cl_mem *buffer, Error *error)
+{
+    cl_int status;
+    *buffer = clCreateBuffer(explainer->renderer->device->context, CL_MEM_WRITE_ONLY, size, NULL,
+                             &status);
+    return cl_succeeded(status, "allocate room for an explanation", error);
+}
+
+static bool make_room(Explainer *explainer, Error *error)
+{
+    const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
+    const size_t values = levels * level_values(explainer);
+    const size_t words = levels * level_words(explainer);
+    explainer->host_values = memory_raw(values, scalar, error);
+    explainer->host_words = memory_raw(words, sizeof *explainer->host_words, error);
+    explainer->rays = memory_raw(levels, sizeof *explainer->rays, error);
+    explainer->lights =
+        memory_raw(levels * explainer->frame.light_count, sizeof *explainer->lights, error);
+    return explainer->host_values != NULL && explainer->host_words != NULL &&
+           explainer->rays != NULL && explainer->lights != NULL &&
+           make_buffer(explainer, values * scalar, &explainer->values, error) &&
+           make_buffer(explainer, words * sizeof(uint32_t), &explainer->words, error) &&
+           make_buffer(explainer, 4 * scalar, &explainer->result, error) &&
+           make_buffer(explainer, sizeof(uint32_t), &explainer->count, error);
+}
+
+static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_uint column,
+                       cl_uint row, Error *error)
+{
+    const Renderer *renderer = explainer->renderer;
+    const cl_mem outputs[] = {explainer->values, explainer->words, explainer->result,
+                              explainer->count};
+    const size_t one = 1;
+    cl_kernel kernel = explainer->kernel;
+    cl_uint place = 0;
+    cl_int status = clSetKernelArg(kernel, place++, sizeof *frame, frame);
+    for (int i = 0; i < RENDERER_ARRAYS; i++)
+        status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &renderer->arrays[i]);
+    status |= clSetKernelArg(kernel, place++, sizeof column, &column);
+    status |= clSetKernelArg(kernel, place++, sizeof row, &row);
+    for (int i = 0; i < 4; i++)
+        status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &outputs[i]);
+    if (!cl_succeeded(status, "set the arguments of the kernel explain_sample", error))
+        return false;
+    status =
+        clEnqueueNDRangeKernel(renderer->device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL);
+    return cl_succeeded(status, "run the kernel explain_sample", error);
+}
+
+// The first run, which follows no ray, is when drivers finish compiling.
+static bool make_kernel(Explainer *explainer, const Device *device, Error *error)
+{
+    cl_int status;
+    FrameData nothing = explainer->frame;
+    nothing.max_level = 0;
+    explainer->kernel = clCreateKernel(explainer->program.handle, "explain_sample", &status);
+    return cl_succeeded(status, "create the kernel explain_sample", error) &&
+           run_kernel(explainer, &nothing, 0, 0, error) &&
+           cl_succeeded(clFinish(device->queue), "finish the first run", error);
+}
+
+static bool build(Explainer *explainer, const RendererSetup *setup, Error *error)
+{
+    char key[PROGRAM_KEY_SIZE];
+    CacheBuild build;
+    const SceneTraits traits = traits_general(false);
+    ProgramSource source = setup->source;
+    source.appended = explain_source;
+    program_key(setup->device, &source, &traits, key);
+    cache_build_begin(&build, setup->cache, key);
+    const bool ok = program_build(&explainer->program, setup->device, &source, &traits, error) &&
+                    make_kernel(explainer, setup->device, error);
+    cache_build_end(&build, ok);
+    return ok;
+}
+
+bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error)
+{
+    *explainer = (Explainer){.renderer = source->renderer,
+                             .scene = source->scene,
+                             .normalization = source->normalization,
+                             .frame = source->renderer->frame,
+                             .is_fp64 = source->setup->source.choice.precision == PRECISION_FP64};
+    explainer->frame.camera = source->camera;
+    const bool ok = make_room(explainer, error) && build(explainer, source->setup, error);
+    if (!ok)
+        explainer_close(explainer);
+    return ok;
+}
+
+void explainer_close(Explainer *explainer)
+{
+    const cl_mem buffers[] = {explainer->values, explainer->words, explainer->result,
+                              explainer->count};
+    for (int i = 0; i < 4; i++)
+        if (buffers[i] != NULL)
+            clReleaseMemObject(buffers[i]);
+    if (explainer->kernel != NULL)
+        clReleaseKernel(explainer->kernel);
+    program_free(&explainer->program);
+    free(explainer->host_values);
+    free(explainer->host_words);
+    free(explainer->rays);
+    free(explainer->lights);
+    *explainer = (Explainer){0};
+}
+
+static double scalar_at(const Explainer *explainer, const void *values, size_t place)
+{
+    return explainer->is_fp64 ? ((const double *)values)[place]
+                              : (double)((const float *)values)[place];
+}
+
+// The notes of one ray.
+typedef struct {
+    const Explainer *explainer;
+    size_t value, word; // places where they begin
+} Notes;
+
+static Notes notes_of(const Explainer *explainer, uint32_t level)
+{
+    return (Notes){explainer, level * level_values(explainer), level * level_words(explainer)};
+}
+
+static double noted(const Notes *notes, size_t place)
+{
+    return scalar_at(notes->explainer, notes->explainer->host_values, notes->value + place);
+}
+
+static Vec3 noted_vector(const Notes *notes, size_t place)
+{
+    return vec3(noted(notes, place), noted(notes, place + 1), noted(notes, place + 2));
+}
+
+static uint32_t noted_word(const Notes *notes, size_t place)
+{
+    return notes->explainer->host_words[notes->word + place];
+}
+
+static double length_of(Vec3 v)
+{
+    const double extent = vec3_extent(v);
+    const Vec3 unit = vec3_scale(v, extent > 0 ? 1 / extent : 0);
+    return extent * sqrt(vec3_dot(unit, unit));
+}
+
+static void take_light(ExplainedLight *light, const Notes *level, uint32_t index, Vec3 point)
+{
+    const Explainer *explainer = level->explainer;
+    const Notes notes = {explainer, level->value + LEVEL_VALUES + (size_t)index * LIGHT_VALUES,
+                         level->word + LEVEL_WORDS + (size_t)index * LIGHT_WORDS};
+    const Vec3 apart = vec3_sub(explainer->scene->lights.data[index].position, point);
+    *light = (ExplainedLight){.state = (LightState)noted_word(&notes, LIGHT_STATE),
+                              .cosine = noted(&notes, LIGHT_COSINE),
+                              .distance = length_of(apart),
+                              .blocker = noted_word(&notes, LIGHT_BLOCKER)};
+    if (light->state == LIGHT_BLOCKED)
+        light->blocker_distance = fmax(noted(&notes, LIGHT_BLOCKER_T), 0) * light->distance;
+    if (light->state == LIGHT_SEEN) {
+        light->diffuse = noted(&notes, LIGHT_DIFFUSE);
+        light->specular = noted(&notes, LIGHT_SPECULAR);
+    }
+}
+
+static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *lights)
+{
+    const Explainer *explainer = notes->explainer;
+    ray->point = denormalize_point(explainer->normalization, noted_vector(notes, LEVEL_POINT));
+    ray->normal = noted_vector(notes, LEVEL_NORMAL);
+    ray->material = noted_word(notes, LEVEL_MATERIAL);
+    ray->asks_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
+    ray->share = noted(notes, LEVEL_SHARE);
+    ray->shaded = noted_vector(notes, LEVEL_SHADED);
+    ray->lights = lights;
+    for (uint32_t i = 0; ray->asks_lights && i < explainer->frame.light_count; i++)
+        take_light(&lights[i], notes, i, ray->point);
+}
+
+static void take_ray(Explainer *explainer, uint32_t level)
+{
+    const Notes notes = notes_of(explainer, level);
+    const Vec3 direction = noted_vector(&notes, LEVEL_DIRECTION);
+    const double unit = length_of(direction) / explainer->normalization->scale;
+    ExplainedRay *ray = &explainer->rays[level];
+    *ray = (ExplainedRay){
+        .origin = denormalize_point(explainer->normalization, noted_vector(&notes, LEVEL_ORIGIN)),
+        .direction = vec3_normalize(direction),
+        .weight = noted(&notes, LEVEL_WEIGHT),
+        .primitive = noted_word(&notes, LEVEL_PRIMITIVE)};
+    if (ray->primitive == NOTHING)
+        return;
+    ray->distance = noted(&notes, LEVEL_T) * unit;
+    ray->error = noted(&notes, LEVEL_ERROR) * unit;
+    take_surface(ray, &notes, explainer->lights + (size_t)level * explainer->frame.light_count);
+}
+
+static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
+{
+    double result[4]; // room for either precision
+    cl_command_queue queue = explainer->renderer->device->queue;
+    const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
+    cl_int status = clEnqueueReadBuffer(queue, explainer->values, CL_TRUE, 0,
+                                        levels * level_values(explainer) * scalar,
+                                        explainer->host_values, 0, NULL, NULL);
+    status |= clEnqueueReadBuffer(queue, explainer->words, CL_TRUE, 0,
+                                  levels * level_words(explainer) * sizeof(uint32_t),
+                                  explainer->host_words, 0, NULL, NULL);
+    status |= clEnqueueReadBuffer(queue, explainer->result, CL_TRUE, 0, 4 * scalar, result, 0, NULL,
+                                  NULL);
+    status |= clEnqueueReadBuffer(queue, explainer->count, CL_TRUE, 0, sizeof sample->ray_count,
+                                  &sample->ray_count, 0, NULL, NULL);
+    if (!cl_succeeded(status, "read an explanation", error))
+        return false;
+    for (size_t i = 0; i < 3; i++)
+        sample->steps[i] = scalar_at(explainer, result, i);
+    sample->background_weight = scalar_at(explainer, result, 3);
+    return true;
+}
+
+bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample,
+                     Error *error)
+{
+    *sample = (ExplainedSample){.rays = explainer->rays};
+    if (!run_kernel(explainer, &explainer->frame, column, row, error) ||
+        !read_back(explainer, sample, error))
+        return false;
+    for (uint32_t level = 0; level < sample->ray_count; level++)
+        take_ray(explainer, level);
+    return true;
+}
+
+// As mean_color of kernels/render.cl does.
+void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3])
+{
+    const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;
+    for (int channel = 0; channel < 3; channel++) {
+        const uint64_t mean = (sums[channel] + count / 2) / count;
+        color[channel] =
+            explainer->is_fp64 ? (float)((double)mean * 0x1p-32) : (float)mean * 0x1p-32f;
+    }
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The samples of a pixel -> text for people, or JSON.
+#pragma once
+
+#include "cli/options/options.h"
+#include "explain/explainer.h"
+
+#include <jansson.h>
+#include <stdio.h>
+
+typedef struct {
+    const Options *options;
+    const Scene *scene;
+    const RenderSettings *settings;
+} ExplainReport;
+
+// What stands above the samples.
+void explain_write_head(const ExplainReport *report, FILE *stream);
+
+// A sample, the number-th of the pixel.
+void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
+                          uint32_t number, FILE *stream);
+
+void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream);
+
+json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample);
+
+// The whole, of which samples are the list; it is given up.
+json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3]);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// An explanation as JSON.  Ids count as the channel primitive of --aov does, from 0.
+#include "explain/report.h"
+
+#include "image/json_file.h"
+#include "scene/names.h"
+
+#define SCHEMA_VERSION 1
+
+static json_t *vector_json(Vec3 v)
+{
+    return json_pack("[f, f, f]", v.x, v.y, v.z);
+}
+
+static json_t *primitive_json(const Scene *scene, uint32_t id)
+{
+    const PrimitiveName name = name_primitive(scene, id);
+    return json_pack("{s:s, s:I, s:o, s:I}", "kind", name.is_sphere ? "sphere" : "triangle",
+                     "number", (json_int_t)name.number, "file",
+                     name.is_sphere ? json_null() : json_file_path(name.path), "id",
+                     (json_int_t)id);
+}
+
+static json_t *light_json(const ExplainReport *report, const ExplainedLight *light,
+                          const Material *material)
+{
+    static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
+    const bool blocked = light->state == LIGHT_BLOCKED;
+    return json_pack("{s:s, s:f, s:f, s:o, s:o, s:f, s:f}", "state", states[light->state], "cosine",
+                     light->cosine, "distance", light->distance, "blocker",
+                     blocked ? primitive_json(report->scene, light->blocker) : json_null(),
+                     "blocker_distance", blocked ? json_real(light->blocker_distance) : json_null(),
+                     "diffuse", light->diffuse * (double)material->kd, "highlight",
+                     light->specular * (double)material->ks);
+}
+
+static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
+{
+    json_t *list = json_array();
+    const Scene *scene = report->scene;
+    for (size_t i = 0; ray->asks_lights && i < scene->lights.count; i++)
+        json_array_append_new(
+            list, light_json(report, &ray->lights[i], &scene->materials.data[ray->material]));
+    return list;
+}
+
+static json_t *hit_json(const ExplainReport *report, const ExplainedRay *ray)
+{
+    const Scene *scene = report->scene;
+    if (ray->primitive == NOTHING)
+        return json_null();
+    return json_pack("{s:o, s:s, s:f, s:f, s:o, s:o, s:o, s:o, s:f, s:f}", "primitive",
+                     primitive_json(scene, ray->primitive), "material",
+                     name_material(scene, ray->material), "distance", ray->distance,
+                     "distance_error", ray->error, "point", vector_json(ray->point), "normal",
+                     vector_json(ray->normal), "lights", lights_json(report, ray), "color",
+                     vector_json(ray->shaded), "share", ray->share, "reflectivity",
+                     (double)scene->materials.data[ray->material].reflectivity);
+}
+
+static json_t *ray_json(const ExplainReport *report, const ExplainedRay *ray, uint32_t level)
+{
+    return json_pack("{s:s, s:o, s:o, s:f, s:o}", "kind", level == 0 ? "camera" : "reflected",
+                     "origin", vector_json(ray->origin), "direction", vector_json(ray->direction),
+                     "weight", ray->weight, "hit", hit_json(report, ray));
+}
+
+json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample)
+{
+    const double step = 0x1p-32;
+    json_t *rays = json_array();
+    for (uint32_t level = 0; level < sample->ray_count; level++)
+        json_array_append_new(rays, ray_json(report, &sample->rays[level], level));
+    return json_pack("{s:o, s:f, s:[f, f, f]}", "rays", rays, "background_weight",
+                     sample->background_weight, "color", sample->steps[0] * step,
+                     sample->steps[1] * step, sample->steps[2] * step);
+}
+
+json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3])
+{
+    const Options *options = report->options;
+    const RenderSettings *settings = report->settings;
+    return json_pack("{s:i, s:s, s:o, s:[I, I], s:[I, I], s:I, s:o, s:o, s:[f, f, f]}", "schema",
+                     SCHEMA_VERSION, "version", CLRT_VERSION, "scene",
+                     json_file_path(options->scene_path), "pixel", (json_int_t)options->pixel[0],
+                     (json_int_t)options->pixel[1], "size", (json_int_t)settings->width,
+                     (json_int_t)settings->height, "view", (json_int_t)options->view, "background",
+                     vector_json(report->scene->background), "samples", samples, "color",
+                     (double)color[0], (double)color[1], (double)color[2]);
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// An explanation as text: a paragraph a ray, its facts under each other.
+#include "explain/report.h"
+
+#include "image/encode.h"
+#include "scene/names.h"
+
+static void write_vector(Vec3 v, FILE *stream)
+{
+    fprintf(stream, "(%.6g, %.6g, %.6g)", v.x, v.y, v.z);
+}
+
+static void write_primitive(const Scene *scene, uint32_t id, FILE *stream)
+{
+    const PrimitiveName name = name_primitive(scene, id);
+    if (name.is_sphere)
+        fprintf(stream, "sphere %zu", name.number);
+    else
+        fprintf(stream, "triangle %zu of %s", name.number, name.path);
+}
+
+void explain_write_head(const ExplainReport *report, FILE *stream)
+{
+    const Options *options = report->options;
+    const RenderSettings *settings = report->settings;
+    fprintf(stream, "pixel %u,%u of %u x %u, view %u of %s\n", options->pixel[0], options->pixel[1],
+            settings->width, settings->height, options->view, options->scene_path);
+}
+
+static void write_light(const ExplainReport *report, const ExplainedLight *light, uint32_t number,
+                        const Material *material, FILE *stream)
+{
+    fprintf(stream, "    light %-4u ", number);
+    if (light->state == LIGHT_BEHIND)
+        fprintf(stream, "does not reach it: the normal is turned away");
+    if (light->state == LIGHT_BEHIND_FACE)
+        fprintf(stream, "does not reach it: the face is turned away");
+    if (light->state == LIGHT_BLOCKED) {
+        fprintf(stream, "is blocked by ");
+        write_primitive(report->scene, light->blocker, stream);
+        fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
+    }
+    if (light->state == LIGHT_SEEN)
+        fprintf(stream, "reaches it from %.6g away", light->distance);
+    fprintf(stream, "; cosine %.6g", light->cosine);
+    if (light->state == LIGHT_SEEN)
+        fprintf(stream, "; diffuse %.6g", light->diffuse * (double)material->kd);
+    if (light->state == LIGHT_SEEN && material->shader == SHADER_BLINN_PHONG)
+        fprintf(stream, "; highlight %.6g", light->specular * (double)material->ks);
+    fprintf(stream, "\n");
+}
+
+static void write_surface(const ExplainReport *report, const ExplainedRay *ray, FILE *stream)
+{
+    const Scene *scene = report->scene;
+    const Material *material = &scene->materials.data[ray->material];
+    fprintf(stream, "    meets      ");
+    write_primitive(scene, ray->primitive, stream);
+    fprintf(stream, ", material %s\n    distance   %.9g, off by at most %.2g\n    point      ",
+            name_material(scene, ray->material), ray->distance, ray->error);
+    write_vector(ray->point, stream);
+    fprintf(stream, ", normal ");
+    write_vector(ray->normal, stream);
+    fprintf(stream, "\n");
+    for (uint32_t i = 0; ray->asks_lights && i < scene->lights.count; i++)
+        write_light(report, &ray->lights[i], i + 1, material, stream);
+    fprintf(stream, "    color      ");
+    write_vector(ray->shaded, stream);
+    fprintf(stream, ", of which the sample takes %.6g", ray->share);
+    if (material->reflectivity > 0)
+        fprintf(stream, "; the surface reflects %.6g", (double)material->reflectivity);
+    fprintf(stream, "\n");
+}
+
+static void write_ray(const ExplainReport *report, const ExplainedRay *ray, uint32_t level,
+                      FILE *stream)
+{
+    if (level == 0)
+        fprintf(stream, "  the camera's ray\n");
+    else
+        fprintf(stream, "  reflected ray %u, of which the sample takes %.6g\n", level, ray->weight);
+    fprintf(stream, "    from       ");
+    write_vector(ray->origin, stream);
+    fprintf(stream, " along ");
+    write_vector(ray->direction, stream);
+    fprintf(stream, "\n");
+    if (ray->primitive == NOTHING)
+        fprintf(stream, "    meets      nothing\n");
+    else
+        write_surface(report, ray, stream);
+}
+
+void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
+                          uint32_t number, FILE *stream)
+{
+    const double step = 0x1p-32;
+    const uint32_t samples = report->settings->samples * report->settings->samples;
+    if (samples > 1)
+        fprintf(stream, "sample %u of %u\n", number + 1, samples);
+    for (uint32_t level = 0; level < sample->ray_count; level++)
+        write_ray(report, &sample->rays[level], level, stream);
+    if (sample->background_weight > 0) {
+        fprintf(stream, "  the background ");
+        write_vector(report->scene->background, stream);
+        fprintf(stream, ", of which the sample takes %.6g\n", sample->background_weight);
+    }
+    fprintf(stream, "  the sample's color ");
+    write_vector(vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),
+                 stream);
+    fprintf(stream, "\n");
+}
+
+void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream)
+{
+    unsigned char bytes[3];
+    encode_channels(color, 3, report->options->encoding, bytes);
+    fprintf(stream, "the pixel's color (%.9g, %.9g, %.9g), in 8 bits %u %u %u\n", (double)color[0],
+            (double)color[1], (double)color[2], bytes[0], bytes[1], bytes[2]);
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Tiles are finished in the order of their numbers, so that what is there is told by a count alone.
+#include "jobs/resume.h"
+
+#include "image/image_read.h"
+#include "jobs/stored_tiles.h"
+#include "render/tile.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <xxhash.h>
+
+char *resume_journal_name(const char *output_path, Error *error)
+{
+    const size_t size = strlen(output_path) + sizeof ".part";
+    char *name = memory_raw(size, 1, error);
+    if (name != NULL)
+        snprintf(name, size, "%s.part", output_path);
+    return name;
+}
+
+bool resume_look(Resume *resume, const Options *options, Error *error)
+{
+    struct stat status;
+    const char *path = options->output_path;
+    const bool exists = lstat(path, &status) == 0;
+    if (exists && !S_ISREG(status.st_mode))
+        return error_set(error, "%s: is no file that can be gone on with", path);
+    resume->path = resume_journal_name(path, error);
+    if (resume->path == NULL)
+        return false;
+    resume->stored_path = path;
+    return !exists || journal_exists(resume->path) || !image_format_takes_layers(options->format) ||
+           image_read(&resume->stored, path, error);
+}
+
+// Names all that the picture depends on, and the tiles.
+static void make_key(const Provenance *own, const RenderSettings *settings, uint64_t key[2])
+{
+    char text[STORED_TEXTS * STORED_TEXT_SIZE];
+    const int length =
+        snprintf(text, sizeof text, "%s\n%s\n%s\n%s\n%ux%u", own->texts[STORED_VERSION],
+                 own->texts[STORED_SCENE_HASH], own->texts[STORED_MESH_HASH],
+                 own->texts[STORED_SETTINGS], settings->tile_width, settings->tile_height);
+    const XXH128_hash_t hash = XXH3_128bits(text, (size_t)length);
+    key[0] = hash.low64;
+    key[1] = hash.high64;
+}
+
+static bool is_same_picture(const StoredImage *stored, const Provenance *own,
+                            const RenderSettings *settings, uint64_t *tiles)
+{
+    static const StoredText kinds[] = {STORED_VERSION, STORED_SCENE_HASH, STORED_MESH_HASH};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(stored->texts[kinds[i]], own->texts[kinds[i]]) != 0)
+            return false;
+    return stored->width == settings->width && stored->height == settings->height &&
+           stored_tiles_done(stored, own->texts[STORED_SETTINGS], settings, tiles);
+}
+
+static bool take_stored(const Resume *resume, const Provenance *own, RenderSettings *settings,
+                        Framebuffer *framebuffer, Error *error)
+{
+    Layers none = {0};
+    if (!is_same_picture(&resume->stored, own, settings, &settings->ready_tiles) ||
+        !stored_tiles_has_colors(&resume->stored))
+        return error_set(error,
+                         "%s: is of another scene, other settings or another version of clrt: "
+                         "remove it to begin again",
+                         resume->stored_path);
+    stored_tiles_copy(settings, settings->ready_tiles, &resume->stored, framebuffer, &none);
+    return true;
+}
+
+static size_t tile_size(const Tile *tile)
+{
+    return (size_t)tile->width * tile->height * sizeof(float[3]);
+}
+
+static void copy_tile(float *values, const Framebuffer *framebuffer, const Tile *tile, bool is_kept)
+{
+    const size_t size = tile->width * sizeof(float[3]);
+    for (uint32_t row = 0; row < tile->height; row++) {
+        float *there = values + (size_t)row * tile->width * 3;
+        float *here = framebuffer->pixels[(size_t)(tile->y + row) * framebuffer->width + tile->x];
+        memcpy(is_kept ? there : here, is_kept ? here : there, size);
+    }
+}
+
+static void read_journal(Resume *resume, RenderSettings *settings, const Framebuffer *framebuffer)
+{
+    const uint64_t tiles = tile_count(settings);
+    while (settings->ready_tiles < tiles) {
+        const Tile tile = tile_at(settings, settings->ready_tiles);
+        if (!journal_read(&resume->journal, resume->tile, tile_size(&tile)))
+            return;
+        copy_tile(resume->tile, framebuffer, &tile, false);
+        settings->ready_tiles++;
+    }
+}
+
+static bool go_on(Resume *resume, const Provenance *own, RenderSettings *settings,
+                  Framebuffer *framebuffer, Error *error)
+{
+    uint64_t key[2];
+    make_key(own, settings, key);
+    const bool is_stored = resume->stored.values != NULL;
+    // Before there is a journal: where this fails, the stored picture stays the one to go on with.
+    if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
+        return false;
+    if (!journal_open(&resume->journal, resume->path, key, error))
+        return false;
+    if (!is_stored) {
+        read_journal(resume, settings, framebuffer);
+        return journal_cut(&resume->journal, error);
+    }
+    bool ok = true;
+    for (uint64_t number = 0; ok && number < settings->ready_tiles; number++)
+        ok = resume_keep(resume, settings, framebuffer, number, error);
+    stored_image_free(&resume->stored);
+    return ok;
+}
+
+bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
+                 Framebuffer *framebuffer, Error *error)
+{
+    const Tile largest = tile_largest(settings);
+    if (resume->path == NULL)
+        return true;
+    resume->tile = memory_raw(tile_size(&largest), 1, error);
+    return resume->tile != NULL && go_on(resume, own, settings, framebuffer, error);
+}
+
+bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,
+                 uint64_t number, Error *error)
+{
+    if (resume->path == NULL)
+        return true;
+    const Tile tile = tile_at(settings, number);
+    copy_tile(resume->tile, framebuffer, &tile, true);
+    resume->is_broken = !journal_add(&resume->journal, resume->tile, tile_size(&tile), error);
+    return !resume->is_broken;
+}
+
+void resume_close(Resume *resume, bool is_done)
+{
+    journal_close(&resume->journal, is_done);
+    stored_image_free(&resume->stored);
+    free(resume->tile);
+    free(resume->path);
+    *resume = (Resume){0};
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Goes from record to record; each kind has the function that takes it, behind its own checks.
+#include "mesh/foreign_stream.h"
+
+#include "base/limits.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_TEXT PATH_MAX // of a message or a path
+
+typedef struct {
+    ForeignModel *model;
+    const char *next, *end;
+    ForeignHead head; // of the record that next stands at
+    const char *name;
+    PlyParse *parse;
+    Error *error;
+} Parser;
+
+static bool fail_damaged(const Parser *parser)
+{
+    return error_set(parser->error, "%s: what the program that reads it has written is damaged",
+                     parser->name);
+}
+
+// What people are shown holds nothing that a terminal obeys.
+static void make_printable(char *text, size_t size, char substitute)
+{
+    for (size_t i = 0; i < size; i++)
+        if (text[i] < ' ' || text[i] > '~')
+            text[i] = substitute;
+}
+
+// A copy of the record with a zero behind it; NULL where there is none to be had.
+static char *copy_text(const Parser *parser, const char *start, size_t size)
+{
+    if (size == 0 || size > LONGEST_TEXT || memchr(start, '\0', size) != NULL) {
+        fail_damaged(parser);
+        return NULL;
+    }
+    char *text = memory_raw(size + 1, 1, parser->error);
+    if (text != NULL) {
+        memcpy(text, start, size);
+        text[size] = '\0';
+    }
+    return text;
+}
+
+static bool take_file(Parser *parser)
+{
+    ForeignHash hash;
+    if (parser->head.size < sizeof hash)
+        return fail_damaged(parser);
+    memcpy(&hash, parser->next, sizeof hash);
+    char *path =
+        copy_text(parser, parser->next + sizeof hash, (size_t)parser->head.size - sizeof hash);
+    if (path == NULL || !array_push(&parser->model->files, path, parser->error)) {
+        free(path);
+        return false;
+    }
+    return array_push(&parser->model->hashes, hash, parser->error);
+}
+
+// Zero for what is no number.
+static float within(float value, float most)
+{
+    return !(value > 0) ? 0 : value > most ? most : value;
+}
+
+// A name must stand in a scene as one word.
+static void make_word(char *name)
+{
+    make_printable(name, strlen(name), '_');
+    for (char *c = name; *c != '\0'; c++)
+        if (strchr(" \"#/", *c) != NULL)
+            *c = '_';
+}
+
+static bool take_material(Parser *parser)
+{
+    ForeignMaterial material;
+    if (parser->head.size != sizeof material)
+        return fail_damaged(parser);
+    memcpy(&material, parser->next, sizeof material);
+    material.name[sizeof material.name - 1] = '\0';
+    make_word(material.name);
+    for (int channel = 0; channel < 3; channel++) {
+        material.diffuse[channel] = within(material.diffuse[channel], 1);
+        material.specular[channel] = within(material.specular[channel], 1);
+    }
+    material.shininess = within(material.shininess, (float)SHININESS_MOST);
+    return array_push(&parser->model->materials, material, parser->error);
+}
+
+static bool take_part(Parser *parser)
+{
+    ForeignPart part = {.material = parser->head.number};
+    ForeignModel *model = parser->model;
+    char name[LONGEST_TEXT];
+    if (part.material != FOREIGN_NO_MATERIAL && part.material >= model->materials.count)
+        return fail_damaged(parser);
+    snprintf(name, sizeof name, "%s: part %zu", parser->name, model->parts.count);
+    if (!parser->parse(&part.mesh, parser->next, (size_t)parser->head.size, name, parser->error))
+        return false;
+    if (array_push(&model->parts, part, parser->error))
+        return true;
+    mesh_free(&part.mesh);
+    return false;
+}
+
+static bool take_note(Parser *parser)
+{
+    if (parser->model->note != NULL)
+        return fail_damaged(parser);
+    parser->model->note = copy_text(parser, parser->next, (size_t)parser->head.size);
+    if (parser->model->note == NULL)
+        return false;
+    make_printable(parser->model->note, strlen(parser->model->note), '?');
+    return true;
+}
+
+static bool take_failure(Parser *parser)
+{
+    char *reason = copy_text(parser, parser->next, (size_t)parser->head.size);
+    if (reason == NULL)
+        return false;
+    make_printable(reason, strlen(reason), '?');
+    error_set(parser->error, "%s: %s", parser->name, reason);
+    free(reason);
+    return false;
+}
+
+static bool take_record(Parser *parser)
+{
+    switch (parser->head.kind) {
+    case FOREIGN_FILE:
+        return take_file(parser);
+    case FOREIGN_MATERIAL:
+        return take_material(parser);
+    case FOREIGN_PART:
+        return take_part(parser);
+    case FOREIGN_NOTE:
+        return take_note(parser);
+    case FOREIGN_FAILURE:
+        return take_failure(parser);
+    default:
+        return fail_damaged(parser);
+    }
+}
+
+static bool read_head(Parser *parser)
+{
+    if ((size_t)(parser->end - parser->next) < sizeof parser->head)
+        return fail_damaged(parser);
+    memcpy(&parser->head, parser->next, sizeof parser->head);
+    parser->next += sizeof parser->head;
+    return parser->head.size <= (size_t)(parser->end - parser->next) || fail_damaged(parser);
+}
+
+static bool read_records(Parser *parser)
+{
+    while (read_head(parser)) {
+        if (parser->head.kind == FOREIGN_END)
+            return (parser->head.size == 0 && parser->next == parser->end) || fail_damaged(parser);
+        if (!take_record(parser))
+            return false;
+        parser->next += parser->head.size;
+    }
+    return false;
+}
+
+bool foreign_stream_parse(ForeignModel *model, ForeignStream stream, const char *name,
+                          PlyParse *parse, Error *error)
+{
+    *model = (ForeignModel){0};
+    Parser parser = {.model = model,
+                     .next = stream.bytes,
+                     .end = stream.size == 0 ? stream.bytes : stream.bytes + stream.size,
+                     .name = name,
+                     .parse = parse,
+                     .error = error};
+    if (read_records(&parser))
+        return true;
+    foreign_model_free(model);
+    return false;
+}
+
+void foreign_model_free(ForeignModel *model)
+{
+    for (size_t part = 0; part < model->parts.count; part++)
+        mesh_free(&model->parts.data[part].mesh);
+    for (size_t file = 0; file < model->files.count; file++)
+        free(model->files.data[file]);
+    free(model->parts.memory);
+    free(model->materials.memory);
+    free(model->files.memory);
+    free(model->hashes.memory);
+    free(model->note);
+    *model = (ForeignModel){0};
+}

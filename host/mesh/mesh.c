@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Ownership, bounds and faults of a mesh.
+#include "mesh/mesh.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
+{
+    Vec3 least = *low, most = *high;
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++) {
+            const double *p = mesh->positions[mesh->triangles[triangle][corner]];
+            least = vec3_lower(least, vec3(p[0], p[1], p[2]));
+            most = vec3_upper(most, vec3(p[0], p[1], p[2]));
+        }
+    *low = least;
+    *high = most;
+}
+
+static bool is_same_point(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static bool is_lost(const double *point)
+{
+    return isnan(point[0]) || isnan(point[1]) || isnan(point[2]);
+}
+
+static bool has_equal_corners(const double *a, const double *b, const double *c)
+{
+    return is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a);
+}
+
+// Once no triangle uses them, so that nobody meets a NaN.
+static void clear_lost_vertices(Mesh *mesh)
+{
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
+        if (is_lost(mesh->positions[vertex]))
+            memset(mesh->positions[vertex], 0, sizeof mesh->positions[vertex]);
+}
+
+// Gaps are closed on the way.
+void mesh_drop_triangles(Mesh *mesh)
+{
+    size_t kept = 0;
+    const bool some_lost = mesh->bad_positions.count > 0;
+    for (size_t index = 0; index < mesh->triangle_count; index++) {
+        const uint32_t *triangle = mesh->triangles[index];
+        const double *a = mesh->positions[triangle[0]];
+        const double *b = mesh->positions[triangle[1]];
+        const double *c = mesh->positions[triangle[2]];
+        MeshFault *fault = some_lost && (is_lost(a) || is_lost(b) || is_lost(c))
+                               ? &mesh->lost_corners
+                           : has_equal_corners(a, b, c) ? &mesh->equal_corners
+                                                        : NULL;
+        if (fault != NULL) {
+            mesh_fault_add(fault, index);
+            continue;
+        }
+        if (kept < index)
+            memcpy(mesh->triangles[kept], triangle, sizeof mesh->triangles[kept]);
+        kept++;
+    }
+    mesh->dropped_count = mesh->triangle_count - kept;
+    mesh->triangle_count = kept;
+    if (some_lost)
+        clear_lost_vertices(mesh);
+}
+
+void mesh_free(Mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->normals);
+    free(mesh->triangles);
+    *mesh = (Mesh){0};
+}

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// PLY elements -> vertices and triangles.  The header says what each value is; faces may stand
+// before the vertices, so triangles that turn out to have equal corners are dropped at the end.
+#include "mesh/ply.h"
+
+#include "mesh/ply_bulk.h"
+
+#include <math.h>
+
+typedef uint32_t Triangle[3];
+
+typedef struct {
+    PlyReader reader;
+    PlyHeader header;
+    Mesh *mesh;
+    ARRAY(Triangle) triangles;
+    size_t last_bad_position, last_bad_normal; // vertices: several components are one fault
+} Loader;
+
+static void count_once(MeshFault *fault, size_t *last, size_t vertex)
+{
+    if (fault->count == 0 || *last != vertex)
+        mesh_fault_add(fault, vertex);
+    *last = vertex;
+}
+
+// What stands for a value: NaN marks the vertex until its triangles are dropped.
+static double tolerated(Loader *loader, PlyRole role, double value)
+{
+    const size_t vertex = (size_t)loader->reader.index;
+    Mesh *mesh = loader->mesh;
+    if (role <= PLY_Z && !(fabs(value) < PLY_COORDINATE_BOUND)) {
+        count_once(&mesh->bad_positions, &loader->last_bad_position, vertex);
+        return (double)NAN;
+    }
+    if (role > PLY_Z && !isfinite((float)value)) {
+        count_once(&mesh->bad_normals, &loader->last_bad_normal, vertex);
+        return 0;
+    }
+    return value;
+}
+
+static bool read_component(Loader *loader, const PlyProperty *property)
+{
+    static const char *const names[] = {"x", "y", "z", "nx", "ny", "nz"};
+    const char *name = names[property->role];
+    PlyReader *reader = &loader->reader;
+    double value;
+    if (!ply_reader_read_number(reader, property->type, &value))
+        return false;
+    if (reader->is_tolerant)
+        value = tolerated(loader, property->role, value);
+    if (property->role <= PLY_Z) {
+        if (!(fabs(value) < PLY_COORDINATE_BOUND) && !reader->is_tolerant)
+            return ply_reader_fail(reader, "%s is %g, not a finite number below 1e30 in size", name,
+                                   value);
+        loader->mesh->positions[reader->index][property->role - PLY_X] = value;
+        return true;
+    }
+    const float narrowed = (float)value;
+    if (!isfinite(narrowed))
+        return ply_reader_fail(reader, "%s is %g, not a finite single precision number", name,
+                               value);
+    loader->mesh->normals[reader->index][property->role - PLY_NORMAL_X] = narrowed;
+    return true;
+}
+
+static bool read_length(PlyReader *reader, const PlyProperty *property, int64_t *length)
+{
+    if (!ply_reader_read_integer(reader, property->length_type, length))
+        return false;
+    return *length >= 0 ||
+           ply_reader_fail(reader, "list length %lld is negative", (long long)*length);
+}
+
+static bool read_corner(Loader *loader, const PlyProperty *property, uint32_t *corner)
+{
+    PlyReader *reader = &loader->reader;
+    int64_t vertex;
+    if (!ply_reader_read_integer(reader, property->type, &vertex))
+        return false;
+    if (vertex < 0)
+        return ply_reader_fail(reader, "vertex index %lld is negative", (long long)vertex);
+    if (vertex >= loader->header.vertex_count)
+        return ply_reader_fail(reader, "vertex index %lld is not below the vertex count %lld",
+                               (long long)vertex, (long long)loader->header.vertex_count);
+    *corner = (uint32_t)vertex;
+    return true;
+}
+
+// Makes room for the triangles of a polygon with that many corners.
+static bool reserve_fan(Loader *loader, const PlyProperty *property, int64_t length)
+{
+    PlyReader *reader = &loader->reader;
+    const size_t count = loader->triangles.count;
+    if (length < 3)
+        return ply_reader_fail(reader, "a face needs 3 or more corners, not %lld",
+                               (long long)length);
+    if (length - 2 > PLY_COUNT_LIMIT - (int64_t)count)
+        return ply_reader_fail(reader, "its %lld corners bring the triangle count above %lld",
+                               (long long)length, (long long)PLY_COUNT_LIMIT);
+    return ply_reader_check_room(reader, length, ply_reader_value_size(reader, property->type)) &&
+           array_reserve(&loader->triangles.memory, &loader->triangles.capacity,
+                         count + (size_t)length - 2, sizeof(Triangle), reader->error);
+}
+
+static bool read_polygon(Loader *loader, const PlyProperty *property)
+{
+    int64_t length;
+    uint32_t first = 0, previous = 0, corner = 0;
+    if (!read_length(&loader->reader, property, &length) ||
+        !reserve_fan(loader, property, length) || !read_corner(loader, property, &first) ||
+        !read_corner(loader, property, &previous))
+        return false;
+    for (int64_t index = 2; index < length; index++) {
+        if (!read_corner(loader, property, &corner))
+            return false;
+        uint32_t *triangle = loader->triangles.data[loader->triangles.count++];
+        triangle[0] = first;
+        triangle[1] = previous;
+        triangle[2] = corner;
+        previous = corner;
+    }
+    return true;
+}
+
+static bool skip_property(PlyReader *reader, const PlyProperty *property)
+{
+    const size_t size = ply_reader_value_size(reader, property->type);
+    int64_t length = 1;
+    if (property->is_list &&
+        (!read_length(reader, property, &length) || !ply_reader_check_room(reader, length, size)))
+        return false;
+    return ply_reader_skip_values(reader, property->type, length);
+}
+
+static bool read_property(Loader *loader, const PlyProperty *property)
+{
+    if (property->role == PLY_UNUSED)
+        return skip_property(&loader->reader, property);
+    if (property->role == PLY_CORNERS)
+        return read_polygon(loader, property);
+    return read_component(loader, property);
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static bool allocate_vertices(Loader *loader)
+{
+    Mesh *mesh = loader->mesh;
+    Error *error = loader->reader.error;
+    mesh->vertex_count = (size_t)loader->header.vertex_count;
+    mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);
+    if (mesh->positions != NULL && loader->header.has_normals)
+        mesh->normals = memory_raw(mesh->vertex_count, sizeof *mesh->normals, error);
+    return mesh->positions != NULL && (mesh->normals != NULL || !loader->header.has_normals);
+}
+
+// The fewest bytes one element takes: lists may be empty.
+static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
+{
+    size_t size = 0;
+    for (size_t index = 0; index < properties.count; index++) {
+        const PlyProperty *property = &properties.data[index];
+        size += ply_reader_value_size(reader,
+                                      property->is_list ? property->length_type : property->type);
+    }
+    return size;
+}
+
+static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
+{
+    PlyReader *reader = &loader->reader;
+    const PlyProperties properties = ply_header_properties(&loader->header, element);
+    const size_t size = ply_bulk_triangle_size(reader, properties);
+    const size_t held = loader->triangles.count;
+    const size_t fitting = size == 0 ? 0 : (size_t)(reader->end - reader->next) / size;
+    const size_t room = smaller(smaller(fitting, (size_t)(element->count - reader->index)),
+                                (size_t)PLY_COUNT_LIMIT - held);
+    if (room == 0)
+        return true;
+    if (!array_reserve(&loader->triangles.memory, &loader->triangles.capacity, held + room,
+                       sizeof(Triangle), reader->error))
+        return false;
+    loader->triangles.count += ply_bulk_triangles(reader, properties, loader->header.vertex_count,
+                                                  room, &loader->triangles.data[held]);
+    return true;
+}
+
+// Reads what can be read without a look at every value; that may be nothing.
+static bool read_in_bulk(Loader *loader, const PlyElement *element)
+{
+    if (element->kind == PLY_FACE)
+        return read_triangles_in_bulk(loader, element);
+    if (element->kind == PLY_VERTEX)
+        ply_bulk_vertices(&loader->reader, ply_header_properties(&loader->header, element),
+                          element->count, loader->mesh);
+    return true;
+}
+
+static bool read_element(Loader *loader, const PlyElement *element)
+{
+    PlyReader *reader = &loader->reader;
+    if (element->property_count == 0) // then the file may claim any number of them
+        return true;
+    const PlyProperties properties = ply_header_properties(&loader->header, element);
+    reader->element = element->name;
+    reader->index = -1;
+    const size_t size = smallest_size(reader, properties);
+    if (!ply_reader_check_room(reader, element->count, size))
+        return false;
+    if (element->kind == PLY_VERTEX && element->count > 0 && !allocate_vertices(loader))
+        return false;
+    for (reader->index = 0; reader->index < element->count; reader->index++) {
+        if (!read_in_bulk(loader, element))
+            return false;
+        if (reader->index == element->count)
+            break;
+        for (size_t index = 0; index < properties.count; index++) {
+            if (!read_property(loader, &properties.data[index]))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool read_elements(Loader *loader)
+{
+    for (size_t index = 0; index < loader->header.elements.count; index++) {
+        if (!read_element(loader, &loader->header.elements.data[index]))
+            return false;
+    }
+    return true;
+}
+
+static bool load(Loader *loader)
+{
+    Mesh *mesh = loader->mesh;
+    *mesh = (Mesh){0};
+    const bool ok = ply_header_parse(&loader->header, &loader->reader) && read_elements(loader);
+    mesh->triangles = loader->triangles.data;
+    mesh->triangle_count = loader->triangles.count;
+    ply_header_free(&loader->header);
+    if (ok)
+        mesh_drop_triangles(mesh);
+    else
+        mesh_free(mesh);
+    return ok;
+}
+
+static PlyReader reader_of(const char *bytes, size_t size, const char *name, Error *error)
+{
+    return (PlyReader){
+        .name = name, .start = bytes, .end = size == 0 ? bytes : bytes + size, .error = error};
+}
+
+bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
+{
+    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
+    return load(&loader);
+}
+
+bool ply_parse_tolerantly(Mesh *mesh, const char *bytes, size_t size, const char *name,
+                          Error *error)
+{
+    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
+    loader.reader.is_tolerant = true;
+    return load(&loader);
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Mesh -> its points: vertices at the same position are one, as they are to a ray.
+#pragma once
+
+#include "base/error.h"
+#include "mesh/mesh.h"
+
+// The point of a vertex that no triangle uses.
+#define WELD_UNUSED UINT32_MAX
+
+typedef struct {
+    uint32_t *points;                    // by vertex: the lowest vertex in use at its position
+    size_t unused_count, repeated_count; // vertices without a point, and those with another's
+} Weld;
+
+bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
+void weld_free(Weld *weld);

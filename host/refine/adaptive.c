@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Each pass marks the cells to be cut, threads sharing the marking; cuts them in order; and traces
+// all their samples as one list.  The groups it makes are what the next pass looks at.
+#include "refine/adaptive.h"
+
+#include "refine/adaptive_pass.h"
+#include "refine/pixel_marks.h"
+
+#include <stdlib.h>
+
+#define ROWS_OF_TASK   16
+#define GROUPS_OF_TASK 512
+
+// What one marking works on.
+typedef struct {
+    const RefineTree *tree;
+    const Footprints *footprints;
+    const ThinParts *thin_parts;
+    float threshold;
+    uint32_t first, end; // of groups
+    uint16_t *marks;     // a bit for each cell of a group and each side
+} Marking;
+
+static uint32_t tasks_of(size_t whole, uint32_t part)
+{
+    return (uint32_t)((whole + part - 1) / part);
+}
+
+static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
+{
+    const size_t end = (size_t)(task + 1) * part;
+    return (uint32_t)(end < whole ? end : whole);
+}
+
+// What a group's outer cells saw may reach into the cells around it: a bit for each side.  Cells
+// of the size that was cut stay as they were, or are cut.
+static unsigned marks_around(const Marking *marking, const CellGroup *group)
+{
+    unsigned marks = 0;
+    for (CellSide side = 0; side < SIDE_COUNT; side++) {
+        CellName name;
+        const bool is_known = group->beyond_levels[side] + 1u == group->level;
+        if (is_known && group->across[side] <= marking->threshold)
+            continue;
+        if (refine_tree_neighbor(marking->tree, group, side, &name) &&
+            contrast_across(group, side, refine_tree_sample(marking->tree, &name), name.level) >
+                marking->threshold)
+            marks |= 1u << side;
+    }
+    return marks;
+}
+
+static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
+{
+    const float threshold = marking->threshold;
+    unsigned marks = marks_around(marking, group) << GROUP_CELLS;
+    if (group->level == REFINE_LEVELS)
+        return (uint16_t)marks;
+    marks |=
+        footprints_marks(marking->footprints, group) | thin_parts_marks(marking->thin_parts, group);
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if (group->groups[cell] == 0 && contrast_read(group->contrasts[cell]).value > threshold)
+            marks |= 1u << cell;
+    return (uint16_t)marks;
+}
+
+static void mark_groups(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Marking *marking = context;
+    const RefineTree *tree = marking->tree;
+    const size_t count = marking->end - marking->first;
+    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+        marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
+}
+
+static bool cut_named(RefineTree *tree, const CellName *name, Error *error)
+{
+    return name->group == 0 ? refine_tree_cut_pixel(tree, name->cell % tree->width,
+                                                    name->cell / tree->width, error)
+                            : refine_tree_cut_cell(tree, name->group, name->cell, error);
+}
+
+// Cuts the cells around a group that are marked; another group may have cut them by now.
+static bool cut_around(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
+{
+    for (CellSide side = 0; side < SIDE_COUNT; side++) {
+        CellName name;
+        if ((marks >> (GROUP_CELLS + side) & 1) &&
+            refine_tree_neighbor(tree, &tree->groups.data[number], side, &name) &&
+            !cut_named(tree, &name, error))
+            return false;
+    }
+    return true;
+}
+
+// Cuts the cells of a group that are marked; a group beside it may have cut them by now.
+static bool cut_inside(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
+{
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+        if ((marks >> cell & 1) && tree->groups.data[number].groups[cell] == 0 &&
+            !refine_tree_cut_cell(tree, number, cell, error))
+            return false;
+    return true;
+}
+
+static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
+{
+    for (uint32_t number = marking->first; number < marking->end; number++) {
+        const unsigned marks = marking->marks[number - marking->first];
+        if (!cut_inside(tree, number, marks, error) ||
+            (marks >> GROUP_CELLS != 0 && !cut_around(tree, number, marks, error)))
+            return false;
+    }
+    return true;
+}
+
+bool adaptive_is_whole(const Adaptive *adaptive)
+{
+    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
+}
+
+static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error *error)
+{
+    for (size_t i = 0; i < footprints->list.count; i++) {
+        const uint32_t pixel = footprints->list.data[i].pixel;
+        if (tree->pixel_groups[pixel] == 0 &&
+            !refine_tree_cut_pixel(tree, pixel % tree->width, pixel / tree->width, error))
+            return false;
+    }
+    return true;
+}
+
+static Marking marking_of(const Adaptive *adaptive, float threshold)
+{
+    return (Marking){.tree = &adaptive->tree,
+                     .footprints = &adaptive->footprints,
+                     .thin_parts = &adaptive->thin_parts,
+                     .threshold = threshold};
+}
+
+static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
+{
+    const PixelWants wants = {&adaptive->pixel_contrasts, &adaptive->thin_parts, threshold};
+    return cut_footprints(&adaptive->tree, &adaptive->footprints, error) &&
+           pixel_marks_take(&adaptive->tree, &wants, adaptive->crew, error);
+}
+
+// Looks at the groups from `first` up to `end`.
+static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t first, uint32_t end,
+                                Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    Marking marking = marking_of(adaptive, threshold);
+    marking.first = first;
+    marking.end = end;
+    if (first >= end || !adaptive_is_whole(adaptive))
+        return true;
+    marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
+    if (marking.marks == NULL)
+        return false;
+    crew_run(adaptive->crew, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
+    const bool ok = cut_groups(tree, &marking, error);
+    free(marking.marks);
+    return ok;
+}
+
+static bool cut_all(Adaptive *adaptive, float threshold, Error *error)
+{
+    const uint32_t end = (uint32_t)adaptive->tree.groups.count;
+    return !adaptive_is_whole(adaptive) ||
+           (mark_and_cut_pixels(adaptive, threshold, error) &&
+            mark_and_cut_groups(adaptive, threshold, 1, end, error));
+}
+
+bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
+                     Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    SeamSearch search = {.seen = 1};
+    uint32_t first = (uint32_t)tree->groups.count;
+    bool ok = cut_all(adaptive, threshold, error);
+    for (;;) {
+        ok = ok && seam_search_ask(&search, tree, ADAPTIVE_SEAM_PART * threshold, error);
+        const uint32_t end = (uint32_t)tree->groups.count;
+        if (!ok || !adaptive_is_whole(adaptive) || (first == end && search.asked.count == 0))
+            break;
+        ok = adaptive_pass_trace(adaptive, first, &search, observer, error) &&
+             mark_and_cut_groups(adaptive, threshold, first, end, error);
+        first = end;
+    }
+    seam_search_free(&search);
+    return ok;
+}
+
+bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
+                   Error *error)
+{
+    Renderer *renderer = setup->renderer;
+    *adaptive = (Adaptive){.renderer = renderer, .crew = setup->crew, .frame = renderer->frame};
+    FrameData *frame = &adaptive->frame;
+    frame->camera = *setup->camera;
+    frame->samples = REFINE_GRID;
+    renderer->progress = (RenderProgress){0};
+    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->crew};
+    const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
+                    footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
+                    thin_parts_make(&adaptive->thin_parts, &thin, error) &&
+                    adaptive_pass_begin(adaptive, observer, error);
+    if (!ok)
+        adaptive_close(adaptive);
+    return ok;
+}
+
+typedef struct {
+    const RefineTree *tree;
+    Framebuffer *framebuffer;
+} Storing;
+
+static void store_rows(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Storing *storing = context;
+    const RefineTree *tree = storing->tree;
+    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
+        refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
+}
+
+void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
+{
+    Storing storing = {&adaptive->tree, framebuffer};
+    crew_run(adaptive->crew, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows, &storing);
+}
+
+void adaptive_close(Adaptive *adaptive)
+{
+    pixel_contrasts_free(&adaptive->pixel_contrasts);
+    footprints_free(&adaptive->footprints);
+    thin_parts_free(&adaptive->thin_parts);
+    refine_tree_free(&adaptive->tree);
+    *adaptive = (Adaptive){0};
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Eight samples a group come first, in the order of the groups, and then one of each seam that
+// asks.
+#include "refine/adaptive_pass.h"
+
+#include "refine/contrast.h"
+#include "render/sampler.h"
+
+#include <stdlib.h>
+
+#define GROUPS_OF_TASK 512
+
+static uint32_t tasks_of(size_t whole, uint32_t part)
+{
+    return (uint32_t)((whole + part - 1) / part);
+}
+
+static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
+{
+    const size_t end = (size_t)(task + 1) * part;
+    return (uint32_t)(end < whole ? end : whole);
+}
+
+// What is handed to the device and taken back, group by group from `first` on.
+typedef struct {
+    RefineTree *tree;
+    uint32_t first;
+    SamplePlace *places;
+    SampleData *samples;
+} Exchange;
+
+static void list_places(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    const size_t count = tree->groups.count - exchange->first;
+    SamplePlace *places = exchange->places + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
+    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+            uint32_t place[2];
+            if (cell == GROUP_MIDDLE)
+                continue;
+            refine_tree_cell_place(&tree->groups.data[exchange->first + i], cell, place);
+            *places++ = (SamplePlace){place[0], place[1]};
+        }
+}
+
+static void take_samples(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Exchange *exchange = context;
+    RefineTree *tree = exchange->tree;
+    const size_t count = tree->groups.count - exchange->first;
+    const SampleData *samples = exchange->samples + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
+    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++) {
+        CellGroup *group = &tree->groups.data[exchange->first + i];
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+            if (cell != GROUP_MIDDLE)
+                group->cells[cell] = *samples++;
+        contrast_keep(group);
+    }
+}
+
+bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
+                         const RenderObserver *observer, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    const uint32_t groups = (uint32_t)tree->groups.count - first, cut = ADAPTIVE_CUT * groups;
+    const uint32_t count = cut + (uint32_t)search->asked.count;
+    if (count == 0)
+        return true;
+    const uint32_t tasks = tasks_of(groups, GROUPS_OF_TASK);
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    SampleData *samples = memory_raw(count, sizeof *samples, error);
+    const SampleList list = {places, samples, count};
+    Exchange exchange = {tree, first, places, samples};
+    bool ok = places != NULL && samples != NULL;
+    if (ok) {
+        crew_run(adaptive->crew, tasks, list_places, &exchange);
+        for (size_t i = 0; i < search->asked.count; i++) {
+            uint32_t place[2];
+            seam_asks(&tree->seams.data[search->asked.data[i]], place);
+            places[cut + i] = (SamplePlace){place[0], place[1]};
+        }
+        ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    }
+    if (ok && adaptive_is_whole(adaptive)) {
+        crew_run(adaptive->crew, tasks, take_samples, &exchange);
+        tree->traced = (uint32_t)tree->groups.count;
+        adaptive->samples += count;
+        ok = seam_search_take(search, tree, samples + cut, error) &&
+             seam_search_open(tree, first, tree->traced, adaptive->crew, error);
+    } else {
+        refine_tree_uncut(tree, first);
+    }
+    free(places);
+    free(samples);
+    return ok;
+}
+
+// A task is a row of blocks.
+static void list_pixels(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    const uint32_t half = REFINE_GRID / 2, top = task * PACKET_SIDE;
+    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, top);
+    for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
+        for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
+            const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
+            const bool is_there = x < tree->width && y < tree->height;
+            *places++ =
+                (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
+        }
+}
+
+bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    const uint32_t count = refine_tree_places(tree);
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    const SampleList list = {places, tree->pixels, count};
+    if (places == NULL)
+        return false;
+    Exchange exchange = {.tree = tree, .places = places};
+    crew_run(adaptive->crew, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
+    const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    adaptive->samples = (uint64_t)tree->width * tree->height;
+    free(places);
+    return ok && pixel_contrasts_make(&adaptive->pixel_contrasts, tree, adaptive->crew, error);
+}

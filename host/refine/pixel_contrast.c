@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Strips of rows are laid out channel by channel, so that processors compare several pixels at
+// once; the pixels beside those of a strip come with it, or at the picture's edge themselves.
+#include "refine/pixel_contrast.h"
+
+#include <stdlib.h>
+
+#define STRIP        64 // pixels, of whole blocks
+#define STRIP_SPAN   (STRIP + 2 * PACKET_SIDE)
+#define ROWS_OF_TASK 16
+
+// Of a row: those of a strip from PACKET_SIDE on, between those of the blocks beside it.
+typedef struct {
+    float channels[3][STRIP_SPAN];
+    uint32_t signatures[STRIP_SPAN];
+} StripRow;
+
+typedef struct {
+    const RefineTree *tree;
+    PixelContrasts *contrasts;
+} Comparing;
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static void take_pixel(StripRow *row, uint32_t at, const SampleData *sample)
+{
+    for (int channel = 0; channel < 3; channel++)
+        row->channels[channel][at] = sample->color[channel];
+    row->signatures[at] = sample->signature;
+}
+
+static void copy_pixel(StripRow *row, uint32_t to, uint32_t from)
+{
+    for (int channel = 0; channel < 3; channel++)
+        row->channels[channel][to] = row->channels[channel][from];
+    row->signatures[to] = row->signatures[from];
+}
+
+// Lays out the pixels of a row around those from `left` on, which are `count`.
+static void load_row(const RefineTree *tree, uint32_t left, uint32_t y, uint32_t count,
+                     StripRow *row)
+{
+    const uint32_t first = left == 0 ? 0 : left - PACKET_SIDE;
+    const uint32_t blocks = tree->columns * PACKET_SIDE;
+    const uint32_t end = left + STRIP + PACKET_SIDE < blocks ? left + STRIP + PACKET_SIDE : blocks;
+    for (uint32_t x = first; x < end; x += PACKET_SIDE) {
+        const SampleData *run = &tree->pixels[refine_tree_place(tree, x, y)];
+        for (uint32_t i = 0; i < PACKET_SIDE; i++)
+            take_pixel(row, PACKET_SIDE + x - left + i, &run[i]);
+    }
+    if (left == 0)
+        copy_pixel(row, PACKET_SIDE - 1, PACKET_SIDE);
+    if (left + count == tree->width)
+        copy_pixel(row, PACKET_SIDE + count, PACKET_SIDE + count - 1);
+}
+
+// Adds the differences of a strip's pixels from those of another row, or `shift` further along.
+static void add_steps(const StripRow *row, const StripRow *other, int shift, float steps[STRIP])
+{
+    for (int i = 0; i < STRIP; i++) {
+        const int at = i + PACKET_SIDE, to = at + shift;
+        const float red = fabsf(row->channels[0][at] - other->channels[0][to]);
+        const float green = fabsf(row->channels[1][at] - other->channels[1][to]);
+        const float blue = fabsf(row->channels[2][at] - other->channels[2][to]);
+        const float most = larger(larger(red, green), blue);
+        const float step = row->signatures[at] != other->signatures[to] ? most : 0;
+        steps[i] = larger(steps[i], step);
+    }
+}
+
+// How far pixels lie off the lines between those before and after them: those `shift` back and
+// further along in those rows.
+static void add_bends(const StripRow *const rows[3], int shift, float bends[STRIP])
+{
+    for (int channel = 0; channel < 3; channel++)
+        for (int i = 0; i < STRIP; i++) {
+            const int at = i + PACKET_SIDE;
+            const float line = 0.5f * rows[0]->channels[channel][at - shift] +
+                               0.5f * rows[2]->channels[channel][at + shift];
+            bends[i] = larger(bends[i], 2 * fabsf(rows[1]->channels[channel][at] - line));
+        }
+}
+
+// Pixels at the picture's edges are on no line across it.
+static void compare_row(const Comparing *comparing, const StripRow *const rows[3], uint32_t left,
+                        uint32_t y, uint32_t count)
+{
+    const RefineTree *tree = comparing->tree;
+    const StripRow *const beside[3] = {rows[1], rows[1], rows[1]};
+    float steps[STRIP] = {0}, bends[STRIP] = {0};
+    add_bends(beside, 1, bends);
+    if (left == 0)
+        bends[0] = 0;
+    if (left + count == tree->width)
+        bends[count - 1] = 0;
+    if (y > 0 && y + 1 < tree->height)
+        add_bends(rows, 0, bends);
+    add_steps(rows[1], rows[1], -1, steps);
+    add_steps(rows[1], rows[1], 1, steps);
+    add_steps(rows[1], rows[0], 0, steps);
+    add_steps(rows[1], rows[2], 0, steps);
+    float *values = &comparing->contrasts->values[(size_t)y * tree->width + left];
+    for (uint32_t i = 0; i < count; i++) {
+        const float value = larger(CONTRAST_OUTLINE_WEIGHT * steps[i], bends[i]);
+        values[i] = contrast_kept((CellContrast){value, steps[i] > 0});
+    }
+}
+
+// The rows of a strip follow each other through three places.
+static void compare_strip(const Comparing *comparing, uint32_t left, uint32_t top, uint32_t bottom)
+{
+    const RefineTree *tree = comparing->tree;
+    const uint32_t count = tree->width - left < STRIP ? tree->width - left : STRIP;
+    const uint32_t last = tree->height - 1;
+    StripRow places[3] = {0};
+    load_row(tree, left, top == 0 ? 0 : top - 1, count, &places[(top + 2) % 3]);
+    load_row(tree, left, top, count, &places[top % 3]);
+    for (uint32_t y = top; y < bottom; y++) {
+        const StripRow *const rows[3] = {&places[(y + 2) % 3], &places[y % 3],
+                                         &places[(y + 1) % 3]};
+        load_row(tree, left, y < last ? y + 1 : last, count, &places[(y + 1) % 3]);
+        compare_row(comparing, rows, left, y, count);
+    }
+}
+
+static void compare_rows(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Comparing *comparing = context;
+    const RefineTree *tree = comparing->tree;
+    const uint32_t top = task * ROWS_OF_TASK;
+    const uint32_t bottom = tree->height - top < ROWS_OF_TASK ? tree->height : top + ROWS_OF_TASK;
+    for (uint32_t left = 0; left < tree->width; left += STRIP)
+        compare_strip(comparing, left, top, bottom);
+}
+
+bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Crew *crew,
+                          Error *error)
+{
+    Comparing comparing = {tree, contrasts};
+    *contrasts = (PixelContrasts){.width = tree->width};
+    contrasts->values =
+        memory_raw((size_t)tree->width * tree->height, sizeof *contrasts->values, error);
+    if (contrasts->values == NULL)
+        return false;
+    crew_run(crew, (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, compare_rows, &comparing);
+    return true;
+}
+
+void pixel_contrasts_free(PixelContrasts *contrasts)
+{
+    free(contrasts->values);
+    *contrasts = (PixelContrasts){0};
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Points are (x * depth, y * depth, depth) until no depth can be zero: so what is behind the eye is
+// cut off as what is beside the picture is, and no coordinate can be large.
+#include "refine/projection.h"
+
+#include "refine/refine_tree.h"
+
+#include <stdlib.h>
+
+#define PLANES 5
+#define MARGIN (2 * REFINE_GRID)
+#define NEAR   1e-30 // the scene's largest side is 1 to 2
+
+static Vec3 vector_of(const float components[3])
+{
+    return (Vec3){components[0], components[1], components[2]};
+}
+
+// How far a point is inside of a plane.
+static double inside_by(const Projection *projection, Vec3 point, int plane)
+{
+    switch (plane) {
+    case 0:
+        return point.z - NEAR;
+    case 1:
+        return point.x + MARGIN * point.z;
+    case 2:
+        return (projection->width + MARGIN) * point.z - point.x;
+    case 3:
+        return point.y + MARGIN * point.z;
+    default:
+        return (projection->height + MARGIN) * point.z - point.y;
+    }
+}
+
+static Vec3 point_of(const Projection *projection, size_t vertex)
+{
+    const double *position = projection->object->mesh.positions[vertex];
+    const Vec3 point =
+        normalize_point(projection->normalization, vec3(position[0], position[1], position[2]));
+    const Vec3 seen = vec3_sub(point, projection->eye);
+    const double depth = vec3_dot(seen, projection->forward);
+    return (Vec3){vec3_dot(seen, projection->right) + projection->width / 2 * depth,
+                  vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
+}
+
+static void project_points(void *context, uint32_t chunk, uint32_t worker)
+{
+    (void)worker;
+    const Projection *projection = context;
+    const uint32_t end = chunk_end(chunk, (uint32_t)projection->object->mesh.vertex_count);
+    for (uint32_t vertex = chunk * CHUNK_ELEMENTS; vertex < end; vertex++) {
+        const Vec3 point = point_of(projection, vertex);
+        ProjectedPoint projected = {0};
+        for (int plane = 0; plane < PLANES; plane++)
+            projected.outside |= (uint32_t) !(inside_by(projection, point, plane) >= 0) << plane;
+        if (projected.outside == 0) {
+            projected.x = (float)(point.x / point.z);
+            projected.y = (float)(point.y / point.z);
+        }
+        projection->points[vertex] = projected;
+    }
+}
+
+Projection projection_of(const FrameData *frame, const Normalization *normalization)
+{
+    const Vec3 right = vector_of(frame->camera.right_step);
+    const Vec3 down = vector_of(frame->camera.down_step);
+    const double square = vec3_dot(right, right);
+    return (Projection){.normalization = normalization,
+                        .eye = vector_of(frame->camera.eye),
+                        .right = vec3_scale(right, 0.5 / square),
+                        .down = vec3_scale(down, 0.5 / square),
+                        .forward = vector_of(frame->camera.forward),
+                        .width = (double)frame->width * REFINE_GRID,
+                        .height = (double)frame->height * REFINE_GRID};
+}
+
+bool projection_begin(Projection *projection, const MeshObject *object, Crew *crew, Error *error)
+{
+    const uint32_t count = (uint32_t)object->mesh.vertex_count;
+    projection->object = object;
+    projection->points = memory_raw(count, sizeof *projection->points, error);
+    if (projection->points == NULL)
+        return false;
+    crew_run(crew, chunk_count(count), project_points, projection);
+    return true;
+}
+
+void projection_end(Projection *projection)
+{
+    free(projection->points);
+    projection->points = NULL;
+}
+
+static float smallest(float a, float b, float c)
+{
+    const float smaller = a < b ? a : b;
+    return smaller < c ? smaller : c;
+}
+
+typedef struct {
+    uint32_t count;
+    Vec3 corners[OUTLINE_CORNERS];
+} Polygon;
+
+static void keep_inside(const Projection *projection, Polygon *polygon, int plane)
+{
+    Polygon kept = {0};
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        const Vec3 from = polygon->corners[i], to = polygon->corners[(i + 1) % polygon->count];
+        const double before = inside_by(projection, from, plane);
+        const double after = inside_by(projection, to, plane);
+        if (before >= 0)
+            kept.corners[kept.count++] = from;
+        if ((before >= 0) != (after >= 0) && kept.count < OUTLINE_CORNERS)
+            kept.corners[kept.count++] =
+                vec3_add(from, vec3_scale(vec3_sub(to, from), before / (before - after)));
+        if (kept.count == OUTLINE_CORNERS)
+            break;
+    }
+    *polygon = kept;
+}
+
+// Beside the eye itself rounding may move corners anywhere.
+static double limited(double value, double size)
+{
+    return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
+}
+
+// For triangles that are partly outside, which are few.
+static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
+{
+    Polygon polygon = {.count = 3};
+    for (int corner = 0; corner < 3; corner++)
+        polygon.corners[corner] = point_of(projection, vertices[corner]);
+    for (int plane = 0; plane < PLANES; plane++)
+        keep_inside(projection, &polygon, plane);
+    if (polygon.count < 3)
+        return false;
+    outline->count = polygon.count;
+    for (uint32_t i = 0; i < polygon.count; i++) {
+        const Vec3 *corner = &polygon.corners[i];
+        outline->corners[i][0] = limited(corner->x / corner->z, projection->width);
+        outline->corners[i][1] = limited(corner->y / corner->z, projection->height);
+    }
+    return true;
+}
+
+bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box)
+{
+    const uint32_t *vertices = projection->object->mesh.triangles[triangle];
+    const ProjectedPoint *a = &projection->points[vertices[0]],
+                         *b = &projection->points[vertices[1]],
+                         *c = &projection->points[vertices[2]];
+    box->low[0] = smallest(a->x, b->x, c->x);
+    box->low[1] = smallest(a->y, b->y, c->y);
+    box->high[0] = -smallest(-a->x, -b->x, -c->x);
+    box->high[1] = -smallest(-a->y, -b->y, -c->y);
+    return (a->outside | b->outside | c->outside) == 0;
+}
+
+// Member by member: the other corners' are many.
+static void set_triangle(Outline *outline, const ProjectedPoint *a, const ProjectedPoint *b,
+                         const ProjectedPoint *c)
+{
+    const ProjectedPoint *points[3] = {a, b, c};
+    outline->count = 3;
+    for (int i = 0; i < 3; i++) {
+        outline->corners[i][0] = points[i]->x;
+        outline->corners[i][1] = points[i]->y;
+    }
+}
+
+bool projection_outline(const Projection *projection, size_t triangle, Outline *outline)
+{
+    const uint32_t *vertices = projection->object->mesh.triangles[triangle];
+    const ProjectedPoint *a = &projection->points[vertices[0]],
+                         *b = &projection->points[vertices[1]],
+                         *c = &projection->points[vertices[2]];
+    if ((a->outside & b->outside & c->outside) != 0)
+        return false;
+    if ((a->outside | b->outside | c->outside) == 0)
+        set_triangle(outline, a, b, c);
+    else if (!cut_outline(projection, vertices, outline))
+        return false;
+    const double area = outline_signed_area(outline);
+    if (!(area < 0 || (area > 0 && projection->object->two_sided)))
+        return false;
+    outline_complete(outline);
+    return true;
+}

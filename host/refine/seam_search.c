@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// A group's lines run along the axis on which more of its neighbors differ, so that they cross
+// what lies in it; the middles of three lines tell a slope exactly.
+#include "refine/seam_search.h"
+
+#include <stdlib.h>
+
+#define GROUPS_OF_TASK 512
+
+// What a task finds.
+typedef struct {
+    ARRAY(Seam) seams;
+    uint32_t base; // their first number
+    Error error;
+} OpeningPart;
+
+typedef struct {
+    RefineTree *tree;
+    uint32_t first, end;
+    OpeningPart *parts; // of each task
+} Opening;
+
+static uint32_t tasks_of(size_t whole, uint32_t part)
+{
+    return (uint32_t)((whole + part - 1) / part);
+}
+
+static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
+{
+    const size_t end = (size_t)(task + 1) * part;
+    return (uint32_t)(end < whole ? end : whole);
+}
+
+// How much a group changes along its lines if they are rows or columns.
+static float changes_along(const CellGroup *group, uint32_t stride)
+{
+    const CellSide side = stride == 1 ? SIDE_LEFT : SIDE_ABOVE;
+    const SampleData *middle = &group->cells[GROUP_MIDDLE];
+    float changes = seam_difference(middle - stride, &group->beyond[side]) +
+                    seam_difference(middle + stride, &group->beyond[side + 1]);
+    for (uint32_t line = 0; line < GROUP_SIDE; line++) {
+        const SampleData *cells = &group->cells[line * (stride == 1 ? GROUP_SIDE : 1)];
+        changes += 2 * (seam_difference(&cells[0], &cells[stride]) +
+                        seam_difference(&cells[stride], &cells[2 * stride]));
+    }
+    return changes;
+}
+
+// A line of a group.
+typedef struct {
+    const CellGroup *group;
+    uint32_t number;         // of the group
+    uint32_t line, stride;   // the line's number, and from cell to cell
+    uint32_t start[2];       // of its places in the picture
+    const SampleData *cells; // the first
+} GroupLine;
+
+static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t stride, uint32_t line)
+{
+    const CellGroup *group = &tree->groups.data[number];
+    const uint32_t side = refine_tree_cell_side(group->level), half = GROUP_SIDE * side / 2;
+    const uint32_t across = line * side + side / 2, is_row = stride == 1;
+    return (GroupLine){
+        .group = group,
+        .number = number,
+        .line = line,
+        .stride = stride,
+        .start = {group->x - half + (is_row ? 0 : across), group->y - half + (is_row ? across : 0)},
+        .cells = &group->cells[line * (is_row ? GROUP_SIDE : 1)]};
+}
+
+// What is seen beyond an end of a line: by the smallest cell there, or by the line's own where the
+// picture ends.
+static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
+{
+    const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);
+    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // one back wraps
+    uint32_t place[2] = {line->start[0], line->start[1]};
+    place[line->stride == 1 ? 0 : 1] += step;
+    if (place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID)
+        return refine_tree_sample_at(tree, place);
+    return &line->cells[end == SEAM_END_FIRST ? 0 : 2 * (size_t)line->stride];
+}
+
+// The seam in a gap of a line that saw these samples.
+static Seam seam_in_gap(const GroupLine *line, const SampleData *const seen[LINE_SAMPLES],
+                        uint32_t gap)
+{
+    const uint32_t side = refine_tree_cell_side(line->group->level), middle = side / 2;
+    const uint32_t places[LINE_SAMPLES] = {0, middle, middle + side, middle + 2 * side,
+                                           GROUP_SIDE * side - 1};
+    Seam seam = {.ends = {*seen[gap], *seen[gap + 1]},
+                 .x = line->start[0],
+                 .y = line->start[1],
+                 .group = line->number,
+                 .stride = (uint8_t)line->stride,
+                 .cells = GROUP_SIDE,
+                 .side = (uint8_t)side,
+                 .line = (uint8_t)line->line,
+                 .assumed = SEAM_ENDS};
+    seam.from = seam.low = (uint8_t)places[gap];
+    seam.to = seam.high = (uint8_t)places[gap + 1];
+    if (gap == 0 || gap == LINE_GAPS - 1)
+        seam.assumed = gap == 0 ? SEAM_END_FIRST : SEAM_END_LAST;
+    return seam;
+}
+
+static bool open_line(const RefineTree *tree, const GroupLine *line, OpeningPart *part)
+{
+    const SampleData *cells = line->cells;
+    const SampleData *const seen[LINE_SAMPLES] = {
+        beyond(tree, line, SEAM_END_FIRST), cells, cells + line->stride,
+        cells + 2 * (size_t)line->stride, beyond(tree, line, SEAM_END_LAST)};
+    for (uint32_t gap = 0; gap < LINE_GAPS; gap++) {
+        if (!seam_steps(seen, gap))
+            continue;
+        const Seam seam = seam_in_gap(line, seen, gap);
+        if (!array_push(&part->seams, seam, &part->error))
+            return false;
+    }
+    return true;
+}
+
+static bool open_group(const RefineTree *tree, uint32_t number, OpeningPart *part)
+{
+    const CellGroup *group = &tree->groups.data[number];
+    const float rows = changes_along(group, 1), columns = changes_along(group, GROUP_SIDE);
+    if (group->level == REFINE_LEVELS || rows + columns <= 0)
+        return true;
+    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
+        const GroupLine line = line_of(tree, number, rows >= columns ? 1 : GROUP_SIDE, i);
+        if (!open_line(tree, &line, part))
+            return false;
+    }
+    return true;
+}
+
+static void open_groups(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Opening *opening = context;
+    const size_t count = opening->end - opening->first;
+    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+        if (!open_group(opening->tree, opening->first + i, &opening->parts[task]))
+            return;
+}
+
+static void link_seams(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Opening *opening = context;
+    const OpeningPart *part = &opening->parts[task];
+    for (uint32_t i = 0; i < part->seams.count; i++) {
+        const uint32_t number = part->base + i;
+        Seam *seam = &opening->tree->seams.data[number];
+        CellGroup *group = &opening->tree->groups.data[part->seams.data[i].group];
+        *seam = part->seams.data[i];
+        seam->next = group->seams;
+        group->seams = number;
+    }
+}
+
+static bool append_parts(Opening *opening, uint32_t tasks, Crew *crew, Error *error)
+{
+    RefineTree *tree = opening->tree;
+    size_t count = tree->seams.count;
+    for (uint32_t task = 0; task < tasks; task++) {
+        opening->parts[task].base = (uint32_t)count;
+        count += opening->parts[task].seams.count;
+    }
+    if (count > UINT32_MAX / 8)
+        return error_set(error, "the picture is refined into too many seams");
+    if (!array_reserve(&tree->seams.memory, &tree->seams.capacity, count, sizeof *tree->seams.data,
+                       error))
+        return false;
+    tree->seams.count = count;
+    crew_run(crew, tasks, link_seams, opening);
+    return true;
+}
+
+static bool all_opened(const Opening *opening, uint32_t tasks, Error *error)
+{
+    for (uint32_t task = 0; task < tasks; task++)
+        if (opening->parts[task].error.text[0] != '\0')
+            return error_set(error, "%s", opening->parts[task].error.text);
+    return true;
+}
+
+bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error)
+{
+    const uint32_t tasks = tasks_of(end - first, GROUPS_OF_TASK);
+    Opening opening = {tree, first, end, NULL};
+    opening.parts = memory_zeroed(tasks, sizeof *opening.parts, error);
+    if (opening.parts == NULL)
+        return false;
+    crew_run(crew, tasks, open_groups, &opening);
+    const bool ok =
+        all_opened(&opening, tasks, error) && append_parts(&opening, tasks, crew, error);
+    for (uint32_t task = 0; task < tasks; task++)
+        free(opening.parts[task].seams.data);
+    free(opening.parts);
+    return ok;
+}
+
+static bool wants(const Seam *seam, float threshold)
+{
+    uint32_t place[2];
+    return seam_asks(seam, place) && seam_contrast(seam) > threshold;
+}
+
+bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < search->asked.count; i++)
+        if (wants(&tree->seams.data[search->asked.data[i]], threshold))
+            search->asked.data[kept++] = search->asked.data[i];
+    search->asked.count = kept;
+    for (; search->seen < tree->seams.count; search->seen++)
+        if (wants(&tree->seams.data[search->seen], threshold) &&
+            !array_push(&search->asked, search->seen, error))
+            return false;
+    return true;
+}
+
+bool seam_search_take(const SeamSearch *search, RefineTree *tree, const SampleData *samples,
+                      Error *error)
+{
+    for (size_t i = 0; i < search->asked.count; i++) {
+        const uint32_t number = search->asked.data[i];
+        Seam rest;
+        if (!seam_take(&tree->seams.data[number], &samples[i], &rest))
+            continue;
+        if (!array_push(&tree->seams, rest, error))
+            return false;
+        tree->seams.data[number].next = (uint32_t)tree->seams.count - 1;
+    }
+    return true;
+}
+
+void seam_search_free(SeamSearch *search)
+{
+    free(search->asked.data);
+    *search = (SeamSearch){0};
+}

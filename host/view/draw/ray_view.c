@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Only tiles that are new go to OpenGL.  A picture of the target's size is shown pixel by pixel.
+#include "view/draw/ray_view.h"
+
+bool ray_view_open(RayView *view, Error *error)
+{
+    static const char *const attributes[] = {NULL};
+    *view = (RayView){.program = shader_build(shader_picture, attributes, error)};
+    if (view->program == 0)
+        return false;
+    glGenVertexArrays(1, &view->array);
+    for (int layer = 0; layer < CANVAS_LAYERS; layer++) {
+        glGenTextures(1, &view->copies[layer].texture);
+        glBindTexture(GL_TEXTURE_2D, view->copies[layer].texture);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    }
+    return true;
+}
+
+void ray_view_close(RayView *view)
+{
+    for (int layer = 0; layer < CANVAS_LAYERS; layer++)
+        glDeleteTextures(1, &view->copies[layer].texture);
+    glDeleteVertexArrays(1, &view->array);
+    glDeleteProgram(view->program);
+    *view = (RayView){0};
+}
+
+static void copy_tile(const Layer *layer, const Tile *tile)
+{
+    const size_t first = (size_t)tile->y * layer->settings.width + tile->x;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, (GLint)tile->x, (GLint)tile->y, (GLsizei)tile->width,
+                    (GLsizei)tile->height, GL_RGB, GL_UNSIGNED_BYTE, layer->bytes + 3 * first);
+}
+
+// Brings the copy up to the layer; under the canvas's lock.
+static void update_copy(LayerCopy *copy, const Layer *layer)
+{
+    const RenderSettings *settings = &layer->settings;
+    glBindTexture(GL_TEXTURE_2D, copy->texture);
+    if (copy->width != settings->width || copy->height != settings->height)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, (GLsizei)settings->width, (GLsizei)settings->height,
+                     0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+    if (copy->pass != layer->pass || copy->revision != layer->revision)
+        copy->tiles = 0;
+    copy->width = settings->width;
+    copy->height = settings->height;
+    copy->pass = layer->pass;
+    copy->revision = layer->revision;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, (GLint)settings->width);
+    for (; copy->tiles < layer->tiles_done; copy->tiles++) {
+        const Tile tile = tile_at(settings, copy->tiles);
+        copy_tile(layer, &tile);
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+static LayerCopy *copy_of(RayView *view, const Canvas *canvas, const Layer *layer)
+{
+    LayerCopy *copy = &view->copies[layer - canvas->layers];
+    update_copy(copy, layer);
+    return copy;
+}
+
+static void draw_part(GLint x, GLint y, GLint width, GLint height)
+{
+    glScissor(x, y, width, height);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+// The rows of tiles that are done, and what is done of the next one.
+static void draw_done(const LayerCopy *copy, const RenderSettings *settings)
+{
+    const GLint width = (GLint)copy->width, height = (GLint)copy->height;
+    const uint32_t columns = (copy->width + settings->tile_width - 1) / settings->tile_width;
+    const GLint rows = (GLint)(copy->tiles / columns * settings->tile_height);
+    const GLint part = (GLint)(copy->tiles % columns * settings->tile_width);
+    const GLint done = rows < height ? rows : height;
+    draw_part(0, height - done, width, done);
+    const GLint next = done + (GLint)settings->tile_height;
+    const GLint bottom = next < height ? next : height;
+    draw_part(0, height - bottom, part, bottom - done);
+}
+
+static void draw_layer(const LayerCopy *copy, const RenderSettings *settings, uint32_t width,
+                       uint32_t height)
+{
+    const bool is_exact = copy->width == width && copy->height == height;
+    glBindTexture(GL_TEXTURE_2D, copy->texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
+    if (is_exact)
+        draw_done(copy, settings);
+    else
+        draw_part(0, 0, (GLint)width, (GLint)height);
+}
+
+void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t height)
+{
+    pthread_mutex_lock(&canvas->mutex);
+    const Layer *whole = canvas_whole(canvas), *unfinished = canvas_unfinished(canvas);
+    glUseProgram(view->program);
+    glBindVertexArray(view->array);
+    glEnable(GL_SCISSOR_TEST);
+    if (whole != NULL)
+        draw_layer(copy_of(view, canvas, whole), &whole->settings, width, height);
+    if (unfinished != NULL && unfinished->settings.width == width &&
+        unfinished->settings.height == height)
+        draw_layer(copy_of(view, canvas, unfinished), &unfinished->settings, width, height);
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
+    pthread_mutex_unlock(&canvas->mutex);
+}

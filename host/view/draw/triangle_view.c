@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Triangles share their vertices, as in the meshes; each object is one call.
+#include "view/draw/triangle_view.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+
+typedef struct {
+    float position[3];
+    float normal[3]; // zero where there is none
+} Vertex;
+
+bool triangle_view_open(TriangleView *view, Error *error)
+{
+    static const char *const attributes[] = {"position", "normal", NULL};
+    *view = (TriangleView){.program = shader_build(shader_triangles, attributes, error)};
+    if (view->program == 0)
+        return false;
+    glGenVertexArrays(1, &view->array);
+    glGenBuffers(1, &view->vertices);
+    glGenBuffers(1, &view->indices);
+    glBindVertexArray(view->array);
+    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->indices);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          (void *)offsetof(Vertex, position));
+    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          (void *)offsetof(Vertex, normal));
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(1);
+    glBindVertexArray(0);
+    return true;
+}
+
+void triangle_view_close(TriangleView *view)
+{
+    glDeleteProgram(view->program);
+    glDeleteVertexArrays(1, &view->array);
+    glDeleteBuffers(1, &view->vertices);
+    glDeleteBuffers(1, &view->indices);
+    *view = (TriangleView){0};
+}
+
+static void store_vertex(Vertex *vertex, const float point[4], const float *normal)
+{
+    const Vec3 given = normal == NULL
+                           ? vec3(0, 0, 0)
+                           : vec3((double)normal[0], (double)normal[1], (double)normal[2]);
+    const Vec3 unit = vec3_normalize(given);
+    for (int axis = 0; axis < 3; axis++)
+        vertex->position[axis] = point[axis];
+    vertex->normal[0] = (float)unit.x;
+    vertex->normal[1] = (float)unit.y;
+    vertex->normal[2] = (float)unit.z;
+}
+
+static void store_vertices(Vertex *vertices, const Model *model)
+{
+    size_t place = 0;
+    for (size_t i = 0; i < model->scene.objects.count; i++) {
+        const Mesh *mesh = &model->scene.objects.data[i].mesh;
+        for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++, place++)
+            store_vertex(&vertices[place], model->triangles.points[place],
+                         mesh->normals == NULL ? NULL : mesh->normals[vertex]);
+    }
+}
+
+bool triangle_view_load(TriangleView *view, const Model *model, Error *error)
+{
+    const Triangles *triangles = &model->triangles;
+    Vertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
+    if (vertices == NULL)
+        return false;
+    store_vertices(vertices, model);
+    glBindVertexArray(view->array);
+    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(triangles->point_count * sizeof *vertices), vertices,
+                 GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 (GLsizeiptr)(triangles->count * sizeof *triangles->corners), triangles->corners,
+                 GL_STATIC_DRAW);
+    glBindVertexArray(0);
+    free(vertices);
+    return true;
+}
+
+static void set_material(GLuint program, const Material *material)
+{
+    float vectors[3][4];
+    light_store_material(vectors, material);
+    glUniform4fv(glGetUniformLocation(program, "diffuse"), 1, vectors[0]);
+    glUniform4fv(glGetUniformLocation(program, "specular"), 1, vectors[1]);
+    glUniform4fv(glGetUniformLocation(program, "look"), 1, vectors[2]);
+}
+
+void triangle_view_draw(const TriangleView *view, const Model *model, const Lens *lens,
+                        const Tone *tone)
+{
+    const Scene *scene = &model->scene;
+    size_t first = 0;
+    glUseProgram(view->program);
+    glBindVertexArray(view->array);
+    lens_apply(lens, view->program);
+    light_apply(scene, &model->normalization, tone, view->program);
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
+        shader_set_integer(view->program, "is_smooth", object->smooth);
+        set_material(view->program, &scene->materials.data[object->material]);
+        glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
+                       (void *)(3 * first * sizeof(GLuint)));
+        first += object->mesh.triangle_count;
+    }
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+}
