@@ -119,7 +119,7 @@ static void tell_notes(const Options *options, const Scene *scene)
 static ExitCode run(Check *check, const Cache *cache, Error *error)
 {
     const double start = clock_seconds();
-    if (!scene_source_load_tolerantly(&check->scene, check->options, error))
+    if (!scene_source_load(&check->scene, check->options, ply_parse_tolerantly, error))
         return EXIT_SCENE;
     if (!command_files_check(check->options, &check->scene, error))
         return EXIT_OUTPUT;

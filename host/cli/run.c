@@ -71,7 +71,7 @@ bool run_load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
     const Options *options = run->options;
-    bool ok = scene_source_load(&run->scene, options, error);
+    bool ok = scene_source_load(&run->scene, options, ply_parse, error);
     const Frames *frames = &options->frames;
     const bool are_views = frames->turntable == 0 && frames->last > 0;
     const uint32_t view = are_views ? frames->last : options->view;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cli/options/options.h"
+#include "mesh/ply.h"
 #include "scene/scene.h"
 
-// As scn_load and scn_load_tolerantly do.
-bool scene_source_load(Scene *scene, const Options *options, Error *error);
-bool scene_source_load_tolerantly(Scene *scene, const Options *options, Error *error);
+// As scn_load does.
+bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error);

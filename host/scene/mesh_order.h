@@ -8,5 +8,6 @@
 typedef struct {
     MeshObject object;        // what its objects are beside their meshes
     bool takes_own_materials; // in place of the object's, where the file has any
+    bool is_plain_ply;        // PLY alone, without transforms
     PlyParse *parse;          // how meshes are read
 } MeshOrder;

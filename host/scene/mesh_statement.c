@@ -149,12 +149,6 @@ static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Erro
     return ok;
 }
 
-// Whether the statement is `mesh`, which takes any format and moves it.
-static bool is_general(const Tokens *tokens)
-{
-    return strncmp(tokens->usage, "mesh", 4) == 0;
-}
-
 // The scene's own line is named where the file itself tells no place.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
@@ -165,7 +159,7 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const Me
         return false;
     memcpy(relative, path.text, path.length);
     char *full = file_path_beside(tokens->name, relative, error);
-    const bool ok = full != NULL && (is_general(tokens) && foreign_format_is(full)
+    const bool ok = full != NULL && (!order->is_plain_ply && foreign_format_is(full)
                                          ? foreign_mesh_add(scene, full, order, &cause)
                                          : add_ply(scene, full, order, &cause, error));
     if (cause.text[0] != '\0')
@@ -177,7 +171,6 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const Me
 
 bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order)
 {
-    const bool transformable = is_general(tokens);
     const size_t count = scene->objects.count;
     const Token path = tokens_next(tokens);
     if (path.text == NULL || path.length == 0)
@@ -187,7 +180,7 @@ bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order)
     const double start = clock_seconds();
     const bool loaded = add_objects(scene, tokens, path, order);
     scene->mesh_seconds += clock_seconds() - start;
-    if (!loaded || !transformable)
+    if (!loaded || order->is_plain_ply)
         return loaded;
     const Objects added = {scene->objects.data + count, scene->objects.count - count};
     return read_transforms(tokens, added) && positions_are_kept(tokens, added);

@@ -60,13 +60,24 @@ static bool read_define(Parser *parser)
     return materials_define(parser->scene, &parser->tokens);
 }
 
-static bool read_mesh(Parser *parser)
+static bool read_mesh_file(Parser *parser, bool is_plain_ply)
 {
     MeshOrder order = {.object = parser->object,
+                       .is_plain_ply = is_plain_ply,
                        .takes_own_materials = parser->material == MATERIAL_OWN,
                        .parse = parser->parse_mesh};
     order.object.material = plain_material(parser);
     return mesh_statement_read(parser->scene, &parser->tokens, &order);
+}
+
+static bool read_mesh(Parser *parser)
+{
+    return read_mesh_file(parser, false);
+}
+
+static bool read_ply_file(Parser *parser)
+{
+    return read_mesh_file(parser, true);
 }
 
 static bool read_camera(Parser *parser)
@@ -163,7 +174,7 @@ static const struct {
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},
     {"normals", "normals smooth|flat", read_normals},
-    {"ply_file", "ply_file PATH", read_mesh},
+    {"ply_file", "ply_file PATH", read_ply_file},
     {"sides", "sides one|two", read_sides},
     {"size", "size WIDTH HEIGHT", read_size},
     {"sphere", "sphere X Y Z RADIUS", read_sphere},
@@ -239,8 +250,7 @@ static bool load_text(Parser *parser, const File *file, const char *path)
     return false;
 }
 
-static bool take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh,
-                 Error *error)
+bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error)
 {
     Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
     return mesh_scene_is_mesh(file->bytes, file->size)
@@ -248,32 +258,13 @@ static bool take(Scene *scene, const File *file, const char *name, PlyParse *par
                : load_text(&parser, file, name);
 }
 
-static bool load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
+bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
 {
     File file = {0};
     if (foreign_format_is(path))
         return mesh_scene_read_foreign(scene, path, parse_mesh, error);
-    const bool ok = file_read(&file, path, error) && take(scene, &file, path, parse_mesh, error);
+    const bool ok =
+        file_read(&file, path, error) && scn_take(scene, &file, path, parse_mesh, error);
     file_free(&file);
     return ok;
-}
-
-bool scn_load(Scene *scene, const char *path, Error *error)
-{
-    return load(scene, path, ply_parse, error);
-}
-
-bool scn_load_tolerantly(Scene *scene, const char *path, Error *error)
-{
-    return load(scene, path, ply_parse_tolerantly, error);
-}
-
-bool scn_take(Scene *scene, const File *file, const char *name, Error *error)
-{
-    return take(scene, file, name, ply_parse, error);
-}
-
-bool scn_take_tolerantly(Scene *scene, const File *file, const char *name, Error *error)
-{
-    return take(scene, file, name, ply_parse_tolerantly, error);
 }

@@ -9,7 +9,7 @@
 static bool load(Model *model, const char *path, uint32_t threads, Error *error)
 {
     Error cause = {0};
-    if (!scn_load(&model->scene, path, error))
+    if (!scn_load(&model->scene, path, ply_parse, error))
         return false;
     model->normalization = normalization_of(&model->scene);
     if (!normalization_check(&model->normalization, &model->scene, &cause))

@@ -110,7 +110,7 @@ static void check_file(Sum *sum, const char *path, uint32_t floor)
 {
     Error error = {0};
     Scene scene = {0};
-    require(scn_load(&scene, path, &error), &error);
+    require(scn_load(&scene, path, ply_parse, &error), &error);
     check_views(sum, &scene, strrchr(path, '/') + 1, floor);
     scene_free(&scene);
 }

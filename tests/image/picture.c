@@ -41,7 +41,7 @@ PictureRequest picture_request(const char *scene_path, uint32_t view)
 static bool load(Pipeline *pipeline, Error *error)
 {
     const PictureRequest *request = pipeline->request;
-    if (!scn_load(&pipeline->scene, request->scene_path, error))
+    if (!scn_load(&pipeline->scene, request->scene_path, ply_parse, error))
         return false;
     pipeline->normalization = normalization_of(&pipeline->scene);
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)

@@ -135,7 +135,7 @@ static void check(const char *path, uint32_t step)
     request.samples = 2;
     request.aovs = set_of(JUDGED);
     request.layers = &layers;
-    if (!scn_load(&scene, path, &error))
+    if (!scn_load(&scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
     draw(&request, &picture);
     const Judgment judgment = judge(&scene, &layers, step);

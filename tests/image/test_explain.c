@@ -179,7 +179,7 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
     Scene scene = {0};
     Oracle oracle = {0};
     Error error = {0};
-    if (!scn_load(&scene, bounds->path, &error) ||
+    if (!scn_load(&scene, bounds->path, ply_parse, &error) ||
         !stored_round(&scene, explainer->normalization, &error) ||
         !oracle_make(&oracle, &scene, &error))
         fail_msg("%s", error.text);

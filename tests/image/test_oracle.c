@@ -51,7 +51,7 @@ static void check(const char *path, uint32_t step)
     bool agrees = true;
     if (getenv("CLRT_FULL") != NULL)
         step = 1;
-    if (!scn_load(&scene, path, &error) || !oracle_make(&oracle, &scene, &error))
+    if (!scn_load(&scene, path, ply_parse, &error) || !oracle_make(&oracle, &scene, &error))
         fail_msg("%s", error.text);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++)
         agrees = view_agrees(&oracle, path, view, step) && agrees;

@@ -66,7 +66,7 @@ static void stored_open(Stored *stored, const char *path)
 {
     Error error = {0};
     *stored = (Stored){0};
-    if (!scn_load(&stored->scene, path, &error))
+    if (!scn_load(&stored->scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
     stored->normalization = normalization_of(&stored->scene);
     if (!stored_round(&stored->scene, &stored->normalization, &error) ||
@@ -173,7 +173,7 @@ static void check_fp32(const char *name, uint64_t share)
     Scene scene = {0};
     bool holds = true;
     snprintf(path, sizeof path, CLRT_SOURCE_FOLDER "/scenes/%s.scn", name);
-    if (!scn_load(&scene, path, &error))
+    if (!scn_load(&scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
         Framebuffer one, other;

@@ -22,7 +22,7 @@ static bool trial_make(Trial *trial, const char *scene_name, uint32_t samples, E
     PictureRequest request = picture_request(path, 1);
     request.samples = samples;
     return picture_render(&trial->picture, &request, error) &&
-           scn_load(&trial->scene, path, error) &&
+           scn_load(&trial->scene, path, ply_parse, error) &&
            oracle_make(&trial->oracle, &trial->scene, error) &&
            framebuffer_make(&trial->reference, trial->picture.width, trial->picture.height, error);
 }
