@@ -51,7 +51,7 @@ static void fp64_is_rays_over_pairs_everywhere(void **state)
 {
     (void)state;
     const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
-    const KernelRequest fp64 = {.choice = {.precision = PRECISION_FP64}};
+    const KernelRequest fp64 = {.precision = PRECISION_FP64};
     assert_choice(&fp64, &pocl, FAMILY_RAY, NODES_PAIR);
     assert_int_equal(kernel_choose(&fp64, &pocl).precision, PRECISION_FP64);
 }
