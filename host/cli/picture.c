@@ -92,10 +92,8 @@ static bool draw(Run *run, Error *error)
 {
     const CameraData camera = camera_of(run, samples_across(run));
     bool ok = true;
-    double moment = clock_seconds();
     for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->repeat; frame++)
         ok = draw_frame(run, &camera, error);
-    starter_note_traced(&run->starter, run_lap(&moment));
     run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
     run->report.tiles_done = done->tiles_done;

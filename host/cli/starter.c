@@ -106,12 +106,6 @@ void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t t
         take_choice(starter, choice);
 }
 
-void starter_note_traced(const Starter *starter, double seconds)
-{
-    if (starter->is_quick)
-        quick_kernel_note(&starter->setup, seconds);
-}
-
 bool starter_wait_device(Starter *starter, Error *error)
 {
     pthread_mutex_lock(&starter->mutex);

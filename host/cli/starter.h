@@ -41,9 +41,6 @@ bool starter_wait_device(Starter *starter, Error *error);
 // and then this changes nothing.
 void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles);
 
-// Tells how long tracing took, for later runs to choose by.
-void starter_note_traced(const Starter *starter, double seconds);
-
 // Waits for the kernel, which stands in setup.ready then.  Where it could not be made it is empty,
 // and the renderer will find the reason.
 void starter_wait_kernel(Starter *starter);

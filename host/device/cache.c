@@ -98,33 +98,3 @@ void cache_unlock(int lock)
     if (lock >= 0)
         close(lock);
 }
-
-static bool lost_path(const Cache *cache, const char *key, char path[2 * CACHE_PATH_SIZE])
-{
-    snprintf(path, 2 * CACHE_PATH_SIZE, "%s/lost-%s", cache->folder, key);
-    return cache->folder[0] != '\0';
-}
-
-// The sum is the size of a file without contents, in milliseconds: it takes no parsing, and no
-// other fault than being forgotten.
-double cache_lost(const Cache *cache, const char *key)
-{
-    char path[2 * CACHE_PATH_SIZE];
-    struct stat status;
-    const bool found = lost_path(cache, key, path) && stat(path, &status) == 0;
-    return found ? (double)status.st_size * 1e-3 : 0;
-}
-
-void cache_add_lost(const Cache *cache, const char *key, double seconds)
-{
-    char path[2 * CACHE_PATH_SIZE];
-    if (!lost_path(cache, key, path))
-        return;
-    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-    if (file < 0)
-        return;
-    const off_t sum = lseek(file, 0, SEEK_END) + (off_t)(seconds * 1e3);
-    if (ftruncate(file, sum) != 0)
-        unlink(path);
-    close(file);
-}

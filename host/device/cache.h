@@ -39,7 +39,3 @@ void cache_remove(const char *path);
 // or it cannot be locked, which only costs the protection.
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);
-
-// A sum, kept in the folder, of the seconds lost for want of the program with this key.
-double cache_lost(const Cache *cache, const char *key);
-void cache_add_lost(const Cache *cache, const char *key, double seconds);

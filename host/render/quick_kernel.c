@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Packets are compiled by the run that would lose as much without them, or after as much was lost.
+// A run compiles packets if it would lose as much time without them.
 #include "render/quick_kernel.h"
 
-// Measured: what compiling takes; and on scenes of fewer triangles than these what packets save,
-// of a core's time for each sample and as part of the time without them.
+// Measured: the time to compile; and what packets save of a core's time for each sample, on scenes
+// of fewer triangles than these.
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
-#define SAVED_PART             0.75
 
 // Kernels made as setup says, but others.
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
@@ -18,20 +17,9 @@ static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
     return other;
 }
 
-static void packet_key(const RendererSetup *setup, char key[PROGRAM_KEY_SIZE])
-{
-    const RendererSetup packets =
-        setup_with(setup, (KernelChoice){FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32});
-    const SceneTraits traits = traits_general(false);
-    program_key(setup->device, &packets.source, &traits, key);
-}
-
 static double seconds_lost(const RendererSetup *setup, const QuickKernelRun *run)
 {
-    char key[PROGRAM_KEY_SIZE];
-    packet_key(setup, key);
-    return run->samples * SAVED_PER_SAMPLE / setup->device->compute_units +
-           cache_lost(setup->cache, key);
+    return run->samples * SAVED_PER_SAMPLE / setup->device->compute_units;
 }
 
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
@@ -49,11 +37,4 @@ bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
         return false;
     *choice = quick.source.choice;
     return true;
-}
-
-void quick_kernel_note(const RendererSetup *setup, double seconds)
-{
-    char key[PROGRAM_KEY_SIZE];
-    packet_key(setup, key);
-    cache_add_lost(setup->cache, key, SAVED_PART * seconds);
 }

@@ -15,7 +15,3 @@ typedef struct {
 // then *choice is what is to take its place.
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice);
-
-// Tells that tracing took so long without packets.  When such times add up to what compiling costs,
-// packets are chosen: all runs together never take much more than twice the time they need.
-void quick_kernel_note(const RendererSetup *setup, double seconds);
