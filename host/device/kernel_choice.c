@@ -47,7 +47,7 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
 }
 
 // Platforms of implementations for CPUs that take longer to compile packets, or to trace with them,
-// than single rays take in all.  README.md has the measurements.
+// than single rays take in all.  docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -43,7 +43,7 @@ check "... what a light does" tells "light 1    reaches it from 2.82843 away; co
 check "... what is reflected" tells "reflected ray 2, of which the sample takes 0.25"
 check "... the background's part" tells "the background (0, 0, 1), of which the sample takes 0.125"
 check "... and the color" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 101 101 133"
-check "README shows the same" python3 -c "import sys; sys.exit(open('out').read() not in open('$source/README.md').read())"
+check "docs/explaining.md shows the same" python3 -c "import sys; sys.exit(open('out').read() not in open('$source/docs/explaining.md').read())"
 check "a corner sees the background" run 0 mirrors.scn --explain-pixel 0,4
 check "... and says so" tells "meets      nothing"
 check "JSON is written to standard output" run 0 mirrors.scn --explain-pixel 2,2 --json

@@ -83,6 +83,14 @@ class Pages(unittest.TestCase):
         for name in COMMANDS:
             self.assertRegex(page, rf"COMMANDS .*{name} [A-Z]")
 
+    def test_the_readme_shows_a_scene_that_is_there(self):
+        self.assertIn((ROOT / "scenes/ball.scn").read_text(), (ROOT / "README.md").read_text())
+
+    def test_links_of_the_docs_lead_somewhere(self):
+        for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+            for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
+                self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_every_statement_of_scenes_is_in_their_page(self):
         page = read_page(PAGES[1])

@@ -145,9 +145,9 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", build)
         self.assertEqual(run(build / "picture"), self.expected)
 
-    def test_the_readme_shows_the_example(self):
+    def test_the_docs_show_the_example(self):
         code = EXAMPLE.read_text().split("\n", 1)[1]
-        self.assertIn(f"```c\n{code}```\n", (TESTS.parent / "README.md").read_text())
+        self.assertIn(f"```c\n{code}```\n", (TESTS.parent / "docs/library.md").read_text())
 
     def test_the_library_is_the_version_that_pkg_config_tells(self):
         version = text_of("pkg-config", "--modversion", "clrt", env=self.environment).strip()

@@ -17,6 +17,7 @@ foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian"
   install(FILES ${folder}/${name}.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Debian's archive has no wish for the package that its changelog could close.  Of what lintian -I
 # tells beside errors and warnings, CPack's strip leaves the compilers' names (.comment) in, versions
