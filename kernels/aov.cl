@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of --aov: what lies behind a picture's colors, pixel by pixel, found by the search
-// that draws it.  They are compiled behind render.cl, and only where they are wanted.
+// The kernels of --aov write per-pixel data beside the color, found by the search that renders the
+// picture. They are compiled after render.cl, and only if requested.
 
 static inline Truth light_reaches(const SceneView *scene, const FrameData *frame, uint index,
                                   const Surface *surface, Truth met)
@@ -22,7 +22,7 @@ static inline Count lights_reaching(const SceneView *scene, const FrameData *fra
     return lights;
 }
 
-// PathData, lane by lane.
+// PathData, one per lane.
 typedef struct {
     Real3 point, normal;
     Real depth;
@@ -41,7 +41,7 @@ static inline Path path_to(const SceneView *scene, const FrameData *frame, const
                   .lights = lights_reaching(scene, frame, surface, met)};
 }
 
-// Follows the ray as trace does, without colors.
+// Follows the ray as trace does, without computing colors.
 static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ray)
 {
     Path path = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
@@ -75,7 +75,8 @@ static inline void store_path(global PathData *data, const Path *path, uint lane
     data->bounces = LANE_OF(uint, path->bounces, lane);
 }
 
-// The place of a lane's pixel in the tile, or false where it lies outside.
+// Computes the index of a lane's pixel in the tile. Returns false if the pixel lies outside the
+// tile.
 static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, size_t *place)
 {
     const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
@@ -90,7 +91,7 @@ static inline Places places_at(const FrameData *frame, uint2 corner)
                     column < frame->tile_width && row < frame->tile_height};
 }
 
-// Fills paths, one for each pixel of the tile, of a frame with one sample a pixel.
+// Fills paths with one entry per pixel of the tile. The frame has one sample per pixel.
 kernel void trace_paths(const FrameData frame, global const PointLight *lights,
                         global const Material *materials, global const SphereData *spheres,
                         global const Node *nodes, global const Triangles *triangles,
@@ -112,8 +113,8 @@ kernel void trace_paths(const FrameData frame, global const PointLight *lights,
         }
 }
 
-// Fills tallies, TALLY_KINDS counts for each pixel of the tile: what all its samples cost, each ray
-// traced alone.  Rays of one packet share their tests, so that no pixel has any of its own.
+// Fills tallies with TALLY_KINDS counts per pixel of the tile: the cost of all its samples. Each
+// ray is traced alone, because the rays of a packet share tests that belong to no single pixel.
 kernel void count_tests(const FrameData frame, global const PointLight *lights,
                         global const Material *materials, global const SphereData *spheres,
                         global const Node *nodes, global const Triangles *triangles,

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty: decides the ray tree of each pixel again with thick rays
-// (thick.cl). Where no rounding of the tracer in fp32 could have changed any decision, the pixel is
-// certified; where that holds of the tracer in fp64 alone, it is repaired: it gets that one's
-// color.  The others are open.  It is compiled behind render.cl with CLRT_FP64, and only where it
-// is wanted.
+// The kernel of --aov certainty decides each pixel's ray tree again with thick rays (thick.cl). A
+// pixel is certified if no rounding of the fp32 tracer could change a decision. It is repaired if
+// that holds only for the fp64 tracer, whose color it then gets. All other pixels are open. The
+// kernel is compiled after render.cl with CLRT_FP64, and only if requested.
 #include "sure_surface.cl"
 
-// What has been decided, as a tracer of real arithmetic would.
+// The decisions so far, as a tracer in real arithmetic would make them.
 typedef struct {
-    uint first_id, lit, signature; // as a CertaintyMark's
+    uint first_id, lit, signature; // as in CertaintyMark
 } Decisions;
 
 static inline void note_decision(Decisions *decisions, uint word)
@@ -17,7 +16,7 @@ static inline void note_decision(Decisions *decisions, uint word)
     decisions->signature = mixed ^ mixed >> 15;
 }
 
-// Of a light and a point: it is turned away, sees the light, or does not.
+// A point's relation to a light: turned away, lit, in shadow, or undecided.
 typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightSight;
 
 static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
@@ -34,7 +33,7 @@ static inline LightSight surely_seen(const SceneView *scene, const FrameData *fr
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
 }
 
-// Fills lit for the first 32 lights.
+// Sets the bits of lit for the first 32 lights.
 static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
                                  const FatSurface *surface, Real u, Decisions *decisions)
 {
@@ -53,7 +52,7 @@ static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
     return true;
 }
 
-// The decisions of a sample's ray tree; false where one of them is not certain.
+// Makes the decisions of a sample's ray tree. Returns false if one of them is not certain.
 static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 sample, Real u,
                           Decisions *decisions)
 {
@@ -83,7 +82,8 @@ static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 
     return true;
 }
 
-// Decides a pixel as its least certain sample; the decisions are those of its last.
+// Returns the certainty of the pixel's least certain sample. decisions receives the decisions of
+// its last sample.
 static inline Certainty decide_pixel(const SceneView *scene, const FrameData *frame, uint2 pixel,
                                      Decisions *decisions)
 {
@@ -100,8 +100,8 @@ static inline Certainty decide_pixel(const SceneView *scene, const FrameData *fr
     return certainty;
 }
 
-// marks holds a mark for each pixel of the tile, pixels a color for those that are repaired.  The
-// range is padded to whole work-groups.
+// marks holds one mark per pixel of the tile. pixels holds one color per pixel; only those of
+// repaired pixels are written. The range is padded to whole work-groups.
 kernel void certify_tile(const FrameData frame, global const PointLight *lights,
                          global const Material *materials, global const SphereData *spheres,
                          global const Node *nodes, global const Triangles *triangles,

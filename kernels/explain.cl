@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --explain-pixel: one sample traced as trace does, with the same functions, by a
-// single work-item in its first lane, which writes down what it finds (shared.h).  It is compiled
-// behind render.cl, and only where it is wanted.
+// The kernel of --explain-pixel traces one sample with the functions that trace uses. A single
+// work-item traces it in its first lane and records the path (shared.h). The kernel is compiled
+// after render.cl, and only if requested.
 
 typedef struct {
     global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights
-    global uint *words;    // LEVEL_WORDS and LIGHT_WORDS, likewise
+    global uint *words;    // LEVEL_WORDS for each level, then LIGHT_WORDS for each of its lights
 } Notes;
 
 static inline Notes level_notes(const Notes *notes, const FrameData *frame, uint level)
@@ -38,7 +38,7 @@ static inline void note_count(const Notes *notes, uint place, Count value)
     notes->words[place] = ((const uint *)&value)[0];
 }
 
-// How far t may be from where the ray truly meets the triangle: the depth's bound (triangle.cl).
+// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.cl).
 static inline Real triangle_error(const SceneView *scene, const Ray *ray, Count index)
 {
     const Corners corners = fetch_corners(scene, index);
@@ -57,10 +57,11 @@ static inline Real size_of3(Real3 v)
     return size.x + size.y + size.z;
 }
 
-// The same for a sphere, from what is left of |origin + t * direction - center|^2 - radius^2, which
-// is 0 at its two roots and |direction|^2 times the product of the distances to them elsewhere: the
-// nearer root is within the square root of that, and within twice a step of Newton's where the
-// ray does not graze.  64 units of two-float rounding are allowed for evaluating it.
+// Bounds the error of t at a sphere hit from the residual of |origin + t * direction - center|^2 -
+// radius^2. The residual is 0 at both roots; elsewhere it is |direction|^2 times the product of
+// the distances to them. The nearer root is therefore within the square root of |residual| /
+// |direction|^2. Where the ray does not graze, it is also within twice a Newton step. Evaluating
+// the residual is allowed 64 units of two-float rounding.
 static inline Real sphere_error(const SceneView *scene, const Ray *ray, Count index, Real t)
 {
     const Sphere sphere = fetch_sphere(scene, index);
@@ -84,7 +85,7 @@ static inline Real hit_error(const SceneView *scene, const FrameData *frame, con
     return triangle_error(scene, ray, hit->index);
 }
 
-// What a light does for the surface, as receive_light has it.
+// Records a light's contribution to the surface, as receive_light computes it.
 static inline void note_light(const Notes *notes, const SceneView *scene, const FrameData *frame,
                               uint index, const Lighting *lighting)
 {
@@ -122,7 +123,7 @@ static inline void note_hit(const Notes *notes, const SceneView *scene, const Fr
     note(notes, LEVEL_ERROR, hit_error(scene, frame, ray, &hits));
 }
 
-// The surface, and what each light does for it.
+// Records the surface and each light's contribution to it.
 static inline void note_surface(const Notes *notes, const SceneView *scene, const FrameData *frame,
                                 const Lighting *lighting)
 {
@@ -135,8 +136,8 @@ static inline void note_surface(const Notes *notes, const SceneView *scene, cons
     }
 }
 
-// trace, with notes; end receives how many rays there are, and in its place 3 the weight of the
-// background in the color.
+// Traces like trace and records the path. end receives the number of rays and, at index 3, the
+// background's weight in the color.
 static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame, Ray ray,
                                  const Notes *notes, const Notes *end)
 {
@@ -171,9 +172,9 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
     return sum3(color, scaled3(weight, load_private3(frame->background)));
 }
 
-// Traces the sample in column and row of the picture's samples.  values and words have room for
-// max_level levels; result receives the color in steps of 2^-32 and the background's weight in it,
-// and count how many levels there are.
+// Traces the sample at a column and row of the picture's sample grid. values and words hold
+// max_level levels. result receives the color in steps of 2^-32 and the background's weight in it;
+// count receives the number of levels.
 kernel void explain_sample(const FrameData frame, global const PointLight *lights,
                            global const Material *materials, global const SphereData *spheres,
                            global const Node *nodes, global const Triangles *triangles,

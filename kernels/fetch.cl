@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads what a hit needs of the scene, lane by lane.  Where all lanes want the same, which is the
-// rule on large triangles and for materials, one read serves them all.
+// Reads the scene data of a hit, lane by lane. If all lanes need the same record, one read serves
+// them all. This is the common case for large triangles and for materials.
 #ifndef CLRT_FETCH_CL
 #define CLRT_FETCH_CL
 #include "ray.cl"
@@ -8,14 +8,14 @@
 
 typedef struct {
     Count material; // index
-    Count normals;  // index of the corners' normals, NOTHING where the triangle is flat
+    Count normals;  // index of the vertex normals, NOTHING for flat triangles
 } Look;
 
-// Where a record of words begins, for each lane.
+// The address of a record of words, for each lane.
 typedef struct {
     global const uint *words;
     Count place;
-    bool shared; // all lanes have the same place
+    bool shared; // all lanes have the same address
 } Record;
 
 #if CLRT_LANES == 1
@@ -76,7 +76,7 @@ static inline Real3 record_real3(const Record *record, uint offset, uint stride)
 
 #define WORDS(type) ((uint)(sizeof(type) / sizeof(uint)))
 
-// Index counts triangles; in blocks it is block * WIDE + place.
+// index counts triangles; in blocks it is block * WIDE + slot.
 static inline Corners fetch_corners(const SceneView *scene, Count index)
 {
 #if CLRT_WIDE_NODES
@@ -104,7 +104,7 @@ static inline Look fetch_look(const SceneView *scene, const Hit *hit, uint spher
 #endif
 }
 
-// The corners' normals as if they were corners.
+// Returns the vertex normals as Corners.
 static inline Corners fetch_normals(const SceneView *scene, Count normals)
 {
     const Record record = record_at(scene->normals, normals * WORDS(CornerNormals));

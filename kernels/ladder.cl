@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The kernel of error and time goals: requests for samples of pixels -> sums over these samples.
-// It is compiled behind render.cl, and only where it is wanted.
+// The kernel of error and time goals turns requests for samples of pixels into sums over these
+// samples. It is compiled after render.cl, and only if requested.
 
-// Requests that a work-item answers.
+// Requests per work-item.
 #define ITEM_REQUESTS (BLOCK * BLOCK)
 
-// Color values are rounded to this many bits before they are squared, so that the sum of the
-// squares of LADDER_GRID samples fits into 64 bits.
+// Color values are rounded to this many bits before squaring, so that the sum of squares of
+// LADDER_GRID samples fits into 64 bits.
 #define SQUARED_BITS 24
 
-// The samples of a packet: pixels, and places within them in halves of a sub-pixel.
+// The samples of a packet: pixels, and positions within them in halves of a sub-pixel.
 typedef struct {
     Count pixel_x, pixel_y, x, y;
     Truth active;
@@ -35,7 +35,7 @@ static inline Count lookup(constant const uint *words, Count place)
 }
 #endif
 
-// Samples start to start + CLRT_LANES - 1 of a list of requests that all have as many samples.
+// Returns samples start to start + CLRT_LANES - 1 of a list of requests with equal sample counts.
 static inline PixelSamples samples_of(global const PixelRequest *requests, uint samples, uint start,
                                       uint end)
 {
@@ -51,7 +51,7 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
                           is_center ? (Count)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
-// Colors in steps of 2^-32.
+// Returns colors in steps of 2^-32.
 static inline Real3 pixel_sample_color(const SceneView *scene, const FrameData *frame,
                                        const PixelSamples *samples, Tally *tally)
 {
@@ -91,7 +91,7 @@ static inline void add_samples(PixelSums *sums, Real3 color)
     sums->squares += sum_of_lanes(squares_of(color));
 }
 
-// Stores the sums of the requests that a packet holds whole.
+// Stores the sums of all requests that lie entirely within a packet.
 static inline void store_sums(global PixelSums *sums, Real3 color, uint samples, uint count)
 {
     const LongCount red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
@@ -109,9 +109,9 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
-// Requests first to end - 1, which all have as many samples, are answered by the same elements of
-// sums.  A work-item answers ITEM_REQUESTS that follow each other; tallies are written where they
-// begin, and only where statistics are compiled in.
+// Serves requests first to end - 1, all with the same sample count, into the same elements of
+// sums. A work-item serves ITEM_REQUESTS consecutive requests. Tallies are written at the first of
+// them, and only if statistics are compiled in.
 kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
                          global const Material *materials, global const SphereData *spheres,
                          global const Node *nodes, global const Triangles *triangles,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the tracer computes with: Real, Truth and Count.  In the ray family they are a Scalar, an
-// int and a uint, one ray a work-item, and every function reads as plain scalar code.  In the
-// packet family they are vectors with a ray in each lane: comparisons give -1 or 0 lane by lane, &&
-// || ! and ?: choose lane by lane, and one text serves both, so that both compute the same bits.
+// The tracer's number types: Real, Truth and Count. In the ray family they are a Scalar, an int
+// and a uint: a work-item traces one ray, and every function reads as scalar code. In the packet
+// family they are vectors with one ray per lane: comparisons return -1 or 0 per lane, and && || !
+// and ?: select per lane. Both families compile the same source, so they compute the same bits.
 #ifndef CLRT_LANES_CL
 #define CLRT_LANES_CL
 #include "precision.h"
@@ -10,7 +10,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// As many lanes as the target's registers hold; drivers report the same native width for all.
+// As many lanes as the target's registers hold. Drivers report one native width for all types.
 #if !CLRT_WIDE_NODES
 #undef CLRT_LANES
 #define CLRT_LANES 1
@@ -24,15 +24,15 @@
 #endif
 #endif
 
-// Where texts are compiled for more than one type (vector.cl), functions are told apart by their
-// arguments, which takes clang's attribute; the plain ray family does without.
+// Source that is compiled for several types (vector.cl) overloads functions by their arguments.
+// Overloading needs a clang attribute, which the plain ray family does without.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
 #else
 #define OVERLOAD
 #endif
 
-// The compiler's own judgment of what to inline costs up to a sixth of the speed here.
+// The compiler's own inlining decisions cost up to a sixth of the speed here.
 #define NOT_INLINE    __attribute__((noinline))
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
@@ -76,8 +76,9 @@ typedef Count Bits;
 #define to_long FOR_LANES(convert_ulong)
 #endif
 
-// One bit for each lane that is true.  x86 has an instruction for this; without it, each lane is
-// given its bit and a tree of ORs gathers them, a fifth slower over a whole picture.
+// Returns one bit for each true lane. x86 has an instruction for this. The fallback masks each
+// lane with its bit and combines them by a tree of ORs, which makes a whole picture a fifth
+// slower.
 static inline uint OVERLOAD lane_bits(int truth)
 {
     return truth != 0;
@@ -129,7 +130,7 @@ static inline Count gather(global const uint *words, Count place)
     return words[place];
 }
 
-// A float of the scene, given as a word.
+// Returns a float of the scene that is given as a word.
 static inline Real stored_real(Count word)
 {
     return as_float(word);
@@ -149,7 +150,7 @@ static inline Truth lanes_of(uint bits)
     return ((Count)(bits)&lane) != 0;
 }
 
-// words[place], lane by lane.
+// Returns words[place], lane by lane.
 static inline Count gather(global const uint *words, Count place)
 {
 #define GATHER_4(p)  words[p.s0], words[p.s1], words[p.s2], words[p.s3]

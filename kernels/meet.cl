@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Packets through the tree of wide nodes (Wald, Slusallek, Benthin and Wagner, "Interactive
-// rendering with coherent ray tracing", 2001).  Bounds over the packet's rays cull a node's
+// Traces packets through the tree of wide nodes (Wald, Slusallek, Benthin and Wagner, "Interactive
+// rendering with coherent ray tracing", 2001). Bounds over the packet's rays cull a node's
 // children (Boulos, Wald and Shirley, "Geometric and arithmetic culling methods for entire ray
-// packets", 2006), then each child is tested against all lanes when its turn comes.
+// packets", 2006). Each remaining child is tested against all lanes when it is popped.
 #ifndef CLRT_MEET_CL
 #define CLRT_MEET_CL
 #include "packet.cl"
 
 #if CLRT_WIDE_NODES
 
-// Smaller parts are faster one by one.
+// Fewer rays than this are faster one by one.
 #define SMALLEST_PACKET 6
 
-// A packet whose tests of a box against all lanes find fewer lanes inside than this on average has
-// fallen apart, and its rays start again alone.  The credit bridges bad luck at the start.
+// A packet has diverged when its box tests find fewer lanes inside than this on average. Its rays
+// then restart alone. The credit tolerates a poor start.
 #define LANES_PER_TEST 2
 #define PACKET_CREDIT  64
 
@@ -23,7 +23,7 @@ static inline float8 node_plane(global const BvhWide *node, const Packet *packet
     return vload8(0, node->planes[axis][packet->negative[axis] ^ other]);
 }
 
-// The children that some ray of the packet may meet before `reach`.
+// Returns the children that some ray of the packet may enter before `reach`.
 static inline int8 children_near(global const BvhWide *node, const Packet *packet, float reach,
                                  float8 *entry)
 {
@@ -37,7 +37,7 @@ static inline int8 children_near(global const BvhWide *node, const Packet *packe
     return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
 }
 
-// The lanes whose rays are in the child's box before they reach what they have hit.
+// Returns the lanes whose rays enter the child's box before their current hit.
 static inline Truth lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
                                    Real reach)
 {
@@ -54,11 +54,11 @@ static inline Truth lanes_in_child(global const BvhWide *node, uint child, const
     return entry <= min(min(far_x, far_y), min(far_z, reach));
 }
 
-// Where a packet's search stands.  Children wait as WIDE * node + place.
+// The state of a packet's search. The stack stores children as WIDE * node + slot.
 typedef struct {
     WideWaiting waiting;
-    Truth searching; // lanes that a shadow ray's hit has not ended
-    float farthest;  // distance of the searching lanes' hits
+    Truth searching; // lanes not yet ended by a shadow ray's hit
+    float farthest;  // largest hit distance of the searching lanes
     int credit;
     Hit *best;
 } PacketWalk;
@@ -71,7 +71,7 @@ static inline void expand_node(PacketWalk *walk, const SceneView *scene, const P
     wait_for(&walk->waiting, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
 }
 
-// The lanes that go on into the child.
+// Returns the lanes that enter the child.
 static inline uint lanes_to_child(PacketWalk *walk, const SceneView *scene, const Packet *packet,
                                   uint child, Tally *tally)
 {
@@ -91,7 +91,7 @@ static inline void note_hits(PacketWalk *walk, bool is_shadow)
     walk->farthest = highest(walk->searching ? walk->best->t : (Real)(0.0f));
 }
 
-// Returns the lanes left over when the packet is given up.
+// Returns the remaining lanes if the packet is abandoned, else 0.
 static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
                                    Tally *tally)
 {
@@ -127,7 +127,7 @@ static inline uint traverse_packet(const SceneView *scene, const Packet *packet,
     return 0;
 }
 
-// What a packet's rays must share: the signs of their directions and the longest axis.
+// Returns the class that the rays of a packet must share: direction signs and longest axis.
 static inline Count ray_classes(Real3 direction)
 {
     const ShearAxes axes = shear_axes(direction);
@@ -136,7 +136,7 @@ static inline Count ray_classes(Real3 direction)
     return axes.z * 8 + x * 4 + y * 2 + z;
 }
 
-// Returns the lanes left over, whose rays have to search alone.
+// Returns the remaining lanes, whose rays have to search alone.
 static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *frame,
                                      const Packet *packet, Hit *best, Tally *tally)
 {
@@ -159,8 +159,8 @@ static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *fr
     return left;
 }
 
-// Rays that share signs and longest axis with enough others go as a packet, the rest alone.
-// Without a tree there is nothing to walk, and all go as packets.
+// Rays that share signs and longest axis with enough others form a packet; the rest search alone.
+// Without a tree there is no traversal, and all rays form packets.
 static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
                            Hit *best, Tally *tally)
 {

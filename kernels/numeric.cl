@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arithmetic the tracer's decisions rest on.  Contraction is off, every wanted fma is written, and
-// nothing but + - * / sqrt fma, comparisons and integers takes part in a picture, so that its bits
-// are the same on every device that rounds these correctly.
+// The arithmetic of the tracer's decisions. Contraction is off and every fma is explicit. A
+// picture depends only on + - * / sqrt fma, comparisons and integers, so every device that rounds
+// these correctly computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
 #include "types.cl"
@@ -11,7 +11,7 @@ static inline Real3 real3_of(Real x, Real y, Real z)
     return (Real3){x, y, z};
 }
 
-// The same three components in every lane.
+// Loads the same three components into every lane.
 static inline Real3 load3(global const float *components)
 {
     return real3_of(components[0], components[1], components[2]);
@@ -47,8 +47,8 @@ static inline bool any_lane(Truth truth)
     return lane_bits(truth) != 0;
 }
 
-// v at length 1; zero stays zero.  A power of two is taken out first (exactly), so that squares
-// neither over- nor underflow for lengths between 2^-100 and 2^100.
+// Returns v scaled to length 1; zero stays zero. A power of two is divided out first, which is
+// exact. Squares then neither overflow nor underflow for lengths between 2^-100 and 2^100.
 static inline Real3 unit_vector(Real3 v)
 {
     const Real extent = largest_component(v);
@@ -63,8 +63,8 @@ static inline Real unless_tiny(Real power)
     return power < 0x1p-100f ? 0.0f : power;
 }
 
-// base^exponent by squaring: bit-reproducible, and a twentieth of the cost of pow.  base lies in
-// [0, 1]; powers below 2^-100 become zero, which devices that flush denormals agree on.
+// Returns base^exponent by squaring: bit-reproducible, at a twentieth of the cost of pow. base
+// lies in [0, 1]. Powers below 2^-100 become zero, so devices that flush denormals agree.
 static inline Real integer_power(Real base, Count exponent)
 {
     Real result = 1.0f;
@@ -79,11 +79,11 @@ static inline Real integer_power(Real base, Count exponent)
 // The quotient of two literals, rounded once to a Real.
 #define RATIO(a, b) ((Real)(a) / (Real)(b))
 
-// (2 atanh(z) - 2 z) / z^3 for s = z^2 up to 0.04.
+// Returns (2 atanh(z) - 2 z) / z^3 for s = z^2 up to 0.04.
 static inline Real log_series(Real s)
 {
     Real series = RATIO(2.0f, 13.0f);
-    if (CLRT_FP64) { // float is exact with the seven terms below
+    if (CLRT_FP64) { // the seven terms below suffice for float
         series = fma(RATIO(2.0f, 21.0f), s, RATIO(2.0f, 19.0f));
         series = fma(series, s, RATIO(2.0f, 17.0f));
         series = fma(series, s, RATIO(2.0f, 15.0f));
@@ -96,8 +96,8 @@ static inline Real log_series(Real s)
     return fma(series, s, RATIO(2.0f, 3.0f));
 }
 
-// log(1 + x) for x in (-1, 0], through 2 atanh(x / (2 + x)), whose series is short for the
-// remainder, in [3/4, 3/2), that a power of two leaves.
+// Returns log(1 + x) for x in (-1, 0], through 2 atanh(x / (2 + x)). Dividing out a power of two
+// leaves a remainder in [3/4, 3/2), for which the series is short.
 static inline Real log_one_plus(Real x)
 {
     const Truth is_far = x < -0.25f;
@@ -112,7 +112,7 @@ static inline Real log_one_plus(Real x)
     return fma(power, (Real)(LN2_HIGH), fma(power, (Real)(LN2_LOW), logarithm));
 }
 
-// exp(r) for r up to log(2) / 2 in size.
+// Returns exp(r) for |r| up to log(2) / 2.
 static inline Real exponential_series(Real r)
 {
     Real series = RATIO(1.0f, 5040.0f);
@@ -133,7 +133,7 @@ static inline Real exponential_series(Real r)
     return fma(series, r, (Real)(1.0f));
 }
 
-// exp(x) for x <= 0; below 2^-100 zero, as above.
+// Returns exp(x) for x <= 0. Results below 2^-100 are zero, as in integer_power.
 static inline Real exponential(Real x)
 {
     const Truth is_tiny = !(x > -69.0f);

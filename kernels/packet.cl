@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Packets: rays that share their signs and their longest axis, with bounds over all of them, and
-// how they are tested against a block of triangles.  Bounds cull triangles eight at a time, then
-// each triangle that is left is tested against all lanes at once by triangle.cl's operations.
+// Packets of rays that share their signs and longest axis, with bounds over all rays, and their
+// test against a block of triangles. The bounds cull eight triangles at a time. Each remaining
+// triangle is tested against all lanes at once with triangle.cl's operations.
 #ifndef CLRT_PACKET_CL
 #define CLRT_PACKET_CL
 #include "wide.cl"
 
 #if CLRT_WIDE_NODES
 
-// A block entered by this many lanes or fewer is tested for each alone, all triangles at once.
+// In a block entered by this many lanes or fewer, each lane is tested alone against all triangles.
 #define MOST_LANES_ALONE 2
 
-// The rays of a packet that share their signs and their longest axis, with bounds over all of
-// them.
+// Rays that share their signs and longest axis, with bounds over all of them.
 typedef struct {
-    Search rays; // lanes that take no part copy one that does
+    Search rays; // inactive lanes copy an active one
     Truth active;
     Real3 ordered_origin; // in the order of the axes
     uint axes[3];
-    uint negative[3]; // which plane of an axis the rays meet first
+    uint negative[3]; // which plane of an axis the rays enter by
     // Bounds over all lanes: distance to a plane = fma(plane, inverse_low, near_low) ...
     float inverse_low[3], inverse_high[3];
     float near_low[3], near_high[3], far_low[3], far_high[3];
@@ -53,7 +52,7 @@ static inline float highest(Real v)
     return max(c.x, c.y);
 }
 
-// The origin that lies farthest along makes entries early, the one farthest back leaves late.
+// The origin farthest forward gives the earliest entry, the one farthest back the latest exit.
 static inline void packet_bounds(Packet *packet, uint axis, Real origin, Real slack, Real inverse)
 {
     const float low = lowest(inverse), high = highest(inverse);
@@ -71,14 +70,14 @@ static inline void packet_bounds(Packet *packet, uint axis, Real origin, Real sl
     packet->far_high[axis] = -far * high;
 }
 
-// Component `axis` of all lanes.
+// Returns component `axis` of all lanes.
 static inline Real on_axis(const Real3 *v, uint axis)
 {
     return (&v->x)[axis];
 }
 
-// The rays have origins o and directions d, longest along the axis z.  Their inverse on that axis
-// is the shear's: no other is as long, so the slabs leave it as it is.
+// Prepares rays with origins o and directions d, longest along the axis z. On that axis the slabs
+// use the shear's inverse unchanged, because no other component is as long.
 static inline void packet_prepare(Packet *packet, Real3 o, Real3 d, uint z)
 {
     Search *rays = &packet->rays;
@@ -93,8 +92,8 @@ static inline void packet_prepare(Packet *packet, Real3 o, Real3 d, uint z)
     packet->axes[0] = x;
     packet->axes[1] = y;
     packet->axes[2] = z;
-    // Beside the origin's own, the slack that nodes have and boxes of single triangles lack:
-    // their coordinates are at most 1.
+    // The origin's own slack, plus the slack that nodes have and boxes of single triangles lack.
+    // Triangle coordinates are at most 1.
     const Real slack = BVH_SLACK * (largest_component(o) + 1.0f);
     packet_bounds(packet, 0, o.x, slack, rays->inverse.x);
     packet_bounds(packet, 1, o.y, slack, rays->inverse.y);
@@ -112,7 +111,7 @@ static inline Real3 filled(Real3 v, Truth lanes, uint lane)
                     lanes ? v.z : one_lane(v.z, lane));
 }
 
-// Gathers the lanes whose bits are set, which share signs and the longest axis, into a packet.
+// Gathers the lanes whose bits are set into a packet. They share signs and longest axis.
 static inline void packet_gather(Packet *packet, const SceneView *scene, const Ray *ray, uint bits,
                                  uint longest_axis)
 {
@@ -127,7 +126,7 @@ static inline void packet_gather(Packet *packet, const SceneView *scene, const R
     packet_prepare(packet, origin, direction, longest_axis);
 }
 
-// Bounds of the distances at which the rays meet the planes of an axis.
+// Bounds the distances at which the rays cross an axis's planes.
 static inline float8 entry_bound(float8 plane, const Packet *packet, uint axis)
 {
     const float8 low =
@@ -146,7 +145,7 @@ static inline float8 leave_bound(float8 plane, const Packet *packet, uint axis)
     return max(low, high);
 }
 
-// The side of the triangles' boxes that the rays meet first, or the other.
+// Returns the planes of the triangles' boxes that the rays enter by, or the opposite ones.
 static inline float8 block_plane(global const TriangleBlock *block, const Packet *packet, uint axis,
                                  uint other)
 {
@@ -155,8 +154,8 @@ static inline float8 block_plane(global const TriangleBlock *block, const Packet
     return (packet->negative[axis] ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
-// The triangles that some ray of the packet may meet before `reach`: a third of a block's, and
-// testing each of them against all lanes costs as much as this.
+// Returns the triangles that some ray of the packet may hit before `reach`: a third of a block's.
+// Testing one triangle against all lanes costs as much as this call.
 static inline uint triangles_near(global const TriangleBlock *block, const Packet *packet,
                                   float reach)
 {
@@ -177,15 +176,14 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
                     at->block->corners[corner][2][at->place]);
 }
 
-// What the rays of a packet have found out about a triangle: the lanes whose rays its edges
-// contain.
+// The result of testing a packet against a triangle: the lanes whose rays pass inside its edges.
 typedef struct {
     Corners sheared;
     Edges edges;
     Truth inside;
 } PacketTest;
 
-// Which of the rays stop on a triangle that their lines meet within rounding of their own.
+// Returns which rays stop on a triangle that their lines hit within rounding of the ray's own.
 static NOT_INLINE Truth packet_stops(const Corners *corners, const Packet *packet, Truth from_back)
 {
     const Ray *ray = packet->rays.ray;
@@ -194,7 +192,7 @@ static NOT_INLINE Truth packet_stops(const Corners *corners, const Packet *packe
     return known && meets_neighbor(&own, corners, ray->direction, from_back);
 }
 
-// Where those rays stop on it; INFINITY where they do not, or not before `reach`.
+// Returns the distances of those hits, INFINITY for rays that do not stop before `reach`.
 static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
                                     const PacketTest *test, Real reach)
 {
@@ -229,7 +227,7 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     return near ? (in_doubt && stops ? max(t, (Real)(0.0f)) : distance) : INFINITY;
 }
 
-// Corners of a block's triangles relative to an origin that all rays share: [corner][axis].
+// Corners of a block's triangles relative to the rays' common origin: [corner][axis].
 typedef struct {
     float rows[3][3][WIDE];
 } RelativeBlock;
@@ -257,7 +255,7 @@ static inline Real3 relative_corner(const RelativeBlock *relative, uint corner, 
                     relative->rows[corner][2][place]);
 }
 
-// The same where each ray has an origin of its own.
+// Returns a corner relative to each ray's own origin.
 static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet *packet)
 {
     const Real3 o = packet->ordered_origin;
@@ -289,8 +287,8 @@ static inline BlockPlace place_of(const BlockPlace *start, uint place)
     return (BlockPlace){start->block, place, start->index + place};
 }
 
-// Tests the triangles of a block against the packet's rays in `lanes`, none of which looks beyond
-// `reach`; tells whether a hit changed.
+// Tests a block's triangles against the packet's rays in `lanes`, whose hits all lie within
+// `reach`. Returns whether a hit changed.
 static ALWAYS_INLINE bool test_packet_block(const BlockPlace *start, const Packet *packet,
                                             Truth lanes, float reach, Hit *best)
 {
@@ -318,7 +316,7 @@ static ALWAYS_INLINE bool test_packet_block(const BlockPlace *start, const Packe
     return changed;
 }
 
-// The same for lanes given as bits: where they are few, each is tested alone.
+// Like test_packet_block, for lanes given as bits. If they are few, each is tested alone.
 static ALWAYS_INLINE bool test_packet_leaf(const BlockPlace *start, const Packet *packet, uint bits,
                                            float reach, Hit *best)
 {

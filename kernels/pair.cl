@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// One ray through the binary tree, the plain form of the search: for GPUs and for reading.
-// Boxes only cull, and never a triangle the exact test would accept: each is grown by BVH_SLACK
-// times its largest coordinate by the host, and the ray's origin is moved against each plane by
-// BVH_SLACK times its largest coordinate here, which covers the rounding of the triangle's
-// acceptance and of the slabs (shared.h).  So the answer is the same for every tree, for every
-// order of visits and for no tree at all.
+// The plain search, for GPUs and for reading: one ray traverses the binary tree. Boxes only cull,
+// and never a triangle that the exact test would accept. The host grows each box by BVH_SLACK
+// times its largest coordinate. This file moves the ray's origin away from each plane by BVH_SLACK
+// times the origin's largest coordinate. Together they cover the rounding of the triangle test and
+// of the slabs (shared.h). The hit is therefore the same for every tree, for every traversal order
+// and without a tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
 #include "fetch.cl"
 
 #if !CLRT_WIDE_NODES
 
-// A ray as the triangle test and the slab test want it.  The slabs are six planes' constants:
+// A ray prepared for the triangle and slab tests. The slabs are the constants of six planes:
 // distance to a plane = fma(plane, inverse, offset).
 typedef struct {
     const SceneView *scene;
@@ -19,11 +19,11 @@ typedef struct {
     Shear shear;
     Real3 origin; // in the order of the axes
     Real3 inverse, near_offset, far_offset;
-    uint negative_x, negative_y, negative_z; // which plane of each axis the ray meets first
+    uint negative_x, negative_y, negative_z; // which plane of each axis the ray enters by
 } Query;
 
-// A zero direction is replaced by 2^-30 of the largest, so that no infinity or NaN can arise from
-// rays whose largest component is above 2^-96; shorter ones have no length to speak of.
+// A zero direction becomes 2^-30 of the largest component. No infinity or NaN can then arise from
+// rays whose largest component exceeds 2^-96; shorter ones have no usable direction.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
@@ -60,7 +60,8 @@ static inline Real2 plane_distances(global const BvhPair *node, uint2 plane, Rea
     return fma((Real2)(planes[0], planes[1]), (Real2)(inverse), (Real2)(offset));
 }
 
-// Where the ray is inside both children's boxes: [entry, leave], empty where it misses.
+// Computes the interval [entry, leave] of the ray inside each child's box. It is empty if the ray
+// misses.
 static inline void slabs_meet(global const BvhPair *node, const Query *query, Real reach,
                               Real2 *entry, Real2 *leave)
 {
@@ -76,7 +77,7 @@ static inline void slabs_meet(global const BvhPair *node, const Query *query, Re
     *leave = min(min(far_x, far_y), min(far_z, (Real2)(reach)));
 }
 
-// Reading components by axis makes the permutation free.
+// Reading the components by axis makes the permutation free.
 static inline Real3 corner_relative(global const float *corner, const Query *query)
 {
     return real3_of(corner[query->axes.x] - query->origin.x,
@@ -84,7 +85,7 @@ static inline Real3 corner_relative(global const float *corner, const Query *que
                     corner[query->axes.z] - query->origin.z);
 }
 
-// Whether the ray stops on a triangle that its line meets within rounding of its own.
+// Returns whether the ray stops on a triangle that its line hits within rounding of the ray's own.
 static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
                                          const Corners *corners, bool from_back)
 {
@@ -94,7 +95,7 @@ static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
     return meets_neighbor(&own, corners, ray->direction, from_back);
 }
 
-// The distance t at which the ray meets the triangle, INFINITY where it does not.
+// Returns the distance t at which the ray hits the triangle, INFINITY if it misses.
 static inline Real triangle_distance(global const TriangleData *triangle, const Ray *ray,
                                      const Query *query)
 {
@@ -123,7 +124,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     return distance;
 }
 
-// Tests triangles [first, first + count); a shadow ray is content with the first that blocks it.
+// Tests triangles [first, first + count). A shadow ray stops at the first that blocks it.
 static inline void test_triangles(const SceneView *scene, const Ray *ray, const Query *query,
                                   uint2 range, Hit *best)
 {
@@ -138,7 +139,7 @@ static inline void test_triangles(const SceneView *scene, const Ray *ray, const 
     }
 }
 
-// Children wait on the stack as 2 * node + child, beside the distance at which they are entered.
+// The stack stores children as 2 * node + child, with the distance at which the ray enters them.
 typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];
@@ -152,7 +153,7 @@ static inline void wait_for_child(Waiting *waiting, uint child, Real entry)
     waiting->count++;
 }
 
-// Puts the children that the ray meets before `reach` on the stack, the nearer one on top.
+// Pushes the children that the ray enters before `reach`, the nearer one last.
 static inline void wait_for_children(const SceneView *scene, uint node, const Query *query,
                                      Real reach, Waiting *waiting)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scalar, the number that the tracer computes with, and its format: float, or double in the
-// reference mode, where the same text evaluates the same scene.  That is stored in float either
-// way, so that what the two modes differ by is the error of float arithmetic alone.
+// Scalar is the tracer's number type: float, or double in the reference mode. Both modes compile
+// the same source for the same scene, which is stored in float. Their difference is therefore the
+// error of float arithmetic alone.
 #ifndef CLRT_PRECISION_H
 #define CLRT_PRECISION_H
 #include "config.h"

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What the tracer's steps hand each other: the scene, a ray, what it meets and what that costs.
+// The data that the tracer's steps share: the scene, a ray, its hit and its cost.
 #ifndef CLRT_RAY_CL
 #define CLRT_RAY_CL
 #include "numeric.cl"
 
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
-// origin + t * direction.  A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
+// origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    Count own;       // id of the primitive it starts on, which it cannot meet
-    Count own_index; // of that where it is a triangle, else NOTHING
+    Count own;       // id of the primitive it starts on, which it cannot hit
+    Count own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
     Truth active; // lanes that have a ray
 } Ray;
 
-// What its origin may be off, in units of rounding.
+// Returns the uncertainty of the ray's origin, in units of rounding.
 static inline float blur_of(const Ray *ray)
 {
     return ray->kind == RAY_CAMERA ? 0.0f : POINT_BLUR;
@@ -26,10 +26,10 @@ static inline float length_of_ray(const Ray *ray)
     return ray->kind == RAY_SHADOW ? 1.0f : INFINITY;
 }
 
-// index counts in the array of the primitive's kind (triangles: places of blocks where nodes are
-// wide); spheres have the ids below sphere_count.
+// index counts within the array of the primitive's kind; with wide nodes, triangles count block
+// slots. Spheres have the ids below sphere_count.
 typedef struct {
-    Real t; // along the ray; INFINITY while nothing is hit
+    Real t; // along the ray; INFINITY without a hit
     Count id, index;
 } Hit;
 
@@ -37,11 +37,11 @@ typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_SIGNATURES
-    Count signature; // of what a sample saw: surfaces, and the lights that reach them
+    Count signature; // hash of what a sample saw: surfaces and the lights that reach them
 #endif
 } Tally;
 
-// Adds a word to the signatures of some lanes.
+// Adds a word to the signatures of the given lanes.
 static inline void sign_lanes(Tally *tally, Truth lanes, Count word)
 {
 #if CLRT_SIGNATURES
@@ -60,7 +60,7 @@ typedef BvhPair Node;
 typedef TriangleData Triangles;
 #endif
 
-// The arrays of the flattened scene, gathered so that they travel as one parameter.
+// The arrays of the flattened scene, bundled as one parameter.
 typedef struct {
     global const PointLight *lights;
     global const Material *materials;
@@ -76,13 +76,13 @@ static inline uint lane_count(Truth truth)
     return popcount(lane_bits(truth));
 }
 
-// Equal distances go to the lowest id, whatever the order of the tests.
+// Equal distances go to the lowest id, regardless of the order of the tests.
 static inline Truth hit_precedes(Real t, Count id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);
 }
 
-// The longest axis of the ray, to which the shear turns it, and the two that follow.
+// The ray's longest axis, which the shear maps it to, and the two axes that follow.
 typedef struct {
     Count x, y, z;
 } ShearAxes;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The kernel of clrt check: arrays of rays instead of a picture's, through the same search.  It is
-// compiled behind render.cl, and only where it is wanted.
+// The kernel of clrt check traces arrays of rays instead of a picture's, with the same search. It
+// is compiled after render.cl, and only if requested.
 
-// Lanes that may go in one packet: camera rays start at one point.  The others wait their turn.
+// Returns the lanes that share an origin and can form one packet, as camera rays do. The others
+// are traced later.
 static inline Truth share_origin(Real3 origin, Truth left)
 {
     return left && as_bits(origin.x) == as_bits(first_real(origin.x, left)) &&
@@ -10,7 +11,7 @@ static inline Truth share_origin(Real3 origin, Truth left)
            as_bits(origin.z) == as_bits(first_real(origin.z, left));
 }
 
-// The camera ray of those lanes; the rest copy the first.
+// Returns the camera rays of those lanes; the other lanes copy the first.
 static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
 {
     const Real3 start = real3_of(first_real(origin.x, lanes), first_real(origin.y, lanes),
@@ -28,9 +29,9 @@ static inline void store_distances(global float *distances, Truth lanes, Real t)
             distances[lane] = (float)((const Scalar *)&t)[lane];
 }
 
-// A ray is eight floats: an origin and a direction, a fourth component behind each.  A work-item
-// takes as many that follow each other as it has lanes, and those past the count do nothing.
-// distances receive how far each ray comes, INFINITY where it meets nothing.
+// A ray is eight floats: an origin and a direction, each padded to four components. A work-item
+// traces one ray per lane, in consecutive order; rays past the count are ignored. distances
+// receives each ray's hit distance, INFINITY without a hit.
 kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
                        global const Node *nodes, global const Triangles *triangles,
                        global const float *rays, uint count, global float *distances)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel: one work-item renders one pixel of a tile, or in the packet family a block of
-// BLOCK x BLOCK pixels, a packet of them after the other.
+// The rendering kernel: a work-item renders one pixel of a tile. In the packet family it renders a
+// block of BLOCK x BLOCK pixels, one packet after another.
 #include "trace.cl"
 
 #if CLRT_LANES == 1
@@ -29,7 +29,7 @@
 #define LANE_Y        (uint16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
 #endif
 
-// Colors are rounded to integers of 2^-32.
+// Colors are rounded to integer multiples of 2^-32.
 static inline Real in_steps(Real color)
 {
     return rint(clamp_to_one(color) * 0x1p32f);
@@ -40,7 +40,7 @@ static inline Real mean_of(LongCount sum, ulong count)
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
-// Places in the picture, of pixels or of samples.
+// Positions in the picture, in pixels or in samples.
 typedef struct {
     Count x, y;
     Truth active;
@@ -56,8 +56,8 @@ static inline Real3 sample_color(const SceneView *scene, const FrameData *frame,
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
-// Samples are summed as integers: exact in any order, so that a constant color stays itself
-// however many samples there are.
+// Samples are summed as integers, which is exact in any order. A constant color therefore stays
+// unchanged for any number of samples.
 static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, const Places *pixels,
                                Tally *tally)
 {
@@ -76,7 +76,7 @@ static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, c
     return real3_of(mean_of(red, count), mean_of(green, count), mean_of(blue, count));
 }
 
-// One sample needs no sum, whose division costs more than tracing a simple scene.
+// A single sample needs no sum, whose division costs more than tracing a simple scene.
 static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame,
                                 const Places *pixels, Tally *tally)
 {
@@ -103,7 +103,7 @@ typedef struct {
 } Output;
 
 #if PACKET_WIDTH == 4
-// Four pixels beside each other.
+// Stores four adjacent pixels.
 static inline void store_row(global float *pixels, float4 red, float4 green, float4 blue)
 {
     vstore4((float4)(red.x, green.x, blue.x, red.y), 0, pixels);
@@ -111,7 +111,7 @@ static inline void store_row(global float *pixels, float4 red, float4 green, flo
     vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
 }
 
-// Whether the whole packet was inside the tile and is stored.
+// Stores the packet if it lies entirely inside the tile, and returns whether it does.
 static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
                               global float *pixels)
 {
@@ -142,7 +142,7 @@ static inline void store_lane(global float *pixel, const Real3 *color, uint lane
     pixel[2] = (float)((const Scalar *)&color->z)[lane];
 }
 
-// Stores the colors of the lanes inside the tile, and with the first of them what all cost.
+// Stores the colors of the lanes inside the tile, and the cost of all lanes at the first of them.
 static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
                                 const Tally *tally, const Output *output)
 {
@@ -160,8 +160,8 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
     }
 }
 
-// pixels holds tile_width * tile_height colors of three floats, rows from the top; tallies as many
-// times TALLY_KINDS counts, written only where statistics are compiled in.  The range is padded to
+// pixels holds tile_width * tile_height colors of three floats, rows from the top. tallies holds
+// TALLY_KINDS counts per pixel, written only if statistics are compiled in. The range is padded to
 // whole work-groups.
 kernel void render_tile(const FrameData frame, global const PointLight *lights,
                         global const Material *materials, global const SphereData *spheres,

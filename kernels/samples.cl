@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of adaptive anti-aliasing: samples at listed places instead of those of a tile.  It is
-// compiled behind render.cl, and only where it is wanted.
+// The kernel of adaptive anti-aliasing samples listed places instead of a tile. It is compiled
+// after render.cl, and only if requested.
 
 static inline void store_sample(global SampleData *sample, const Real3 *color, Count signature,
                                 uint lane)
@@ -13,16 +13,16 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, C
     sample->signature = ((const uint *)&signature)[lane];
 }
 
-// Samples that a work-item takes, a packet after the other.
+// Samples per work-item, taken one packet after another.
 #if CLRT_LANES == 1
 #define ITEM_SAMPLES 1
 #else
 #define ITEM_SAMPLES (PACKET_SIDE * PACKET_SIDE)
 #endif
 
-// Places first to end - 1, each two coordinates in sub-pixels, are sampled into the same elements
-// of samples; the coordinate NOTHING leaves one out.  A work-item takes ITEM_SAMPLES that follow
-// each other; tallies are written where a packet begins, and only where statistics are compiled in.
+// Samples places first to end - 1 into the same elements of samples. A place is two coordinates in
+// sub-pixels; the coordinate NOTHING skips it. A work-item takes ITEM_SAMPLES consecutive places.
+// Tallies are written at the first place of each packet, and only if statistics are compiled in.
 kernel void trace_samples(const FrameData frame, global const PointLight *lights,
                           global const Material *materials, global const SphereData *spheres,
                           global const Node *nodes, global const Triangles *triangles,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What a surface looks like under the point lights, before reflection: silhouette, matte or
+// The color of a surface under the point lights, before reflection: silhouette, matte or
 // Blinn-Phong (Blinn, "Models of light reflection for computer synthesized pictures", 1977).
 #ifndef CLRT_SHADE_CL
 #define CLRT_SHADE_CL
 #include "surface.cl"
 
-// Sums stay finite for lights of any intensity, so that 0 * sum is never a NaN.
+// The cap keeps sums finite for lights of any intensity, so that 0 * sum is never a NaN.
 #define BRIGHTEST ((Real)(1e30f))
 
-// The highlight (n.h)^shininess.  Past integers the power is exp(shininess * log(n.h)) with n.h
-// taken from |n - h|, which keeps its distance from 1: at shininess 1e6 pow of the rounded dot
-// product is off by 0.14, this by 5e-5.
+// Returns the highlight (n.h)^shininess. Non-integer shininess uses exp(shininess * log(n.h)),
+// with n.h computed from |n - h| to keep its distance from 1. At shininess 1e6, pow of the rounded
+// dot product is off by 0.14, this by 5e-5.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
     const Truth is_integer = material->exponent != 0xffffffffu;
@@ -34,14 +34,14 @@ static inline Real3 half_vector_of(const Surface *surface, Real3 toward_light)
 
 // A light as seen from a surface.
 typedef struct {
-    Real3 position, toward; // toward it: unit
+    Real3 position, toward; // toward the light: unit
     float intensity;
     Real cosine;
-    Truth faces; // the shading normal and the face are turned to it
+    Truth faces; // the shading normal and the face both face the light
 } SeenLight;
 
-// Whether the light is in front of the face.  The height is measured from a corner, which is exact,
-// so all points of a triangle agree about a light that is nearly in its plane.
+// Returns whether the light is in front of the face. The height is measured from a corner, which
+// is exact. All points of a triangle therefore agree about a light that is nearly in its plane.
 static inline Truth is_before_face(const Surface *surface, Real3 light)
 {
     return dot_product(surface->face, difference(light, surface->on_face)) > 0.0f;
@@ -59,9 +59,9 @@ static inline SeenLight see_light(const SceneView *scene, uint index, const Surf
     return light;
 }
 
-// From the surface, which is known best there, so that light passes no edge of a closed shape
-// however far away it comes from.  From the light, as common origin of all rays, packets would be
-// 2 % faster in small scenes and slower in large ones.
+// The ray starts at the surface, whose position is known best there. Light then passes no edge of
+// a closed shape, at any distance. Starting at the light, the common origin of all rays, would
+// make packets 2 % faster in small scenes and slower in large ones.
 static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
                                const SeenLight *light)
 {
@@ -73,7 +73,7 @@ static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
                  RAY_SHADOW,  light->faces};
 }
 
-// What is lit, in which lanes, and the light received so far.
+// The lit surface, its active lanes, and the light received so far.
 typedef struct {
     const Surface *surface;
     const MaterialLanes *material;
@@ -81,7 +81,8 @@ typedef struct {
     Real diffuse, specular;
 } Lighting;
 
-// Adds what a light gives.  Surfaces turned away from it get nothing and need no shadow ray.
+// Adds a light's contribution. Surfaces turned away from the light get nothing and need no shadow
+// ray.
 static inline void receive_light(const SceneView *scene, const FrameData *frame, uint index,
                                  Lighting *lighting, Tally *tally)
 {
@@ -105,14 +106,15 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
     lighting->specular = shines ? lighting->specular + shine : lighting->specular;
 }
 
-// Before any light has come to the surfaces where `met`.
+// Returns the state before any light is added, for the surfaces in lanes `met`.
 static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Truth met)
 {
     const Truth wanted = met && material->shader != SHADER_SILHOUETTE;
     return (Lighting){surface, material, wanted, 0.0f, 0.0f};
 }
 
-// The color of the surfaces that lighting_of was told of; other lanes hold anything.
+// Returns the color of the surfaces given to lighting_of. The values of other lanes are
+// unspecified.
 static inline Real3 shade(const SceneView *scene, const FrameData *frame, Lighting lighting,
                           Tally *tally)
 {

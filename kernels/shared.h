@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The vocabulary host and kernels share: compiled twice, as C17 and as OpenCL C, and meaning the
-// same bytes in both.  Members are float, uint, ulong and arrays of them; every struct is a
-// multiple of 8 bytes, so that arrays of it keep that alignment.  tests/kernel measures the layout
-// on the device.  All positions are in the normalized frame (host/scene/normalize.h).
+// The types and constants that host and kernels share. This file compiles as C17 and as OpenCL C,
+// with the same memory layout in both. Members are float, uint, ulong and arrays of them. The size
+// of every struct is a multiple of 8 bytes, so that arrays keep that alignment. tests/kernel
+// measures the layout on the device. All positions are in the normalized frame
+// (host/scene/normalize.h).
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
 
@@ -15,18 +16,18 @@ typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
-// The id of no primitive.  Ids number spheres in file order, then triangles in file order.
+// The id of no primitive. Ids number spheres in file order, then triangles in file order.
 #define NOTHING 0xffffffffu
 
-// Entries of the traversal stack.  Depth-first descent keeps one waiting sibling a level, and
-// pushes the child it enters next as well; builders keep trees within BVH_MAX_DEPTH levels.
+// Entries of the traversal stack. Depth-first descent keeps one pending sibling per level, and
+// also pushes the child that it enters next. Builders limit trees to BVH_MAX_DEPTH levels.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// How far boxes and origins are grown, relative to their largest coordinate: 128 units of rounding
-// (2^-24).  A triangle that triangle.cl accepts lies within 22 units of the ray, 16 more where t is
-// only within its error of zero, and the slab arithmetic adds 4; where division is only good to
-// 2.5 ulp these are 34, 25 and 8.  Measured, twice the slack costs nothing.
+// Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding
+// (2^-24). A triangle that triangle.cl accepts lies within 22 units of the ray, with 16 more if t
+// is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
+// 2.5 ulp, these become 34, 25 and 8. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-17f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
@@ -38,7 +39,7 @@ typedef struct {
     float specular[3];
     float ks;
     uint shader;   // a Shader
-    uint exponent; // the shininess where it is an integer up to 1024, else UINT_MAX
+    uint exponent; // the shininess if it is an integer up to 1024, else UINT_MAX
     float shininess;
     float reflectivity;
 } Material;
@@ -50,7 +51,7 @@ typedef struct {
 } PointLight;
 CLRT_SAME_SIZE(PointLight, 16)
 
-// Center and radius as unevaluated sums high + low, 48 bits of each.
+// Center and radius as unevaluated sums high + low, with 48 bits each.
 typedef struct {
     float center[3];
     float radius;
@@ -61,36 +62,37 @@ typedef struct {
 } SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
 
-// A triangle's corners as they are tested, in the order of the leaves.  The host sorts the corners
-// by their coordinates, so triangles with the same three corners are stored as the same bits, in
-// whatever order their files list them.  Every kernel computes a distance from the ray and these
-// bits alone, by the same operations, so the distances of such triangles are equal.  The marks only
-// decide whether a ray meets a triangle, and the lowest id wins among those that it meets.
+// A triangle's corners as they are tested, in leaf order. The host sorts the corners by their
+// coordinates. Triangles with the same three corners are therefore stored as the same bits,
+// regardless of their order in the file. Every kernel computes a distance from the ray and these
+// bits alone, by the same operations, so these triangles have equal distances. The flags only
+// decide whether a ray hits a triangle. The lowest id wins among the triangles hit.
 typedef struct {
     float a[3];
     uint id;
     float b[3];
-    uint material; // index and marks
+    uint material; // index and flags
     float c[3];
-    uint normals; // index of its CornerNormals, NOTHING where it is flat
+    uint normals; // index of its CornerNormals, NOTHING if flat
 } TriangleData;
 CLRT_SAME_SIZE(TriangleData, 48)
 
-// The marks of a triangle, in the highest bits of a word beside an index or id.
+// A triangle's flags, in the highest bits of a word that also holds an index or id.
 #define TRIANGLE_TWO_SIDED 0x80000000u
 #define TRIANGLE_REVERSED  0x40000000u // sorting has swapped front and back
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
-// Vertex normals of a smooth triangle, corner by corner as these are stored, of a common arbitrary
-// length.  They point to the stored front: those of a reversed triangle are negated.
+// Vertex normals of a smooth triangle, in the stored order of its corners. Their common length is
+// arbitrary. They point to the stored front; a reversed triangle's are negated.
 typedef struct {
     float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
 } CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
 
-// An inner node holds both its children's boxes, axis by axis as {low, high} planes, so that one
-// read decides about both.  A child with a count is a leaf: triangles [first, first + count);
-// one without is the inner node `first`.  A missing child has an inverted box, which no ray meets.
+// An inner node holds the boxes of both children, axis by axis as {low, high} planes. One read
+// thus decides about both. A child with a count is a leaf: triangles [first, first + count). A
+// child without a count is the inner node `first`. A missing child has an inverted box, which no
+// ray enters.
 typedef struct {
     float planes[3][2][2]; // [axis][low, high][child], grown by the slack of traverse.cl
     uint first[2];
@@ -104,9 +106,9 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.
 #define WIDE 8
 
-// An inner node of the wide tree: its children's boxes side by side, so that one instruction tests
-// a plane of all.  A child is the index of an inner node, or with WIDE_LEAF set that of a block.
-// The children that are there come first; the boxes of missing ones are inverted.
+// An inner node of the wide tree, with its children's boxes side by side. One instruction tests a
+// plane of all children. A child is the index of an inner node or, if WIDE_LEAF is set, of a
+// block. Present children come first; missing ones have inverted boxes.
 typedef struct {
     float planes[3][2][WIDE]; // [axis][low, high][child], grown by the slack of traverse.cl
     uint child[WIDE];
@@ -116,23 +118,23 @@ typedef struct {
 CLRT_SAME_SIZE(BvhWide, 256)
 #define WIDE_LEAF 0x80000000u
 
-// A leaf of the wide tree: up to WIDE triangles, component by component.  Places without a
-// triangle hold three corners at the origin, which no ray meets, and the id NOTHING.
+// A leaf of the wide tree: up to WIDE triangles, component by component. Empty slots hold three
+// corners at the origin, which no ray hits, and the id NOTHING.
 typedef struct {
     float corners[3][3][WIDE]; // [corner][axis][triangle]
-    uint id[WIDE];             // and marks
+    uint id[WIDE];             // and flags
 } TriangleBlock;
 CLRT_SAME_SIZE(TriangleBlock, 320)
 
-// What shading a triangle of a block takes beside its corners, by triangle in file order.
+// The data that shades a triangle of a block, beside its corners. Entries are in file order.
 typedef struct {
     uint material; // index
-    uint normals;  // index of its CornerNormals, NOTHING where it is flat
+    uint normals;  // index of its CornerNormals, NOTHING if flat
 } TriangleLook;
 CLRT_SAME_SIZE(TriangleLook, 8)
 
-// A camera ray's direction is forward + x * right_step + y * down_step, where x and y are the odd
-// numbers 2 * sample + 1 - samples across the picture: exact in float and mirror symmetric.
+// A camera ray's direction is forward + x * right_step + y * down_step. x and y are the odd
+// numbers 2 * sample + 1 - samples across the picture, exact in float and mirror symmetric.
 typedef struct {
     float eye[4];
     float forward[4];
@@ -141,7 +143,7 @@ typedef struct {
 } CameraData;
 CLRT_SAME_SIZE(CameraData, 64)
 
-// Everything about one tile of one picture that is no array.
+// All scalar parameters of one tile of one picture.
 typedef struct {
     CameraData camera;
     float background[3];
@@ -155,23 +157,23 @@ typedef struct {
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 128)
 
-// What a camera ray saw: its color, and a number that differs where it met another surface or
-// other lights reach one.
+// The result of a camera ray: its color, and a signature. The signature differs if the ray hit
+// another surface or other lights reach it.
 typedef struct {
     float color[3];
     uint signature;
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
 
-// Sub-pixels along a side of a pixel whose samples are summed.  A power of two: the sample at the
-// center is then that of a picture with one sample a pixel, bit for bit.
+// Sub-pixels along a side of a pixel whose samples are summed. Because this is a power of two, the
+// sample at the center has the bits of a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
-// The most samples that a request takes of its pixel, which can have LADDER_GRID.
+// The most samples in a request. A pixel can have LADDER_GRID samples.
 #define REQUEST_SAMPLES 16
 
 // A request for samples of a pixel: 1 at its center, or the first 4 or REQUEST_SAMPLES points of a
-// sequence, whose coordinates are XORed with the two digits of offset to the base LADDER_GRID.
+// sequence. The points' coordinates are XORed with the two digits of offset in base LADDER_GRID.
 typedef struct {
     uint x, y;
     uint offset;
@@ -179,33 +181,33 @@ typedef struct {
 } PixelRequest;
 CLRT_SAME_SIZE(PixelRequest, 16)
 
-// Sums over these samples: of colors in steps of 2^-32, and of the squares of all three values in
-// steps of 2^-48.
+// Sums over these samples: of colors in steps of 2^-32, and of the squares of all three channels
+// in steps of 2^-48.
 typedef struct {
     ulong colors[3];
     ulong squares;
 } PixelSums;
 CLRT_SAME_SIZE(PixelSums, 32)
 
-// How sure the decisions of a pixel's ray trees are: what is met, and which lights are seen.
+// The certainty of a pixel's ray trees: which surfaces are hit and which lights are visible.
 typedef enum {
-    CERTAINTY_OPEN,      // one of them may differ from what real arithmetic decides
-    CERTAINTY_REPAIRED,  // they are real arithmetic's in fp64
-    CERTAINTY_CERTIFIED, // and in fp32 too
+    CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
+    CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's
+    CERTAINTY_CERTIFIED, // all fp32 decisions do, too
     CERTAINTY_KINDS
 } Certainty;
 
-// What certify.cl finds out about a pixel, by its last sample; decisions that are not certain are
-// not to be read.
+// The result of certify.cl for a pixel, from its last sample. Uncertain decisions must not be
+// read.
 typedef struct {
     uint certainty; // a Certainty
-    uint first_id;  // of what the camera ray meets, or NOTHING
-    uint lit;       // a bit for each of the first 32 lights that shine on it
-    uint signature; // of all decisions of the ray tree
+    uint first_id;  // of the camera ray's hit, or NOTHING
+    uint lit;       // a bit for each of the first 32 lights that reach it
+    uint signature; // hash of all decisions of the ray tree
 } CertaintyMark;
 CLRT_SAME_SIZE(CertaintyMark, 16)
 
-// What one pixel cost, where statistics are asked for.
+// The cost of one pixel, written if statistics are requested.
 typedef enum {
     TALLY_CAMERA_RAYS,
     TALLY_SHADOW_RAYS,
@@ -218,42 +220,42 @@ typedef enum {
     TALLY_KINDS
 } TallyKind;
 
-// What the ray through a pixel's center meets first and where it goes, where channels beside the
-// color are asked for.  Where it meets nothing, depth is INFINITY, the indices are NOTHING and all
-// else is zero.
+// The first hit of the ray through a pixel's center, and the path from there, written if channels
+// beside the color are requested. Without a hit, depth is INFINITY, the indices are NOTHING and
+// all other members are zero.
 typedef struct {
     float point[3];
     float depth;     // along the camera's axis
-    float normal[3]; // unit, what is shaded with
+    float normal[3]; // unit, the shading normal
     uint primitive;  // id
     uint material;   // index
-    uint lights;     // that reach the point
+    uint lights;     // lights that reach the point
     uint bounces;    // reflected rays followed from there
     uint padding;
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
 
-// What --explain-pixel is told of each ray of a path: LEVEL_VALUES numbers of the kernel's
-// precision and LEVEL_WORDS words, and behind these, for each light, LIGHT_VALUES and LIGHT_WORDS.
-// Vectors take three places.
+// The record of each ray of a path for --explain-pixel. It holds LEVEL_VALUES numbers of the
+// kernel's precision and LEVEL_WORDS words. For each light, LIGHT_VALUES and LIGHT_WORDS follow.
+// Vectors take three entries.
 typedef enum {
     LEVEL_ORIGIN = 0,
     LEVEL_DIRECTION = 3,
-    LEVEL_T = 6,     // INFINITY where nothing is met, and then only what stands above is told
-    LEVEL_ERROR = 7, // how far t may be off
+    LEVEL_T = 6,     // INFINITY without a hit; then only the entries above are valid
+    LEVEL_ERROR = 7, // error bound of t
     LEVEL_POINT = 8,
     LEVEL_NORMAL = 11,
     LEVEL_SHADED = 14, // the surface's own color
-    LEVEL_WEIGHT = 17, // of what the ray sees, in the sample's color; told of all
-    LEVEL_SHARE = 18,  // of the surface's own color in it
+    LEVEL_WEIGHT = 17, // of the ray's color in the sample's color; always valid
+    LEVEL_SHARE = 18,  // of the surface's own color in the sample's color
     LEVEL_VALUES = 19
 } LevelValue;
 
 typedef enum { LEVEL_PRIMITIVE, LEVEL_MATERIAL, LEVEL_WORDS } LevelWord;
 
 typedef enum {
-    LIGHT_COSINE,    // between the normal and the way to the light
-    LIGHT_BLOCKER_T, // part of that way
+    LIGHT_COSINE,    // between the normal and the direction to the light
+    LIGHT_BLOCKER_T, // fraction of the way to the light
     LIGHT_DIFFUSE,   // received
     LIGHT_SPECULAR,
     LIGHT_VALUES

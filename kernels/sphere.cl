@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Ray against sphere in two-float arithmetic: values as unevaluated sums high + low of 48 bits (106
-// where Real is a double).
-// Single floats lose the discriminant of far, small and huge spheres to cancellation (a ground
-// sphere of radius 1e7 is 18 % wrong); this keeps it without fp64.  Roots after Haines, Guenther
-// and Akenine-Moeller, Ray Tracing Gems ch. 7; sums and products after Knuth and Dekker.
+// Ray-sphere intersection in two-float arithmetic: values are unevaluated sums high + low of 48
+// bits (106 if Real is double). Single floats lose the discriminant of far, small and huge spheres
+// to cancellation: a ground sphere of radius 1e7 is 18 % wrong. Two-float arithmetic avoids this
+// without fp64. Roots after Haines, Guenther and Akenine-Moeller, Ray Tracing Gems ch. 7; sums and
+// products after Knuth and Dekker.
 #ifndef CLRT_SPHERE_CL
 #define CLRT_SPHERE_CL
 #include "numeric.cl"
@@ -19,14 +19,14 @@ static inline TwoFloat two_sum(Real a, Real b)
     return (TwoFloat){sum, (a - (sum - part)) + (b - part)};
 }
 
-// The same where |a| >= |b|.
+// The same sum if |a| >= |b|.
 static inline TwoFloat two_sum_ordered(Real a, Real b)
 {
     const Real sum = a + b;
     return (TwoFloat){sum, b - (sum - a)};
 }
 
-// A number of the scene.  Its parts are two floats, which one double holds.
+// Returns a number of the scene. It is stored as two floats, which fit into one double.
 static inline TwoFloat two_stored(Real high, Real low)
 {
     return CLRT_FP64 ? two_sum_ordered(high, low) : (TwoFloat){high, low};
@@ -95,7 +95,7 @@ typedef struct {
     TwoFloat radius;
 } Sphere;
 
-// One sphere in all lanes.
+// Returns the same sphere in all lanes.
 static inline Sphere sphere_at(global const SphereData *data)
 {
     return (Sphere){{two_stored(data->center[0], data->center_low[0]),
@@ -117,7 +117,7 @@ static inline TwoFloat3 sphere_to_origin(const Sphere *sphere, Real3 origin)
                        two_from_center(origin.z, sphere->center.z)};
 }
 
-// f + step * d.
+// Returns f + step * d.
 static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
 {
     const TwoFloat s = {step, 0.0f};
@@ -125,8 +125,9 @@ static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
                        two_add(f.z, two_scale(s, d.z))};
 }
 
-// The discriminant over |d|^2: radius^2 minus the squared distance of the center to the line.
-// s only needs to be near the foot of the perpendicular: the last term takes out what it is off.
+// Returns the discriminant over |d|^2: radius^2 minus the squared distance of the center to the
+// line. s only needs to be near the foot of the perpendicular, because the last term subtracts its
+// error.
 static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
     const TwoFloat3 foot = two_stepped(f, s, d);
@@ -134,9 +135,9 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
     return two_add(rr, two_negate(two_length_squared(foot))).high + along * along / dd;
 }
 
-// |f|^2 - radius^2, the product of the distances to both walls through the center.  Over a sphere
-// of radius 1e9 the squares lose a height of 1 even in 48 bits; the component of f that almost is
-// the radius is taken out of them as a product.
+// Returns |f|^2 - radius^2, the product of the distances to both walls on the line through the
+// center. On a sphere of radius 1e9 the squares lose a height of 1 even in 48 bits. The component
+// of f that nearly equals the radius is therefore factored out as a product.
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Truth z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -148,9 +149,9 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
     return two_add(two_add(two_square(x), two_square(y)), beyond).high;
 }
 
-// Whether plain floats already prove that the line passes the sphere by.  Their error is below 16
-// units of rounding of the squares of all lengths involved, of which 64 are allowed.  It spares
-// most spheres the exact test: three of them took half the time of a picture without it.
+// Returns whether plain floats already prove that the line misses the sphere. Their error is below
+// 16 units of rounding of the squares of all lengths involved; 64 are allowed. This saves most
+// spheres the exact test: three of them took half a picture's time without it.
 static inline Truth sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
@@ -163,8 +164,8 @@ static inline Truth sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d
     return apart > 64.0f * UNIT_ROUNDOFF * squares;
 }
 
-// The smallest distance t > 0 at which origin + t * direction meets the sphere, INFINITY where it
-// does not, in the wanted lanes.  A ray inside meets the far wall.
+// Returns the smallest t > 0 at which origin + t * direction hits the sphere in the wanted lanes,
+// INFINITY if it misses. A ray from inside hits the far wall.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Truth wanted)
 {
     const Truth is_near = wanted && !sphere_is_passed(sphere, origin, d);
@@ -185,8 +186,8 @@ static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, 
     return is_near && discriminant >= 0.0f ? t : INFINITY;
 }
 
-// Where the ray that meets the sphere at t does so.  The point on the ray is pulled onto the
-// sphere, so that its error is that of rounding it, whatever the radius.
+// Returns the hit point at t. The point on the ray is projected onto the sphere, so that its error
+// is one rounding for any radius.
 static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Real t, Real3 *normal)
 {
     const TwoFloat3 q = two_stepped(sphere_to_origin(sphere, origin), t, d);
@@ -202,8 +203,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
                     two_add(on.z, sphere->center.z).high);
 }
 
-// sphere_distance for a ray that starts on this sphere: its near root is zero by construction, and
-// the chord to the far wall is kept where it is longer than the origin's own error.
+// sphere_distance for a ray that starts on this sphere. Its near root is zero by construction. The
+// chord to the far wall counts if it is longer than the origin's error.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

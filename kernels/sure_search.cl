@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What a thick ray meets first, and whether anything stands between a point and a light, where that
-// is certain.  Boxes grow by the blur of their farthest corner, below 18u of its distance beside
-// the cone, and by 111u more: then the axis is inside before it comes to where a triangle in there
-// may be met, even to one that is met behind the origin by what a distance may be off.
+// Finds the certain first hit of a thick ray, and whether anything certainly blocks a point from a
+// light. Boxes grow by the blur of their farthest corner, below 18u of its distance beside the
+// cone, and by another 111u. The axis is then inside a box before any possible hit of a triangle
+// in it. This holds even for a hit behind the origin by the error of a distance.
 #ifndef CLRT_SURE_SEARCH_CL
 #define CLRT_SURE_SEARCH_CL
 #include "sure_sphere.cl"
 #include "sure_twin.cl"
 
-// The nearest primitive that is met surely, and the least depth at which any other may be met.
+// The nearest certain hit, and the least depth of any other possible hit.
 typedef struct {
     Count id, index;
-    Real low, high; // INFINITY where nothing is met
+    Real low, high; // INFINITY without a hit
     Real other;
 } Nearest;
 
@@ -34,18 +34,18 @@ typedef struct {
     const ThickRay *ray;
     Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
-    uint triangle;  // place of the nearest if that is a triangle, else NOTHING
-    Answer blocked; // a shadow ray
+    uint triangle;  // position of the nearest hit if a triangle, else NOTHING
+    Answer blocked; // for a shadow ray
 } Search;
 
-// How much a box whose farthest corner is `far` away has to grow.
+// Returns the growth of a box whose farthest corner is `far` away.
 static inline Real growth_at(const ThickRay *ray, Real far)
 {
     const Real rounding = 140.0f * ray->u + 200.0f * OWN_ROUNDOFF;
     return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
 }
 
-// A zero direction is replaced by one that leads aside by less than the rounding.
+// A zero direction is replaced by one whose deviation is smaller than the rounding.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
@@ -62,8 +62,8 @@ static inline Search search_along(const ThickRay *ray)
                     .blocked = ANSWER_NO};
 }
 
-// Beyond the nearest nothing can be first; beyond another that may be met nothing can be first for
-// sure.
+// Nothing beyond the nearest certain hit can be first. Nothing beyond another possible hit can
+// certainly be first.
 static inline Real search_reach(const Search *search)
 {
     if (search->ray->kind == RAY_SHADOW)
@@ -75,7 +75,7 @@ typedef struct {
     Real low[3], high[3];
 } Box;
 
-// Where the cone enters a box, INFINITY where it does not before `reach`.
+// Returns where the cone enters a box, INFINITY if it does not enter before `reach`.
 static inline Real box_entry(const Search *search, const Box *box, Real reach)
 {
     Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
@@ -105,8 +105,8 @@ static inline Real child_entry(const Search *search, global const BvhPair *node,
     return box_entry(search, &box, reach);
 }
 
-// Its own box is asked before a triangle is: what the cone passes by is then no matter of the boxes
-// that a tree has around it, and every tree finds the same.
+// Each triangle's own box is tested before the triangle. The result then does not depend on the
+// boxes of the tree, and every tree finds the same hit.
 static inline Real triangle_entry(const Search *search, global const TriangleData *triangle,
                                   Real reach)
 {
@@ -145,7 +145,7 @@ static inline Candidate leaf_candidate(const SceneView *scene, const ThickRay *r
     return surely_passes_twin(&corners, ray) ? candidate_none() : candidate;
 }
 
-// A twin of the nearest may win by its id but changes no distance.
+// A twin of the nearest hit may win by its id but does not change the distance.
 static inline void add_triangle(const SceneView *scene, Search *search, uint index,
                                 const Candidate *candidate)
 {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A thick ray against a sphere.  sphere.cl computes with sums of two floats: for roundoff u, its
-// error of the discriminant radius^2 - distance^2 is below 2^6 u^2 (distance + radius) (|f| +
-// radius + |center|), f from the center to the origin, and below 64 u^3 |f|^2 for the foot of the
-// perpendicular.  Either is less than moving the ray aside by `distance_doubt` does, and so is the
-// error of the product of the distances; what else goes into a distance is right to 8u of its size.
+// Thick ray against sphere. sphere.cl computes with sums of two floats. For roundoff u, its error
+// of the discriminant radius^2 - distance^2 is below 2^6 u^2 (distance + radius) (|f| + radius +
+// |center|), where f leads from the center to the origin. Its error of the foot of the
+// perpendicular is below 64 u^3 |f|^2. Moving the ray aside by `distance_doubt` has a larger
+// effect than either, and than the error of the product of the distances. All other terms of a
+// distance have a relative error below 8u.
 #ifndef CLRT_SURE_SPHERE_CL
 #define CLRT_SURE_SPHERE_CL
 #include "sure_triangle.cl"
@@ -13,7 +14,7 @@ typedef struct {
     Real radius;
 } PlainSphere;
 
-// The stored sums have 48 bits, which one double holds.
+// The stored sums have 48 bits, which fit into one double.
 static inline PlainSphere plain_sphere(global const SphereData *data)
 {
     const Sphere sphere = sphere_at(data);
@@ -21,7 +22,7 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// What this program's own arithmetic loses of a distance is 2^-49 of the same sum.
+// This program's own arithmetic loses at most 2^-49 of the same sum in a distance.
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
@@ -35,12 +36,12 @@ typedef struct {
 
 // The depths at which a line enters and leaves the sphere.
 typedef struct {
-    Answer met; // by the line
+    Answer met; // whether the line hits the sphere
     Range enter, leave;
-    Real shift; // how far the origin may lie elsewhere, as the tracer rounds
+    Real shift; // bound on the shift of the origin by the tracer's rounding
 } Chord;
 
-// power / sum, where sum is above zero.
+// Returns power / sum. sum must be above zero.
 static inline Range quotient(Range power, Range sum)
 {
     return (Range){power.low / (power.low > 0.0f ? sum.high : sum.low),
@@ -59,10 +60,10 @@ static inline Range rounded_range(const ThickRay *ray, Range range, Real shift)
                    range.high + factor * fabs(range.high) + shift};
 }
 
-// Turning the line moves it by `spread` of |middle| aside where it passes the center at `distance`,
-// and by as much of that along.  The nearer wall is at (|f|^2 - radius^2) / (|middle| + half the
-// chord): the power above does not depend on the direction.  So the tracer computes it, and so a
-// nearby wall of a huge sphere is known as well as that of a small one.
+// Turning the line moves it aside by `spread` of |middle| at its closest point to the center, at
+// `distance`, and as much along the line. The nearer wall is at (|f|^2 - radius^2) / (|middle| +
+// half the chord), because the power does not depend on the direction. The tracer computes it this
+// way, too. A nearby wall of a huge sphere is thus as certain as a small sphere's.
 static inline Chord chord_of(const ThickRay *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);
@@ -93,7 +94,7 @@ static inline Chord chord_of(const ThickRay *ray, const PlainSphere *sphere)
     return chord;
 }
 
-// A ray that starts inside meets the far wall.
+// A ray that starts inside hits the far wall.
 static inline Candidate sphere_candidate(const Chord *chord)
 {
     if (chord->met == ANSWER_NO || chord->leave.high < 0.0f)
@@ -105,7 +106,7 @@ static inline Candidate sphere_candidate(const Chord *chord)
     return (Candidate){ANSWER_UNKNOWN, max(chord->enter.low, (Real)(0.0f)), chord->leave.high};
 }
 
-// Whether a wall stands between the ray's start and its end, within [least, most].
+// Returns whether a wall stands between the ray's start and end, within [least, most].
 static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
 {
     if (chord->met == ANSWER_NO || chord->leave.high < 0.0f || chord->enter.low > most)
@@ -120,8 +121,7 @@ static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
     return enters || leaves ? ANSWER_YES : ANSWER_UNKNOWN;
 }
 
-// The sphere that the ray starts on is met again from inside, where its chord is longer than what
-// sphere_chord asks for.
+// A ray hits its own sphere again from inside if the chord is longer than sphere_chord requires.
 static inline Candidate own_sphere_candidate(const ThickRay *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);

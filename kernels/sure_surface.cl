@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Where a thick ray is surely met, a fat surface: its point and normals with bounds on how far
-// those of the tracer and of real arithmetic lie from them; and the thick rays that it sends on.
+// A certain hit of a thick ray becomes a fat surface. Its point and normals carry bounds on the
+// deviation of the tracer's values and of the exact ones. The file also computes the thick rays
+// that leave it.
 #ifndef CLRT_SURE_SURFACE_CL
 #define CLRT_SURE_SURFACE_CL
 #include "sure_search.cl"
 
-// Unit vectors, and the chords by which they may differ.
+// Unit vectors, and bounds on the chords by which they may differ.
 typedef struct {
     FatPoint end;
-    Real3 normal, face, toward_viewer; // as a Surface's
+    Real3 normal, face, toward_viewer; // as in Surface
     Real normal_doubt, face_doubt, viewer_doubt;
-    Count id, index, material; // as a Surface's
+    Count id, index, material; // as in Surface
     bool is_sphere;
     bool from_behind; // seen from a triangle's back or from inside a sphere
     Corners corners;  // of a triangle
-    Real room, edge;  // the first over the second is the point's distance from the edges, at least
+    Real room, edge;  // the point is at least room / edge away from the edges
 } FatSurface;
 
-// What moves a vector of this length by `doubt` turns it by less than this.
+// Moving the end of a vector of this length by `doubt` turns it by less than the result.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
 }
 
-// Interpolated by the weights, which sliding along the triangle changes by the slide over the
-// heights of its corners.
+// Interpolates the normal by the weights. Sliding along the triangle changes a weight by the slide
+// over the height of its corner.
 static inline void interpolate_normal(FatSurface *surface, const Corners *normals, Real3 weights,
                                       const Corners *corners, Real u)
 {
@@ -49,7 +50,7 @@ static inline void face_viewer(FatSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// How far from the edges sliding leaves the point.
+// Records the point's least distance from the edges under sliding.
 static inline void note_room(FatSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -107,8 +108,8 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
     return surface;
 }
 
-// The point is pulled onto the sphere, as the tracer does.  Where the hit is sure, so is the wall:
-// the near one has an origin outside and the far one an origin inside (sure_sphere.cl).
+// The point is projected onto the sphere, as in the tracer. A certain hit has a certain wall: the
+// near one for an origin outside, the far one for an origin inside (sure_sphere.cl).
 static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
                                     const Nearest *nearest)
 {
@@ -143,10 +144,11 @@ static inline FatSurface fat_surface(const SceneView *scene, const FrameData *fr
     return surface;
 }
 
-// Where a ray starts that leads in a direction, as far as `doubt` tells.  Its line may miss its own
-// triangle nearer to an edge than the point is off (11u an axis) and the corners are (14u of their
-// distance), both over the sine at which it leaves; farther than 64u over it the tracer does not
-// look.  Then the start may be 256u over that sine along the surface, on each axis.
+// Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
+// ray's line may miss its own triangle. This needs a distance below the error of the point (11u
+// per axis) and of the corners (14u of their distance), both over the sine at which the ray
+// leaves. The tracer ignores edges farther than 64u over that sine. The start may then move by
+// 256u over the sine along the surface, on each axis.
 static inline FatPoint start_of(const FatSurface *surface, Real3 direction, Real doubt, Real u)
 {
     FatPoint start = surface->end;
@@ -189,7 +191,8 @@ static inline Answer normal_surely_faces(const FatSurface *surface, const ThickR
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Corners and lights are stored, so only rounding leaves a light's side of a triangle open.
+// Corners and lights are stored values, so only rounding can leave a light's side of a triangle
+// undecided.
 static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
     const FatPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
@@ -199,8 +202,8 @@ static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay
     return (side < 0) == surface->from_behind ? ANSWER_YES : ANSWER_NO;
 }
 
-// Whether the shading normal and the face are both turned to the light.  From outside, a sphere's
-// face is its normal.  From inside it is the opposite, so only rounding can let a light near the
+// Returns whether the shading normal and the face both face the light. From outside, a sphere's
+// face is its normal. From inside it is the opposite, so only rounding can let a light near the
 // horizon pass both tests.
 static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
 {
@@ -210,8 +213,9 @@ static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_
     return surface->from_behind && normal == ANSWER_YES ? ANSWER_NO : normal;
 }
 
-// Mirrored out of the face where ray_reflected would do that.  The two agree at its horizon: near
-// it either is taken, with the difference in doubt.  A sphere's face is its normal.
+// The ray is mirrored at the face wherever ray_reflected does so. The two reflections agree at the
+// face's horizon. Near the horizon either may apply, and their difference counts as doubt. A
+// sphere's face is its normal.
 static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A thick ray against a triangle: it meets it for sure, not at all, or who knows; and how deep.
+// Thick ray against triangle: a certain hit, a certain miss, or undecided; and the depth.
 #ifndef CLRT_SURE_TRIANGLE_CL
 #define CLRT_SURE_TRIANGLE_CL
 #include "thick.cl"
 
 typedef enum { ANSWER_NO, ANSWER_UNKNOWN, ANSWER_YES } Answer;
 
-// If it is met, then at a depth of [low, high] along the ray, as the tracer rounds it too.
+// A hit lies at a depth within [low, high] along the ray, including the tracer's rounding.
 typedef struct {
     Answer met;
     Real low, high;
@@ -15,15 +15,15 @@ typedef struct {
 // The triangle in the ray's frame.
 typedef struct {
     Corners corners;
-    Edges edges; // across; the determinant is twice the area, above zero where the front is seen
+    Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
     Real blur;   // of all corners
-    Real size;   // the distance of the farthest of them, or more
-    Real sides;  // the two edges that leave the first corner, added
+    Real size;   // upper bound of the corners' distances
+    Real sides;  // sum of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
-    bool inside; // and goes through
-    bool faces;  // which side is seen is certain
-    bool inner;  // the back is seen, as the mesh has it
-    bool broad;  // the triangle is so broad that its plane can be computed with
+    bool inside; // and passes inside them
+    bool faces;  // the visible side is certain
+    bool inner;  // the mesh's back is visible
+    bool broad;  // the triangle is broad enough to compute its plane
 } Sight;
 
 static inline bool corners_pass(const Corners *c, Real blur)
@@ -32,7 +32,8 @@ static inline bool corners_pass(const Corners *c, Real blur)
            min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
 }
 
-// Whether the axis passes the edge from p to q, whose edge function is given.
+// Returns whether the axis passes the edge from p to q by more than the blur. edge is its edge
+// function.
 static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
 {
     const Real x = q.x - p.x, y = q.y - p.y;
@@ -76,7 +77,7 @@ static inline Sight sight_of(const ThickRay *ray, const Corners *corners)
     return sight;
 }
 
-// How much deeper the plane is, at most, for each step across.
+// Returns the largest depth change of the plane per step across the ray.
 static inline Real slope_of(const Sight *sight)
 {
     const Real3 ab = difference(sight->corners.b, sight->corners.a);
@@ -86,10 +87,10 @@ static inline Real slope_of(const Sight *sight)
     return sqrt(x * x + y * y) / fabs(sight->edges.determinant);
 }
 
-// A triangle is met where it is within the blur of the axis: no deeper than its corners, and no
-// farther from where the axis meets its plane than the plane's slope allows.  A broad one is more
-// than 8 blurs high, so that weights stay within [-1/4, 5/4] and own rounding tilts the plane by
-// less than half of 1 + slope: 4 (1 + slope) blurs hold all that.
+// A hit lies within the blur of the axis. It is no deeper than the corners. Its distance from the
+// axis's own hit is limited by the plane's slope. A broad triangle is more than 8 blurs high.
+// Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than half of 1 +
+// slope. A bound of 4 (1 + slope) blurs covers all of this.
 static inline Candidate depth_of(const Sight *sight, Real u)
 {
     const Corners *c = &sight->corners;
@@ -105,16 +106,17 @@ static inline Candidate depth_of(const Sight *sight, Real u)
     return depth;
 }
 
-// At least what surface_ray_distance takes for the error of a distance.
+// At least the distance error that surface_ray_distance uses.
 static inline Real margin_of(const Sight *sight, Real u)
 {
     return 64.0f * (u + OWN_ROUNDOFF) * sight->size;
 }
 
-// On which side of a triangle's plane a point lies: 1 before its front, -1 behind, 0 unknown; as
-// real arithmetic has it and as height_over does, which may also find zero where this is 0.  Its
-// error is below 12u n.|apart| + 12u E |apart|, its own threshold below the bound that is doubled.
-// So is the error of is_before_face (shade.cl), whose unit vector adds 4u n.|apart|.
+// Returns the side of a triangle's plane on which a point certainly lies: 1 in front, -1 behind, 0
+// if unknown. It agrees with real arithmetic and with height_over, which may also return zero if
+// this returns 0. The error of height_over is below 12u n.|apart| + 12u E |apart|, and its
+// threshold is below the bound, which is therefore doubled. The error of is_before_face
+// (shade.cl), whose unit vector adds 4u n.|apart|, stays within the bound, too.
 static inline int side_of(const Corners *corners, const FatPoint *fat, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -154,7 +156,7 @@ static inline Candidate reflected_candidate(const ThickRay *ray, const Sight *si
     return candidate;
 }
 
-// Nearer to the eye than this a camera ray's start counts as a surface point.
+// Closer to the eye than this, a camera ray's start counts as a surface point.
 #define AT_EYE 0x1p-15f
 
 static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight,
@@ -173,7 +175,7 @@ static inline Candidate camera_candidate(const ThickRay *ray, const Sight *sight
     return candidate;
 }
 
-// What has both ends of the ray on one side is not between them.
+// A triangle with both ends of the ray on one side does not block it.
 static inline Candidate shadow_candidate(const ThickRay *ray, const Sight *sight, int side,
                                          int light_side)
 {

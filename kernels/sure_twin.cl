@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Twins: triangles with the same stored corners (shared.h).  A ray meets both at one distance, bit
-// for bit, so the lower id wins if the ray surely meets one of them first.  A ray that leaves one
-// of them starts in the plane of the other and does not meet it.
+// Twins are triangles with the same stored corners (shared.h). A ray hits both at the same
+// distance, bit for bit, so the lower id wins if the ray certainly hits one of them first. A ray
+// that leaves one twin starts in the plane of the other and does not hit it.
 #ifndef CLRT_SURE_TWIN_CL
 #define CLRT_SURE_TWIN_CL
 #include "sure_triangle.cl"
@@ -18,20 +18,20 @@ static inline bool are_twins(const SceneView *scene, uint index, uint other)
            is_same_corner(one->c, two->c);
 }
 
-// Whether a ray that leaves a triangle surely passes its twin.  It does if height_over returns zero
-// for its start: meets_neighbor then compares the triangles, and finds neither in front of the
-// other, as the height of an edge over its own plane is below 6u n.|edge|, less than height_over
-// allows.  Here n is the tracer's normal, and n.|v| is the sum of the products' sizes.  The
-// computed height of the start is the sum of these errors:
-//  - The start is a weighted sum of corners, which all have the height n.a over the origin.  Its
-//    weights add up to 1 within 4u: 4u |n.a|.  Rounding the sum adds 3u n.|corner|.
-//  - Moving it into the triangle adds u n.|start| and 2u n.|way|.
-//  - An edge is off the plane across n by 4u n.|edge|: by 3u as the components of n are rounded,
-//    and by u as the edge is.
+// Returns whether a ray that leaves a triangle certainly misses its twin. It does if height_over
+// returns zero for the ray's start. meets_neighbor then compares the triangles and finds neither
+// in front of the other: the height of an edge over its own plane is below 6u n.|edge|, less than
+// height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the products'
+// magnitudes. The computed height of the start is the sum of these errors:
+//  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its
+//    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
+//  - Moving the start into the triangle adds u n.|start| and 2u n.|way|.
+//  - An edge leaves the plane across n by 4u n.|edge|: 3u from rounding the components of n, and
+//    u from rounding the edge.
 //  - The difference of start and corner and its product with n add 4u n.|difference|.
-// Both sides of the comparison are in units of u.  The normal computed here differs from n by 4u E
-// an axis, E the product of the largest edge components, because the tracer rounds the edges.  As
-// coordinates are at most 1, that changes the comparison by less than 1100u E.
+// Both sides of the comparison are in units of u. The normal computed here differs from n by 4u E
+// per axis, because the tracer rounds the edges. E is the product of the largest edge components.
+// As coordinates are at most 1, this changes the comparison by less than 1100u E.
 static inline bool surely_passes_twin(const Corners *corners, const ThickRay *ray)
 {
     const FatPoint *start = &ray->start;

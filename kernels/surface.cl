@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A hit becomes a surface: the point and its normals.  Points are interpolated on the primitive
-// rather than stepped along the ray, so that their error does not grow with the distance traveled
-// (pbrt, section 6.8).  New rays start right there: which triangles they may stop on is decided by
-// the side the point lies on (triangle.cl), so no offset moves contacts and shadows.  Only where
-// rounding put the point outside its own triangle, as the new ray sees it, is it moved.
+// Turns a hit into a surface: the point and its normals. Points are interpolated on the primitive
+// rather than stepped along the ray, so their error does not grow with the distance traveled
+// (pbrt, section 6.8). New rays start exactly at the point. The side on which the point lies
+// decides which triangles they may stop on (triangle.cl), so no offset moves contacts and shadows.
+// The start only moves if rounding has put the point outside its own triangle, as the new ray sees
+// it.
 //
-// The shading normal and the true face can face opposite sides.  Two rules decide what then leaves
-// the surface or reaches it.  The face always counts as seen from where the ray came.
-//  - A light reaches a point only if the shading normal and the face both face it (shade.cl).  The
-//    course's renderers get there by starting shadow rays a little off the surface: the face then
-//    blocks a light behind it.  A sphere seen from inside keeps its outward normal, as in the
-//    course, so its inner face and its normal never face the same light and it stays unlit.
+// The shading normal and the true face can face opposite sides. Two rules then decide which light
+// and which rays leave or reach the surface. The face always counts as seen from the ray's side.
+//  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
+//    course's renderers have the same effect by starting shadow rays slightly off the surface: the
+//    face then blocks a light behind it. A sphere seen from inside keeps its outward normal, as in
+//    the course. Its inner face and its normal never face the same light, so it stays unlit.
 //  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
@@ -19,13 +20,13 @@
 
 typedef struct {
     Real3 point;
-    Real3 normal;        // unit, interpolated, what is shaded with
-    Real3 face;          // unit, of the true surface, on the side the ray came from
-    Real3 on_face;       // a corner of the triangle, exact; of a sphere the point
+    Real3 normal;        // unit, interpolated, the shading normal
+    Real3 face;          // unit, of the true surface, on the ray's side
+    Real3 on_face;       // a corner of the triangle, exact; for a sphere the point
     Real3 toward_viewer; // unit
     Count id, material;
     Count index;     // of a triangle; NOTHING for spheres
-    Real room, edge; // the point is room / edge away from the edges, to a factor of 2
+    Real room, edge; // the point is room / edge away from the edges, within a factor of 2
 } Surface;
 
 static inline Truth has_length(Real3 v)
@@ -33,7 +34,8 @@ static inline Truth has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
-// A collinear triangle, which only rounding lets a ray meet, has no normal: it faces the viewer.
+// A collinear triangle, which a ray hits only through rounding, has no normal. It faces the
+// viewer.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -84,8 +86,8 @@ static inline View view_of(const Corners *corners, Real3 origin, Real3 direction
     return view;
 }
 
-// A weight is the share of the altitude that a point is away from an edge, and the altitude twice
-// the area over the edge's length.
+// A weight is the distance from an edge as a fraction of the altitude. The altitude is twice the
+// area over the edge's length.
 static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -119,16 +121,16 @@ static inline Surface triangle_surface(const SceneView *scene, const FrameData *
     return surface;
 }
 
-// Whether a ray that meets the sphere comes from outside.  sphere_distance chooses between the near
-// and the far wall by the same power, so the answer also holds where the ray grazes the sphere and
-// rounding may turn the normal away.
+// Returns whether a ray that hits the sphere comes from outside. sphere_distance uses the same
+// power to choose between the near and the far wall. The answer therefore also holds for a grazing
+// ray, where rounding may turn the normal away.
 static inline Truth comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
 {
     const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
     return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
 }
 
-// A sphere's normal points outward even where it is seen from inside, as in the course.
+// A sphere's normal points outward even from inside, as in the course.
 static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, const Hit *hit)
 {
     const Sphere sphere = fetch_sphere(scene, hit->index);
@@ -160,8 +162,8 @@ static inline Surface choose_surface(Truth first, const Surface *a, const Surfac
                      first ? a->edge : b->edge};
 }
 
-// The lanes of hit that have none of `met` take the place of one that has: what they compute is
-// thrown away, but must be read from somewhere.
+// Lanes of hit outside `met` copy a lane inside. Their results are discarded, but they must read
+// valid memory.
 static inline Hit hit_everywhere(const Hit *hit, Truth met)
 {
     Hit filled = *hit;
@@ -170,7 +172,7 @@ static inline Hit hit_everywhere(const Hit *hit, Truth met)
     return filled;
 }
 
-// Where the ray meets something; other lanes hold anything.
+// Returns the surfaces of lanes with a hit. The values of other lanes are unspecified.
 static inline Surface surface_at(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                  const Hit *hit, Truth met)
 {
@@ -192,7 +194,7 @@ static inline Surface surface_at(const SceneView *scene, const FrameData *frame,
     return any_lane(on_triangle) ? choose_surface(on_sphere, &sphere, &triangle) : sphere;
 }
 
-// Where a ray leads that leaves a surface: in a direction, or to a place.
+// The target of a ray that leaves a surface: a direction or a place.
 typedef struct {
     Real3 to;
     bool is_place;
@@ -203,10 +205,10 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
     return heading->is_place ? difference(heading->to, point) : heading->to;
 }
 
-// Where a ray starts whose surface point rounding may have put outside its triangle: beyond the
-// neighbor that it should stop on.  As long as its line misses the triangle, the point goes toward
-// the middle of it, in its plane: the sharper the corner, the farther, up to 256 times what a unit
-// of rounding moves the line along the plane.
+// Returns the start of a ray whose surface point rounding may have put outside its triangle,
+// beyond the neighbor that should stop the ray. While the ray's line misses the triangle, the
+// point moves toward the triangle's middle, within its plane. Sharper corners move it farther, up
+// to 256 times the line's shift along the plane by a unit of rounding.
 static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surface,
                                      const Heading *heading, Real sine, Truth near_edge)
 {
@@ -226,9 +228,9 @@ static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surf
     return point;
 }
 
-// Where a ray that leaves the surface starts, so that its line passes through its own triangle.
-// Only near edges can rounding keep it from that: a point is off by some units of rounding of
-// coordinates up to 1, and a line that rises from the surface by a sine by as much over the sine.
+// Returns the start of a ray that leaves the surface, such that its line passes through its own
+// triangle. Rounding can prevent that only near edges. A point is off by some units of rounding,
+// with coordinates up to 1. A line that rises at a given sine is off by this error over the sine.
 static inline Real3 point_left(const SceneView *scene, const Surface *surface,
                                const Heading *heading, Real sine, Truth active)
 {
@@ -239,8 +241,8 @@ static inline Real3 point_left(const SceneView *scene, const Surface *surface,
     return point_inside(scene, surface, heading, sine, near_edge);
 }
 
-// An interpolated normal can send the reflected ray into the surface it leaves; such a ray is
-// turned out again in the mirror of the true surface, which is continuous at its horizon.
+// An interpolated normal can send the reflected ray into the surface it leaves. That ray is
+// mirrored out again at the true surface, which is continuous at its horizon.
 static inline Ray ray_reflected(const SceneView *scene, const Surface *surface, Truth active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);

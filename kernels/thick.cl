@@ -1,47 +1,53 @@
 // SPDX-License-Identifier: MIT
-// A ray as thick as what is not known of it: a cone that holds the ray of real arithmetic on the
-// stored scene and the one that a tracer of unit roundoff u followed in its place.  What all rays
-// of the cone decide alike, under all errors of the tracer's tests as well, no rounding can change.
+// A thick ray is a cone that holds two rays: the exact ray on the stored scene, in real
+// arithmetic, and the ray of a tracer with unit roundoff u. If all rays of the cone lead to the
+// same decision, with all errors of the tracer's tests included, no rounding can change that
+// decision.
 //
-// This is computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53): OWN_ROUNDOFF
-// stands for what is lost here, whichever u is.  That a float operation is correctly rounded is
-// all that is asked of the tracer's device, and that no product of two sheared coordinates
-// underflows, which takes a corner nearer than 2^-51 of the frame to the ray on one axis alone.
-// The bounds, in the order in which a ray needs them; |.| is Euclidean unless said otherwise:
+// The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
+// OWN_ROUNDOFF covers the rounding of this program for either u. The tracer's device only has to
+// round float operations correctly. In addition, no product of two sheared coordinates may
+// underflow; that takes a corner closer than 2^-51 of the frame to the ray on one axis alone. The
+// bounds follow in the order in which a ray needs them. |.| is the Euclidean length unless noted.
 //
-//  1. Camera ray: fma(x, right, fma(y, down, forward)), of which fp32's is computed here once more;
-//     fp64's two roundings are below u (|inner| + |outer|) a component.  The eye is stored.
-//  2. Corners, relative to the origin and sheared to (X - S Z, ., Z), |S| <= 1: u on the
-//     differences, 2u on S, u on the fma of its small result: 4u |S Z| + 2u |X - S Z| on each of
-//     two axes.  For a corner at depth z, l aside of a ray that makes an angle of sine w with the
-//     longest axis, that is below 4u w z + 10u l in all.  The edge functions' signs are exact
-//     (vector.cl), so the tracer decides exactly about corners that lie so much aside (blur_at).
-//     Where the axis passes all three edges by more than the blur, no motion of the corners within
-//     it moves an edge over the axis: the triangle winds around it as often as before, in the same
-//     sense.
-//  3. Where it is met: edge functions carry 2u, weights 8u, of which the 5u of sum and reciprocal
-//     are common to all three; depths u, their interpolation 3u, the division 2u: 14u on the
-//     longest axis, hence 25u of the size of the triangle's farthest corner along the ray.  The
-//     tracer's own `error` (pair.cl) is below 64u of that.
-//  4. A point of a triangle: 5u common to all, 3u on each weight, 3u of the interpolation: on each
-//     axis 11u of the weighted mean of the corners' sizes, off the plane; in the plane it slides by
-//     the blur over the sine at which the ray falls in.
-//  5. A triangle's normal: edges carry u, their products 2u each: 4u E + 3u |n_k| an axis, E the
-//     product of the largest edge components: 7u E + 3u |n|.  Unit vectors add 4u.
-//  6. An interpolated normal: 3u on each weight and 3u of the interpolation; what is common to all
-//     does not turn it; and what sliding changes the weights by.
-//  7. Directions to lights: u on the difference, 4u on the unit vector; a shadow ray ends within u
-//     of its length from the light.  The side of a face that a light is on depends on stored
-//     numbers alone (side_of).  Reflection turns twice as far as the normal and as far as the ray,
-//     and rounds by 12u.
+//   1. Camera ray: fma(x, right, fma(y, down, forward)). fp32's rounding is recomputed here. fp64's
+//      two roundings are below u (|inner| + |outer|) per component. The eye is stored.
+//   2. Corners relative to the origin, sheared to (X - S Z, ., Z), |S| <= 1: u for the differences,
+//      2u for S, u for the fma of its small result. Together: 4u |S Z| + 2u |X - S Z| on each of
+//      two axes. For a corner at depth z, l aside of a ray at an angle of sine w to the longest
+//      axis, the sum is below 4u w z + 10u l. The edge functions' signs are exact (vector.cl), so
+//      the tracer decides exactly about corners shifted by this much (blur_at). If the axis passes
+//      all three edges by more than the blur, no shift of the corners within the blur moves an edge
+//      across the axis. The triangle then winds around the axis as often as before, in the same
+//      direction.
+//   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
+//   are
+//      common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
+//      longest axis, hence 25u of the size of the triangle's farthest corner along the ray. The
+//      tracer's own `error` (pair.cl) is below 64u of that size.
+//   4. Point of a triangle: 5u common to all weights, 3u per weight, 3u for the interpolation. Off
+//   the
+//      plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane the
+//      point slides by the blur over the sine at which the ray arrives.
+//   5. Triangle normal: edges carry u and their products 2u each: 4u E + 3u |n_k| per axis, where E
+//   is
+//      the product of the largest edge components. In all: 7u E + 3u |n|. Unit vectors add 4u.
+//   6. Interpolated normal: 3u per weight, 3u for the interpolation, and the change of the weights
+//   by
+//      sliding. A factor common to all weights does not turn the normal.
+//   7. Directions to lights: u for the difference, 4u for the unit vector. A shadow ray ends within
+//   u
+//      of its length from the light. The side of a face that a light is on depends only on stored
+//      numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and rounds
+//      by 12u.
 //  8. Spheres: sure_sphere.cl.
 #ifndef CLRT_THICK_CL
 #define CLRT_THICK_CL
 
 #define OWN_ROUNDOFF 0x1p-53
 
-// A point of a surface: of a triangle it lies within `slide` of the point in the triangle's plane,
-// and from there `lift` off; of a sphere within `lift`.
+// A point of a surface. On a triangle it lies within `slide` of the point in the triangle's plane
+// and within `lift` off the plane. On a sphere it lies within `lift`.
 typedef struct {
     Real3 point;
     Real3 face; // unit normal of the triangle's plane
@@ -50,15 +56,15 @@ typedef struct {
 
 typedef struct {
     Real3 origin, along, right, up; // unit and perpendicular; right and up span the plane across
-    Real around;                    // every ray of the cone starts within this of the origin
-    Real spread;                    // and leads away from `along` by at most this tangent
-    Real tilt;                      // at least the sine between them and the longest axis
-    Real length;                    // of a shadow ray, up to the light; else INFINITY
-    Real u;                         // unit roundoff of the tracer in question
-    Count own, own_index;           // as a Ray's
+    Real around;          // bound on the distance of the cone's rays from the origin at their start
+    Real spread;          // bound on the tangent of their angle to `along`
+    Real tilt;            // lower bound of the sine between them and the longest axis
+    Real length;          // of a shadow ray, up to the light; else INFINITY
+    Real u;               // unit roundoff of the tracer being checked
+    Count own, own_index; // as in Ray
     RayKind kind;
-    FatPoint start; // where it leaves a surface, or the eye
-    FatPoint goal;  // of a shadow ray: where it ends, at the light
+    FatPoint start; // the surface point that it leaves, or the eye
+    FatPoint goal;  // of a shadow ray: its end, at the light
 } ThickRay;
 
 static inline Real length_of(Real3 v)
@@ -76,13 +82,13 @@ static inline Real sum_of_sizes(Real3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Directions that differ by `chord` from a unit vector lead away from it by this tangent.
+// Returns the tangent of the angle that a chord of this length spans between unit vectors.
 static inline Real spread_of(Real chord)
 {
     return chord < 0.25f ? chord / (1.0f - chord) : INFINITY;
 }
 
-// The frame of a ray along a unit vector.
+// Sets the frame of a ray along a unit vector.
 static inline void look_along(ThickRay *ray, Real3 along)
 {
     const Real3 size = magnitudes(along);
@@ -97,13 +103,13 @@ static inline void look_along(ThickRay *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// The tracer searches no farther (traverse.cl), and a cone so wide would settle nothing.
+// The tracer searches no farther (traverse.cl), and a wider cone would decide nothing.
 static inline bool is_usable(const ThickRay *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
 }
 
-// A point in the ray's frame: across, across and along.
+// Returns a point in the ray's frame: across, across and along.
 static inline Real3 seen_by(const ThickRay *ray, Real3 point)
 {
     const Real3 apart = difference(point, ray->origin);
@@ -111,7 +117,7 @@ static inline Real3 seen_by(const ThickRay *ray, Real3 point)
                     dot_product(apart, ray->along));
 }
 
-// The cone's radius at a depth.  Shadow rays come together again at the light.
+// Returns the cone's radius at a depth. The cone of a shadow ray narrows again toward the light.
 static inline Real cone_at(const ThickRay *ray, Real z)
 {
     const Real depth = fabs(z) + ray->around;
@@ -121,7 +127,7 @@ static inline Real cone_at(const ThickRay *ray, Real z)
            radius_of(&ray->goal) * (depth / ray->length);
 }
 
-// How far the point may lie elsewhere, seen along any ray of the cone as the tracer rounds it.
+// Bounds the shift of a point as seen along any ray of the cone, including the tracer's rounding.
 static inline Real blur_at(const ThickRay *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;
@@ -130,7 +136,7 @@ static inline Real blur_at(const ThickRay *ray, Real3 seen)
            16.0f * OWN_ROUNDOFF * (depth + aside);
 }
 
-// By how much the direction is off that fp32 computes in place of this one.
+// Bounds the difference between this direction and the one that fp32 computes.
 static inline Real camera_rounding(const CameraData *camera, Real3 direction, float x, float y)
 {
     const float *right = camera->right_step, *down = camera->down_step, *forward = camera->forward;
@@ -140,7 +146,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 direction, fl
     return length_of(difference(rounded, direction));
 }
 
-// sample_x and sample_y as for camera_ray.  Twice the lengths bound what fp64 rounds.
+// sample_x and sample_y are as in camera_ray. Doubling the lengths covers fp64's rounding.
 static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Follows a camera ray through its reflections (Whitted, CACM 23(6) 1980).  OpenCL C has no
-// recursion; what a recursive tracer keeps on its stack is the weight here.
+// Follows a camera ray through its reflections (Whitted, CACM 23(6) 1980). OpenCL C has no
+// recursion, so the loop keeps the weight that a recursive tracer keeps on its stack.
 #ifndef CLRT_TRACE_CL
 #define CLRT_TRACE_CL
 #include "shade.cl"
@@ -10,7 +10,7 @@ static inline Real3 load_private3(const float *components)
     return real3_of(components[0], components[1], components[2]);
 }
 
-// x and y are places in the whole picture, in halves of a sub-pixel.
+// x and y are positions in the whole picture, in halves of a sub-pixel.
 static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Truth active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
@@ -38,7 +38,8 @@ static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
     tally->shaded_points += lane_count(met);
 }
 
-// Each sphere is a surface of its own, and the triangles of one material are one together.
+// Returns the surface's word for signatures. Each sphere is its own surface; all triangles of one
+// material are one surface.
 static inline Count surface_word(const FrameData *frame, const Surface *surface)
 {
     const Count of_mesh = frame->sphere_count + surface->material;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Finds what a ray meets: the hit with the smallest (distance, id) of all primitives, or whether
-// anything blocks a shadow ray.  Triangles are found by the search the program is built for.
+// Finds a ray's hit: the smallest (distance, id) of all primitives, or whether anything blocks a
+// shadow ray. The program's kernel family selects the search for triangles.
 #ifndef CLRT_TRAVERSE_CL
 #define CLRT_TRAVERSE_CL
 #include "meet.cl"
 #include "pair.cl"
 #include "sphere.cl"
 
-// A ray meets its own sphere only from inside, and only by reflection.
+// A ray hits its own sphere only from inside, and only by reflection.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Truth is_own)
 {
     if (ray->kind != RAY_REFLECTED || !any_lane(is_own))
@@ -33,10 +33,10 @@ static inline void meet_spheres(const SceneView *scene, const FrameData *frame, 
     }
 }
 
-// Whether a search for triangles may follow the ray: it starts within 2^46 of the frame, and its
-// direction is neither shorter than 2^-80 nor longer than 2^80.  Others meet nothing.  With an
-// infinity or a NaN a ray would be inside every box, that of a missing child among them, and the
-// search would never end.
+// Returns whether a search for triangles may follow the ray. The ray must start within 2^46 of the
+// frame, and its direction must be between 2^-80 and 2^80 long. All other rays hit nothing. With
+// an infinity or a NaN, a ray would be inside every box, even a missing child's, and the search
+// would never end.
 static inline Truth is_searchable(const Ray *ray)
 {
     const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);
@@ -59,9 +59,9 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
     return best;
 }
 
-// What stands between the shaded point and the light of a shadow ray: anything that does, with no
-// id where nothing does; t then is the distance it was looked for within.  What the light lies on,
-// to within the error of a distance, does not stand between.
+// Returns anything between the shaded point and the light of a shadow ray. If nothing blocks it,
+// the hit has no id, and t is the limit of the search. A primitive that the light lies on, within
+// the error of a distance, does not block it.
 static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
                                Tally *tally)
 {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Ray against triangle, watertight: the triangle is sheared into the ray's frame and the signs of
-// three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013).  Neighbors share the
-// sheared vertices bit for bit, and Kahan's difference of products gives each shared edge the same
-// exact sign from both sides, so no ray passes between them.  No include guard: it is compiled for
-// one ray and one triangle, one ray and eight triangles, and a packet of rays and one triangle.
+// Watertight ray-triangle intersection: the triangle is sheared into the ray's frame, and the
+// signs of three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013). Neighbors share
+// the sheared vertices bit for bit. Kahan's difference of products gives each shared edge the same
+// exact sign from both sides, so no ray passes between them. This file has no include guard,
+// because it is compiled for one ray and one triangle, one ray and eight triangles, and a packet
+// of rays and one triangle.
 #include "vector.cl"
 
-// The shear that turns the ray into the axis z: z is the axis the direction is longest along, x and
-// y the ones that follow in the cycle.
+// The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
+// follow in cyclic order.
 typedef struct {
     Real shear_x, shear_y, inverse_z, direction_z;
 } Shear;
@@ -16,12 +17,12 @@ typedef struct {
     Real3 a, b, c;
 } Corners;
 
-// The edge functions, which are barycentric weights once divided by their sum.
+// The edge functions. Divided by their sum, they are the barycentric weights.
 typedef struct {
     Real u, v, w, determinant;
 } Edges;
 
-// Corners relative to the ray's origin, their components in the order of the shear.
+// Shears corners given relative to the ray's origin, with components in the order of the shear.
 static inline Corners OVERLOAD corners_sheared(const Corners *relative, const Shear *shear)
 {
     Corners s = *relative;
@@ -45,7 +46,7 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// Zero counts for both signs: a ray through an edge meets both triangles, and the lower id wins.
+// Zero counts for both signs: a ray through an edge hits both triangles, and the lower id wins.
 static inline Truth OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
@@ -53,7 +54,7 @@ static inline Truth OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// Whether the ray comes from the stored front, where the corners turn counter-clockwise.
+// Returns whether the ray comes from the stored front, where the corners turn counter-clockwise.
 static inline Truth OVERLOAD edges_face(const Edges *edges, const Shear *shear)
 {
     return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
@@ -66,8 +67,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// How far along z the reported depth may be from the true one: 16 u Q (10 of the weights, 4 of the
-// interpolation, 2 of the division), Q the largest distance of a corner from the origin, and two to
+// Bounds the error of the reported depth along z: 16 u Q, where Q is the largest distance of a
+// corner from the origin. The weights take 10, the interpolation 4, the division 2. Two are to
 // spare.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
@@ -77,17 +78,17 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Whether a ray meets the triangle so near to its origin that rounding may decide whether it does
-// so before or behind: coordinates are at most 1, which bounds that error by 2^-17.
+// Returns whether the hit is so close to the origin that rounding may decide whether it is in
+// front or behind. Coordinates are at most 1, which bounds that error by 2^-17.
 static inline Truth OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }
 
-// A point's height over the triangle's front, as a multiple of its normal's length; zero where
-// rounding leaves the side open.  Near a triangle this knows far more than the depth of a ray that
-// came from afar.  The bound adds the products' error, the normal's, and the point's own: `blur`
-// units of rounding of its coordinates.
+// Returns a point's height over the triangle's front, as a multiple of the normal's length. It is
+// zero if rounding leaves the side undecided. Near a triangle this is far more precise than the
+// depth of a ray from afar. The bound adds the errors of the products, of the normal and of the
+// point. The point's error is `blur` units of rounding of its coordinates.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -101,10 +102,10 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
 }
 
-// What a point of a surface may be off, in units of rounding of its coordinates.
+// The error of a surface point, in units of rounding of its coordinates.
 #define POINT_BLUR 16.0f
 
-// The sides of a triangle that another certainly reaches to.
+// The sides of a triangle that another triangle certainly reaches.
 typedef struct {
     Truth front, back;
 } Sides;
@@ -123,12 +124,13 @@ static inline Sides OVERLOAD sides_exchanged(Truth exchange, Sides sides)
     return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
 }
 
-// Whether a ray that leaves its own triangle in a direction stops on another, which its line meets
-// within rounding of where it starts.  How the two triangles lie tells: what is in front of the own
-// one, on the side that the ray leaves to, is ahead, and what is behind it is not; and as the ray
-// starts on the own one, so is and is not the other where that lies in front of it or behind, on
-// the side that the ray comes from.  Coplanar neighbors are not met.  Where the two cross, there is
-// nothing but rounding to tell by, and a ray that stops does not leave a closed shape.
+// Returns whether a ray that leaves its own triangle stops on another that its line hits within
+// rounding of the ray's start. The relative position of the triangles decides, seen from both. The
+// other triangle is ahead if it lies on the side of the own plane that the ray leaves to, and not
+// ahead if it lies behind. It is also ahead if the own triangle, where the ray starts, lies on the
+// side of the other's plane that the ray comes from, and not ahead if the own one lies behind. A
+// ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
+// that stops then does not leave a closed shape.
 static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *other,
                                             Real3 direction, Truth from_back)
 {
@@ -140,29 +142,29 @@ static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *o
     return (neighbor.front || start.front) && !behind;
 }
 
-// What a ray that leaves a surface knows beside its direction.
+// The state of a ray that leaves a surface, beside its direction.
 typedef struct {
     Real3 point;  // of the surface
     Truth front;  // it comes from the triangle's stored front
-    Truth inner;  // it comes from the triangle's back, as the mesh has it
+    Truth inner;  // it comes from the back of the mesh's triangle
     float length; // as a distance t: 1 up to a light, else INFINITY
-    float blur;   // what the point may be off, as in height_over: 0 for the eye, which is stored
+    float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
 
-// Where such a ray stops on a triangle that t, within error, says it meets; INFINITY where it does
-// not.  The side that its surface point lies on decides, beyond doubt, or the neighbors of every
-// point would mirror and shadow it; t near the surface is mere rounding.  From its inner side,
-// which only two-sided triangles show, a convex neighbor lies on the right side as well, and the
-// depth has to be clear too, but for the eye, which is on no surface.  A light that lies on a
-// triangle as far as t can tell is not shadowed by it.  In doubt are those that rounding alone
-// keeps from stopping.
+// Returns where the ray stops on a triangle that t, within its error, reports as hit; INFINITY if
+// it passes. The ray stops only if the side of its surface point decides so beyond doubt.
+// Otherwise the neighbors of every point would mirror and shadow it, because t near the surface is
+// only rounding. From the inner side, which only two-sided triangles show, a convex neighbor lies
+// on the right side as well. There the depth must be certain, too, except for the eye, which is on
+// no surface. A triangle that the light lies on, as far as t shows, does not shadow the ray.
+// in_doubt receives the lanes that only rounding keeps from stopping.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Truth *in_doubt)
 {
     const Truth ahead = t > -error && t < ray->length - error;
     const Truth clear = t > (ray->blur > 0.0f ? error : -error);
     const Real above = height_over(corners, ray->point, ray->blur);
-    const Real height = ray->front ? above : -above; // on the side that the ray comes from
+    const Real height = ray->front ? above : -above; // on the ray's side
     const Truth beyond = height > 0.0f && (clear || !ray->inner);
     *in_doubt = ahead && !beyond && height >= 0.0f;
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exact arithmetic for the tracer's Real, and for eight triangles of a block against one ray.
-// The text of vector.cl and triangle.cl is the same for all types, and so are their results.
+// Compiles the exact arithmetic for the tracer's Real, and for eight triangles of a block against
+// one ray. All types compile the same vector.cl and triangle.cl, so their results are equal.
 #ifndef CLRT_TYPES_CL
 #define CLRT_TYPES_CL
 #include "lanes.cl"

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three Reals, and the arithmetic of signs.  No include guard: it is compiled for every
-// type that Real stands for where it is included (types.cl).
+// Vectors of three Reals, and exact signs. This file has no include guard, because types.cl
+// includes it once for every type of Real.
 
 typedef struct {
     Real x, y, z;
 } Real3;
 
-// a * b - c * d within 1.5 ulp, hence with the exact sign (Kahan; Jeannerod, Louvet and Muller,
-// "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants", 2013).
+// Returns a * b - c * d within 1.5 ulp, hence with the exact sign (Kahan; Jeannerod, Louvet and
+// Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
+// determinants", 2013).
 static inline Real OVERLOAD difference_of_products(Real a, Real b, Real c, Real d)
 {
     const Real cd = c * d;
@@ -42,7 +43,7 @@ static inline Real OVERLOAD largest_component(Real3 v)
     return max(max(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
-// The component on an axis that can differ from lane to lane.
+// Returns the component on an axis, which can differ between lanes.
 static inline Real OVERLOAD component(Real3 v, Count axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Children of wide nodes that wait for their turn, in the order in which rays enter them.  How many
-// a ray meets and which is nearest is anybody's guess, and so is every branch on it; a sorting
-// network (Batcher, "Sorting networks and their applications", 1968) has none.  Against insertion
-// it took 17, 10 and 1 % off the time of pictures of a million, 122 and 6 thousand triangles.
+// The stack of children of wide nodes, pushed in the order in which rays enter them. The number of
+// children hit and the nearest one are unpredictable, and so is every branch on them. A sorting
+// network (Batcher, "Sorting networks and their applications", 1968) has no branches. Against
+// insertion sort it saves 17, 10 and 1 % of the time for pictures of a million, 122 thousand and 6
+// thousand triangles.
 #ifndef CLRT_WAITING_CL
 #define CLRT_WAITING_CL
 #include "ray.cl"
 
 #if CLRT_WIDE_NODES
 
-// A level of the tree leaves at most WIDE - 1 children waiting, and WIDE are stored at once.
+// A tree level leaves at most WIDE - 1 pending children, and each store writes WIDE entries.
 #define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + 2 * WIDE)
 
-// The nearest child of the node met last is on top.
+// The nearest child of the last visited node is on top.
 typedef struct {
     uint order[WIDE_STACK_SIZE]; // as made by entry_order
     uint child[WIDE_STACK_SIZE];
@@ -24,17 +25,17 @@ static inline uint lowest_bit(uint bits)
     return popcount((bits & -bits) - 1);
 }
 
-// The distances at which children are entered, as integers that sort the other way round: floats
-// without a sign order as their bits do.  Children that are not met come last.  The lowest bits
-// make way for the child's place, which shortens the distance by less than 2^-20 of it.
+// Returns the entry distances as integers that sort in reverse; the bits of nonnegative floats
+// sort like the floats. Children not hit come last. The lowest bits hold the child's index, which
+// shortens the distance by less than 2^-20 of it.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
     return ~((as_uint8(entry) & 0x7ffffff8u) | place) | ~as_uint8(met);
 }
 
-// Steps of the network: of two places that differ by the bits of the number, the lower one gets the
-// smaller value.
+// Steps of the network. They compare elements whose indices differ in the function's bits, and move
+// the smaller value to the lower index.
 static inline uint8 exchanged_1(uint8 v)
 {
     const uint8 low = min(v, v.s10325476), high = max(v, v.s10325476);
@@ -91,8 +92,8 @@ static inline uint4 sorted_four(uint4 v)
     return (uint4)(low.s0, high.s1, low.s2, high.s3);
 }
 
-// One node in twenty has more than four children that are met; the others, pushed together, are
-// sorted by half a network.
+// Only one node in twenty has more than four children hit. Up to four are moved together, so that
+// half a network sorts them.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));
@@ -110,8 +111,7 @@ static inline uint8 orders_sorted(uint8 order, uint met)
 }
 #endif
 
-// Puts the children that are met on the stack, where they are entered and what they are being
-// given.
+// Pushes the children that are hit, with their entry distances.
 static inline void wait_for(WideWaiting *waiting, float8 entry, int8 met, uint8 children)
 {
     const uint bits = lane_bits(met);
@@ -121,8 +121,8 @@ static inline void wait_for(WideWaiting *waiting, float8 entry, int8 met, uint8 
     waiting->count += popcount(bits);
 }
 
-// Takes the child that is entered first among those that wait; false where there is none before
-// `reach`, which is not negative.
+// Pops the child with the smallest entry distance. Returns false if none is entered before
+// `reach`, which must not be negative.
 static inline bool next_child(WideWaiting *waiting, float reach, uint *child)
 {
     while (waiting->count > 0) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Single rays through the tree of wide nodes: all children of a node and all triangles of a block
-// are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008).  The rays of a
-// packet's lanes walk side by side, a step each in turn.  Culling is pair.cl's, and acceptance
-// triangle.cl's, so the answer is too.
+// Traces single rays through the tree of wide nodes. All children of a node and all triangles of a
+// block are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The rays of
+// a packet's lanes advance alternately, one step each. Culling is pair.cl's and acceptance
+// triangle.cl's, so the hits are equal, too.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "fetch.cl"
@@ -10,7 +10,7 @@
 
 #if CLRT_WIDE_NODES
 
-// The rays of the lanes as the searches want them.
+// The rays of all lanes, prepared for the searches.
 typedef struct {
     const SceneView *scene;
     const Ray *ray;
@@ -42,7 +42,7 @@ static inline void search_slab(Search *search, uint axis, Real direction, Real o
     (&search->far_offset.x)[axis] = -(origin - widening) * inverse;
 }
 
-// The slabs of rays with origins o and directions d.
+// Computes the slabs of rays with origins o and directions d.
 static inline void search_slabs(Search *search, Real3 o, Real3 d)
 {
     const Real smallest = 0x1p-30f * largest_component(d);
@@ -52,7 +52,8 @@ static inline void search_slabs(Search *search, Real3 o, Real3 d)
     search_slab(search, 2, slab_direction(d.z, smallest), o.z, slack);
 }
 
-// Distances to a plane of each child's box: the one the lane's ray meets first, or the other.
+// Returns the distances to a plane of each child's box: the one the lane's ray enters by, or the
+// opposite one.
 static inline float8 wide_planes(global const float planes[2][WIDE], const Real *inverse,
                                  const Real *offset, uint lane, uint other)
 {
@@ -61,7 +62,7 @@ static inline float8 wide_planes(global const float planes[2][WIDE], const Real 
     return fma(vload8(0, planes[side]), (float8)(i), (float8)(real_of(offset, lane)));
 }
 
-// The children whose boxes the lane's ray is in before `reach`, and where it enters them.
+// Returns the children whose boxes the lane's ray enters before `reach`, and where it enters them.
 static inline int8 children_met(global const BvhWide *node, const Search *search, uint lane,
                                 float reach, float8 *entry)
 {
@@ -88,10 +89,10 @@ static inline Wide3 block_corner(global const TriangleBlock *block, uint corner)
                    block_row(block, corner, 2)};
 }
 
-// A lane's ray as the test of a block wants it.
+// A lane's ray, prepared for testing a block.
 typedef struct {
     uint axes[3];    // of the shear: its x, y and z
-    float origin[3]; // in their order
+    float origin[3]; // in the order of these axes
     WideShear shear;
 } LaneRay;
 
@@ -115,7 +116,7 @@ static inline Wide3 block_corner_relative(global const TriangleBlock *block, uin
                    block_row(block, corner, ray->axes[2]) - ray->origin[2]};
 }
 
-// What a lane's ray has found out about a block: the triangles whose edges contain it.
+// The result of testing a lane's ray against a block: the triangles whose edges contain it.
 typedef struct {
     WideShear shear;
     WideCorners sheared;
@@ -123,7 +124,7 @@ typedef struct {
     int8 inside;
 } BlockTest;
 
-// A triangle's place: index counts those of all blocks.
+// A triangle's position. index counts the triangles of all blocks.
 typedef struct {
     global const TriangleBlock *block;
     uint place, index;
@@ -139,8 +140,8 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){real_of(&v->x, lane), real_of(&v->y, lane), real_of(&v->z, lane)};
 }
 
-// Which triangles of the block the lane's ray stops on among those that its line meets within
-// rounding of its own.
+// Returns which triangles of the block stop the lane's ray, among those that its line hits within
+// rounding of the ray's own.
 static NOT_INLINE int8 block_stops(const WideCorners *corners, const Search *search, uint lane,
                                    int8 from_back)
 {
@@ -152,7 +153,8 @@ static NOT_INLINE int8 block_stops(const WideCorners *corners, const Search *sea
     return meets_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
 
-// Where the lane's ray stops on those triangles; INFINITY where it does not, or not before `reach`.
+// Returns the distances of these hits, INFINITY for triangles that do not stop the ray before
+// `reach`.
 static inline float8 block_distances(global const TriangleBlock *block, const Search *search,
                                      uint lane, const BlockTest *test, float reach)
 {
@@ -190,7 +192,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
 }
 
-// Records the nearest of the distances if it precedes the lane's hit, and tells whether it does.
+// Records the nearest distance if it precedes the lane's hit, and returns whether it does.
 static inline bool lane_hits(const float8 *distances, const BlockPlace *start, uint lane, Hit *hits)
 {
     float *best_t = (float *)&hits->t + lane;
@@ -211,7 +213,7 @@ static inline bool lane_hits(const float8 *distances, const BlockPlace *start, u
     return changed;
 }
 
-// Tests the triangles of a block against the lane's ray; tells whether its hit changed.
+// Tests a block's triangles against the lane's ray. Returns whether its hit changed.
 static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *search, uint lane,
                                      Hit *hits)
 {
@@ -232,8 +234,7 @@ static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *sear
     return lane_hits(&distances, start, lane, hits);
 }
 
-// Asks for a node, or for most of a block, that is going to be read: four lines of the cache.
-// OpenCL's prefetch does nothing on PoCL.
+// Prefetches a node, or most of a block: four cache lines. OpenCL's prefetch does nothing on PoCL.
 static inline void fetch_ahead(const SceneView *scene, uint child)
 {
 #if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
@@ -249,12 +250,12 @@ static inline void fetch_ahead(const SceneView *scene, uint child)
 #endif
 }
 
-// Rays that search side by side, a ray in each lane.
+// Rays that search side by side, one per lane.
 typedef struct {
     const Search *search;
     Hit *hits;
-    uint child[CLRT_LANES]; // where each goes next
-    uint leaves, ended;     // bits of the lanes that go to a block, and nowhere
+    uint child[CLRT_LANES]; // the next child of each
+    uint leaves, ended;     // bits of the lanes at a block, and of those that have ended
     WideWaiting waiting[CLRT_LANES];
 } Walkers;
 
@@ -271,14 +272,14 @@ static inline void walk_on(Walkers *walkers, const SceneView *scene, uint lane)
     walkers->leaves |= (child & WIDE_LEAF) != 0 ? bit : 0;
 }
 
-// A step of each lane that goes to a node.
+// Advances each lane that is at a node by one step.
 static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *tally)
 {
     uint bits = ALL_LANES & ~(walkers->leaves | walkers->ended);
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
         global const BvhWide *node = &scene->nodes[walkers->child[lane]];
-        // Read early: the other lines of the node are on their way meanwhile.
+        // Read early, while the other cache lines of the node are loading.
         const uint8 children = vload8(0, node->child);
         const float reach = real_of(&walkers->hits->t, lane);
         float8 entry;
@@ -290,7 +291,7 @@ static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *t
     }
 }
 
-// A step of each lane that goes to a block.  A shadow ray is content with what it hits first.
+// Advances each lane that is at a block by one step. A shadow ray stops at its first hit.
 static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *tally)
 {
     const bool is_shadow = walkers->search->ray->kind == RAY_SHADOW;
@@ -309,8 +310,8 @@ static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *
     }
 }
 
-// Searches for the rays of the lanes whose bits are set.  While one waits for memory or for the
-// result of its last step, the others go on: a fifth faster than one after the other.
+// Searches for the rays of the lanes whose bits are set. While one ray waits for memory or for its
+// last step's result, the others advance. This is a fifth faster than one ray after another.
 static NOT_INLINE void meet_alone(const SceneView *scene, const Search *search, uint bits,
                                   Hit *best, Tally *tally)
 {
