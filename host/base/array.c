@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Doubling growth for ARRAY and allocations that report exhaustion as a world fault.
+// Doubling growth for ARRAY, and allocations that report exhaustion through Error.
 #include "base/array.h"
 
 #include <stdint.h>
@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// What devices that read arrays in place want for their widest vectors.
+// The alignment that the widest vectors need on devices that read arrays in place.
 #define ALIGNMENT ((size_t)64)
 
-// Arrays of many pages ask for huge ones: a tree's nodes are read in no order, and without them
-// every other read misses the processor's table of pages; and meeting new memory 4 KB at a time
-// costs a loader more than filling it.  Measured on a million triangles: see CHANGELOG.md.
+// Arrays of many pages request huge pages. A tree's nodes are read in no order, so with small
+// pages every other read misses the TLB. Touching new memory 4 KB at a time also costs a loader
+// more than filling it. CHANGELOG.md has the measurements on a million triangles.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)
@@ -31,7 +31,9 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
     if (count <= *capacity)
         return true;
     const size_t least = *capacity < 8 ? 8 : *capacity;
-    size_t wanted = *capacity == 0 && count > least ? count : least; // the first may say it all
+    size_t wanted = *capacity == 0 && count > least
+                        ? count
+                        : least; // the first reservation is often the final size
     while (wanted < count && wanted <= SIZE_MAX / 2)
         wanted *= 2;
     if (wanted < count || wanted > SIZE_MAX / size)

@@ -17,19 +17,20 @@
         size_t count, capacity;                                                                    \
     }
 
-// Makes room for count elements of size bytes.  False leaves the array as it was.
+// Reserves memory for count elements of size bytes. Returns false on exhaustion and leaves the
+// array unchanged.
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error);
 
-// Appends item; an expression, false when memory ran out.
+// Appends item. An expression; false if memory runs out.
 #define array_push(array, item, error)                                                             \
     (array_reserve(&(array)->memory, &(array)->capacity, (array)->count + 1,                       \
                    sizeof *(array)->data, error) &&                                                \
      ((array)->data[(array)->count++] = (item), true))
 
-// calloc and malloc of count elements, aligned to 64 bytes, that fill Error instead of returning
-// NULL silently; NULL on overflow or exhaustion.  Zero elements give a pointer that may be freed.
+// calloc and malloc of count elements, aligned to 64 bytes. Return NULL and fill Error on overflow
+// or exhaustion. Zero elements give a pointer that may be freed.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
-// memory_raw for an array most of which is never touched: pages no larger than need be.
+// memory_raw for a mostly untouched array, without huge pages.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Version 2 has one line "0::/path" and a file cpu.max in each group; version 1 a line for each
-// controller, "4:cpu,cpuacct:/path", and two files.  A container may see a path that is not there,
-// beside a mount that begins at its own group: the way up ends at the mount either way.
+// Version 2 has one line "0::/path", and a file cpu.max in each group. Version 1 has a line for
+// each controller, "4:cpu,cpuacct:/path", and two files. A container may see a path that does not
+// exist there, beside a mount that begins at its own group. The upward search ends at the mount in
+// both cases.
 #include "base/cgroup.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ static bool read_numbers(const char *folder, const char *name, int count, double
     return found == count;
 }
 
-// A quota that is "max" or -1 is none.
+// A quota of "max" or -1 means no limit.
 static uint32_t group_grant(const char *folder)
 {
     double time[2]; // quota and period
@@ -61,7 +62,7 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Version 1 mounts the controller by itself, or with the one it shares its groups with.
+// Version 1 mounts the controller alone, or with the one that shares its groups.
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {
     char folder[PATH_SIZE];

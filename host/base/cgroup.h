@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A control group's files -> how many processors' worth of time it grants.
+// Reads a control group's files and returns the processor time that they grant.
 #pragma once
 
 #include <stdint.h>
 
-// Rounded up, the least of the group's own and those above it, of version 2 or 1; UINT32_MAX where
-// none is set.  membership is /proc/self/cgroup and mount /sys/fs/cgroup, but for tests.
+// Returns the least quota of the group and its ancestors, in processors, rounded up; UINT32_MAX
+// without a quota. Handles versions 1 and 2. membership is /proc/self/cgroup and mount is
+// /sys/fs/cgroup, except in tests.
 uint32_t cgroup_processors(const char *membership, const char *mount);

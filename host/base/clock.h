@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Wall time for statistics; no picture depends on it.
+// Wall time for statistics. No picture depends on it.
 #pragma once
 
 #include <time.h>
 
-// Seconds since some fixed moment, never going back.
+// Returns the seconds since a fixed moment. The clock never goes backward.
 static inline double clock_seconds(void)
 {
     struct timespec now;

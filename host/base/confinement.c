@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No result is looked at: a limit that cannot be set is one that a lower one of the system stands
-// in the way of.
+// Results are ignored: setting a limit only fails if the system already has a lower one.
 #include "base/confinement.h"
 
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads files whole: the parsers want one span of bytes and never see a stream.
+// Reads whole files, because the parsers need one span of bytes.
 #include "base/file.h"
 
 #include "base/array.h"
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Pipes have no size to believe, so the buffer grows with what really arrives.
+// Pipes report no size, so the buffer grows with the bytes that arrive.
 static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
 {
     void *memory = NULL;
@@ -44,7 +44,7 @@ static bool cannot_open(const char *path, Error *error)
     return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
 }
 
-// A device may never end, and reading a folder fails less clearly.
+// Rejects devices, which may never end, and folders, whose read errors are less clear.
 static bool look_at(const char *path, struct stat *status, Error *error)
 {
     if (stat(path, status) != 0)

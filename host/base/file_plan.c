@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file that exists is its device and inode.  A file that does not is its folder's device and
-// inode, and its name.  Sorting brings equal files together, so that a million frames stay cheap.
+// An existing file is identified by its device and inode, a new file by its folder's device and
+// inode and by its name. Sorting makes equal files adjacent, so that a million frames stay cheap.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -27,7 +27,8 @@ static void take_identity(PlannedFile *file, const struct stat *status)
     file->inode = (uint64_t)status->st_ino;
 }
 
-// Returns what the symbolic link at path points to, as seen from here; NULL where path is no link.
+// Returns the target of the symbolic link at path, relative to the current folder; NULL if path is
+// not a link.
 static char *read_link(const char *path, Error *error)
 {
     char target[4096];
@@ -38,7 +39,7 @@ static char *read_link(const char *path, Error *error)
     return file_path_beside(path, target, error);
 }
 
-// Returns the path that writing to path would create: its own, or where its links end.
+// Returns the path that writing to path would create: path itself, or the end of its links.
 static char *follow_links(const char *path, Error *error)
 {
     char *end = copy_text(path, error);
@@ -52,7 +53,7 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a file that does not exist.  A missing folder leaves inode 0, which no file has.
+// Identifies a file that does not exist. A missing folder leaves inode 0, which no file has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;
@@ -92,7 +93,7 @@ bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *pa
     if (exists)
         take_identity(&file, &status);
     const bool ok = file.path != NULL && (exists || identify_new(&file, error));
-    // A file without a folder cannot be written either, which a later check reports.
+    // A file without a folder cannot be written either. A later check reports this.
     if (ok && file.inode != 0 && array_push(&plan->list, file, error))
         return true;
     free_file(&file);
@@ -104,7 +105,7 @@ static int compare_numbers(uint64_t a, uint64_t b)
     return (a > b) - (a < b);
 }
 
-// Zero where both are the same file.
+// Returns zero if both are the same file.
 static int compare_identity(const PlannedFile *a, const PlannedFile *b)
 {
     const int device = compare_numbers(a->device, b->device);
@@ -114,7 +115,7 @@ static int compare_identity(const PlannedFile *a, const PlannedFile *b)
     return strcmp(a->name != NULL ? a->name : "", b->name != NULL ? b->name : "");
 }
 
-// By identity, inputs first, then in the order in which they were added.
+// Orders by identity, then inputs before outputs, then by insertion.
 static int compare_files(const void *one, const void *other)
 {
     const PlannedFile *a = *(const PlannedFile *const *)one,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the numbers of a scene may be, wherever they come from.
+// The ranges of a scene's numbers, whether they come from a file or from elsewhere.
 #pragma once
 
 #include <stdint.h>
 
-#define COORDINATE_MOST 1e30 // more could overflow when squared, long before anyone sees it
+#define COORDINATE_MOST 1e30 // larger values could overflow when squared
 #define RADIUS_LEAST    1e-30
 #define RADIUS_MOST     1e30
 #define INTENSITY_MOST  1e30

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Decimal text -> int64_t or correctly rounded double, whatever the locale.
-// Up to 19 digits are gathered in a 64-bit integer; where that integer and the power of ten are
-// both exact doubles, one multiplication or division rounds once and so rounds correctly
-// (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).  The same holds
-// in integers of 128 bits, whose conversion is the one rounding, for all that 19 digits can say in
-// 10^-27 ... 10^27.  The rest is spelled anew as DIGITSeEXPONENT for strtod: without a decimal
-// point no locale can misread it.
+// Converts decimal text to int64_t or to a correctly rounded double, in every locale. Up to 19
+// digits are gathered in a 64-bit integer. If that integer and the power of ten are exact doubles,
+// one multiplication or division rounds once and is therefore correct (William D. Clinger, "How to
+// Read Floating Point Numbers Accurately", PLDI 1990). The same holds for 128-bit integers, which
+// round once when converted; they cover 19 digits times 10^-27 ... 10^27. All other numbers are
+// rewritten as DIGITSeEXPONENT for strtod, which no locale can misread without a decimal point.
 #include "base/number.h"
 
 #include <float.h>
@@ -18,9 +17,9 @@
 _Static_assert(FLT_EVAL_METHOD == 0, "wider intermediate results would be rounded twice");
 
 #define EXACT_MANTISSA    ((uint64_t)1 << 53)
-#define MANTISSA_DIGITS   19    // any so many digits fit in 64 bits
+#define MANTISSA_DIGITS   19    // any 19 digits fit in 64 bits
 #define SUFFICIENT_DIGITS 800   // a tie between two doubles is decided within 768 digits
-#define EXPONENT_BOUND    10000 // with so many digits already an infinity or zero
+#define EXPONENT_BOUND    10000 // beyond this, the result is infinity or zero
 
 static const double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                        1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -42,7 +41,7 @@ static const char *skip_sign(const char *text, const char *end, bool *negative)
     return text < end && (*text == '-' || *text == '+') ? text + 1 : text;
 }
 
-// Appends the digits at text to mantissa, which wraps when there are too many of them.
+// Appends the digits at text to mantissa, which wraps on overflow.
 static const char *gather_digits(const char *text, const char *end, uint64_t *mantissa)
 {
     for (; text < end && is_digit(*text); text++)
@@ -50,7 +49,7 @@ static const char *gather_digits(const char *text, const char *end, uint64_t *ma
     return text;
 }
 
-// An "e" without digits is no exponent and stays unread.
+// An "e" without digits is not an exponent and stays unread.
 static const char *scan_exponent(const char *text, const char *end, int64_t *exponent)
 {
     if (text == end || (*text != 'e' && *text != 'E'))
@@ -60,7 +59,7 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     const char *stop = digits;
     int64_t size = 0;
     for (; stop < end && is_digit(*stop); stop++) {
-        if (size < INT64_MAX / 100) // far beyond what the digits of any file could balance
+        if (size < INT64_MAX / 100) // beyond what the digits of any file could balance
             size = size * 10 + (*stop - '0');
     }
     if (stop == digits)
@@ -69,8 +68,8 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// The digits from text to end, read as one integer, times ten to the exponent.  Digits that can
-// no longer matter are replaced by one that says whether all of them were zero.
+// Returns the digits from text to end, as one integer, times ten to the exponent. Digits that can
+// no longer matter are replaced by one that records whether all of them were zero.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];
@@ -95,8 +94,8 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
     return strtod(spelled, NULL);
 }
 
-// mantissa times ten to the exponent, at most WIDE_POWER in size: a power of five as an integer,
-// then one of two, which rounds nothing.
+// Returns mantissa times ten to the exponent, at most WIDE_POWER in size. The power of five is
+// multiplied as an integer; the power of two is exact.
 static double round_widely(uint64_t mantissa, int64_t exponent)
 {
     uint64_t power = 1;
@@ -106,8 +105,8 @@ static double round_widely(uint64_t mantissa, int64_t exponent)
         return 0;
     if (exponent >= 0)
         return ldexp((double)((Wide)mantissa * power), (int)exponent);
-    // Moved to the top, so that the quotient has at least 63 bits; what is left over is told by
-    // the last of them, far below the place of rounding.
+    // The shift gives the quotient at least 63 bits. Its last bit, far below the rounding
+    // position, records whether a remainder is left.
     const int shift = 63 + __builtin_clzll(mantissa);
     const Wide dividend = (Wide)mantissa << shift;
     const Wide quotient = dividend / power;
@@ -151,7 +150,7 @@ const char *integer_parse(const char *text, const char *end, int64_t *value)
     bool negative;
     const char *first = skip_sign(text, end, &negative);
     const char *stop = first;
-    int64_t sum = 0; // kept below zero, where INT64_MIN has room
+    int64_t sum = 0; // negative, because INT64_MIN has room
     for (; stop < end && is_digit(*stop); stop++) {
         const int digit = *stop - '0';
         if (sum < (INT64_MIN + digit) / 10)

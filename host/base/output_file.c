@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renaming replaces a name at once, whoever reads it meanwhile and whenever the process is killed.
+// Renaming replaces a file atomically for all readers, even if the process is killed.
 #include "base/output_file.h"
 
 #include "base/array.h"
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #define SUFFIX_SIZE sizeof "clrt-01234567"
-#define ATTEMPTS    100 // at a name that no file has
+#define ATTEMPTS    100 // to find an unused name
 
 static bool is_replaceable(const char *path)
 {
@@ -24,8 +24,8 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Makes an empty file of a new name, which ends in SUFFIX_SIZE bytes here.  The system applies the
-// process's mask, which cannot be asked for without taking it from the other threads meanwhile.
+// Creates an empty file with a new name, which ends in SUFFIX_SIZE bytes here. The system applies
+// the process's umask, which cannot be read without changing it for all threads.
 static bool make_file(char *suffix, const char *name)
 {
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
@@ -42,7 +42,7 @@ static bool make_file(char *suffix, const char *name)
     return false;
 }
 
-// In the folder of path, so that it can be renamed to it, or among the system's temporary files.
+// Chooses the folder of path, so that the file can be renamed, or the system's temporary folder.
 static char *temporary_file(const char *path, bool beside, Error *error)
 {
     const char *slash = strrchr(path, '/');
@@ -103,7 +103,7 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     const bool standard = strcmp(path, "-") == 0;
     FILE *source = fopen(from, "rb");
     FILE *target = standard ? stdout : fopen(path, "wb");
-    // Gone by name already, so that nothing is left of it if the process is ended here.
+    // The name is removed first, so that nothing remains if the process ends here.
     unlink(from);
     const bool ok = source != NULL && target != NULL && copy_stream(source, target);
     if (!ok)

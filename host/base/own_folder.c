@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Links to the program are followed: what belongs to it is beside the file itself.
+// Links to the program are followed: its companion files are beside the file itself.
 #include "base/own_folder.h"
 
 #include <string.h>
@@ -14,6 +14,6 @@ bool own_folder(char folder[PATH_MAX])
     char *slash = strrchr(folder, '/');
     if (slash == NULL)
         return false;
-    slash[slash == folder] = '\0'; // the root stays
+    slash[slash == folder] = '\0'; // the root remains
     return true;
 }

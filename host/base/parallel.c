@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each round of work is a generation.  Threads between rounds look for the next one for a while,
-// since rounds follow each other closely, and then sleep.
+// A thread pool: each call of crew_run is a generation. Idle threads first poll for the next
+// generation, because calls follow each other closely, and then sleep.
 #include "base/parallel.h"
 
 #include <pthread.h>
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #define THREADS_MAX    256
-#define LOOKS_FOR_WORK 200 // with sched_yield between them, about 0.1 ms
+#define LOOKS_FOR_WORK 200 // polls, with sched_yield between them: about 0.1 ms
 
 typedef struct {
     Crew *crew;
@@ -42,7 +42,7 @@ static void take_tasks(Crew *crew, uint32_t worker)
     }
 }
 
-// Returns the generation after the one that is known.
+// Waits for a generation after the known one and returns it.
 static uint32_t await_generation(Crew *crew, uint32_t known)
 {
     for (int look = 0; look < LOOKS_FOR_WORK; look++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the system every time: affinity and quotas change while a process runs.
+// The system is queried every time, because affinity and quotas change while a process runs.
 #include "base/processors.h"
 
 #include "base/cgroup.h"
@@ -13,7 +13,7 @@ uint32_t processors_present(void)
     return count > 0 ? (uint32_t)count : 1;
 }
 
-// The set fails where there are more processors than it holds.
+// sched_getaffinity fails if there are more processors than the set holds.
 static uint32_t allowed_processors(void)
 {
     cpu_set_t set;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The handlers stay while the picture is written: one signal never loses what was traced.  Nothing
-// waits for the drivers' compiler, which cannot be asked to stop.
+// The handlers stay installed while the picture is written, so that one signal never loses traced
+// tiles. Nothing waits for the driver's compiler, which cannot be interrupted.
 #include "base/stop.h"
 
 #include <signal.h>
@@ -11,13 +11,13 @@
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
 static pid_t watcher;
 
-// Processes that read or write pictures are this one's forks, and have nothing to say.
+// Forks of this process read or write pictures. They end without a message.
 static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";
     const bool speaks = getpid() == watcher;
     const ssize_t told = speaks ? write(STDERR_FILENO, sentence, sizeof sentence - 1) : 0;
-    (void)told; // who cannot be told is ended all the same
+    (void)told; // the process ends even if the message cannot be written
     _exit(128 + number);
 }
 
@@ -28,11 +28,11 @@ static void stop(int number)
     stopped_by = number;
 }
 
-// A signal that is ignored, as in a background job, stays so.
+// A signal that is ignored, as in a background job, stays ignored.
 static void take_signal(int number)
 {
     struct sigaction before;
-    // SA_RESETHAND: the second signal meets the default action.
+    // SA_RESETHAND: the second signal has the default action.
     struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(number, NULL, &before);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The signals that stop a picture: before its first tile there is nothing to write, so that they
-// end the process; from then on the first asks for what is done to be written, and the second ends
-// the process at once.
+// The signals that stop rendering. Before the first tile there is nothing to write, so a signal
+// ends the process. Afterwards the first signal requests that finished tiles are written, and the
+// second ends the process at once.
 #pragma once
 
-// Takes SIGINT and SIGTERM over where they are not ignored, for as long as the process lasts.
-// Until stop_wait_for_tiles, they end it with a sentence and 128 + their number as its status.
+// Installs handlers for SIGINT and SIGTERM, unless they are ignored, for the life of the process.
+// Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its
+// number.
 void stop_watch(void);
 
-// The first tile is about to be drawn: from now on the first signal is left to stop_signal.
+// Call before rendering the first tile. The first signal is then only reported by stop_signal.
 void stop_wait_for_tiles(void);
 
-// The signal that asked to stop, 0 where none did.
+// Returns the signal that requested the stop, 0 if none did.
 int stop_signal(void);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reduces to at most 45 degrees (exactly, since degrees are what is reduced) and sums the Taylor
-// series, whose first left-out term is below 2^-55 there.
+// Reduces the angle to at most 45 degrees, which is exact in degrees. Then sums the Taylor series,
+// whose first omitted term is below 2^-55 there.
 #include "base/trigonometry.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static double cosine_series(double x)
     return 1.0 + s * sum;
 }
 
-// The sine of degrees plus a number of quarter turns, which add nothing to its error.
+// Returns the sine of degrees plus a number of quarter turns, which add no error.
 static double sine_ahead(double degrees, int quarters)
 {
     const double turns = rint(degrees / 90.0);

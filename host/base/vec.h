@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three-component vectors in fp64, for parsing and set-up on the host.
+// Three-component vectors in fp64, for parsing and setup on the host.
 #pragma once
 
 #include <math.h>
@@ -38,7 +38,8 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// The smaller and the larger of each component, of vectors without NaN: fmin and fmax are calls.
+// Return the smaller or the larger of each component, for vectors without NaN. fmin and fmax would
+// be function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -49,14 +50,14 @@ static inline Vec3 vec3_upper(Vec3 a, Vec3 b)
     return (Vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
-// The largest absolute component.
+// Returns the largest absolute component.
 static inline double vec3_extent(Vec3 a)
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
-// a scaled to length 1, whatever its magnitude; the zero vector stays zero.  A power of two is
-// taken out first, so that no square over- or underflows.
+// Returns a scaled to length 1, for any magnitude; the zero vector stays zero. A power of two is
+// divided out first, so that no square overflows or underflows.
 static inline Vec3 vec3_normalize(Vec3 a)
 {
     const double extent = vec3_extent(a);

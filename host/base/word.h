@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Guesses which known word a mistyped one was meant to be.
+// Suggests a known word for a mistyped one.
 #pragma once
 
 #include <stddef.h>
 
-// The one of count words with the smallest edit distance to text, NULL where all are so far off
-// that naming one would mislead.
+// Returns the word of count words with the smallest edit distance to text. Returns NULL if all are
+// too distant for a useful suggestion.
 const char *word_nearest(const char *text, size_t length, const char *const *words, size_t count);

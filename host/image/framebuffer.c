@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory and fingerprint of a picture.
+// Memory and hash of a picture.
 #include "image/framebuffer.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses the writer by format.
+// Selects the writer for a format.
 #include "image/image_file.h"
 
 #include "base/output_file.h"
@@ -13,12 +13,12 @@
 #include <string.h>
 #include <strings.h>
 
-// libjpeg ends the process past it.
+// libjpeg ends the process beyond this size.
 #define JPEG_SIZE_MAX 65500
 
 typedef struct {
-    const char *name;   // also the usual ending
-    const char *module; // OpenImageIO's name; NULL for what is written here
+    const char *name;   // also the usual file extension
+    const char *module; // OpenImageIO's name; NULL for formats written here
     bool is_float;
 } Format;
 
@@ -72,7 +72,7 @@ const char *image_format_names(void)
 
 double image_format_half_step(const char *format, Encoding encoding)
 {
-    const double steepest = encoding == ENCODE_SRGB ? 12.92 : 1; // of the curve, at black
+    const double steepest = encoding == ENCODE_SRGB ? 12.92 : 1; // slope of the curve at black
     return find_format(format)->is_float ? 0x1p-25 : 1 / (510 * steepest);
 }
 
@@ -100,7 +100,7 @@ static void place_layers(ImageModulePicture *picture, const Layers *layers)
     }
 }
 
-// These name the reason alone; image_write names the picture.
+// These functions give the reason alone; image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {

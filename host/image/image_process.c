@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The two processes speak over a pair of sockets: a request, its strings and its pixels go over,
-// an answer comes back.  Very large pictures are not worth a second copy and are written here.
+// The two processes communicate over a pair of sockets. A request carries its strings and its
+// pixels; an answer comes back. Very large pictures are not worth a second copy and are written in
+// this process.
 #include "image/image_process.h"
 
 #include "base/array.h"
@@ -19,7 +20,7 @@
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
-// Strings follow it, each with its zero, then the pixels and then the layers.
+// Followed by zero-terminated strings, the pixels and the layers.
 typedef struct {
     uint64_t width, height, is_float, text_count;
     uint64_t left, top, whole_width, whole_height;
@@ -33,7 +34,7 @@ typedef struct {
     char message[512];
 } Answer;
 
-static int channel = -1; // to the process, in the one that started it
+static int channel = -1; // to the child process, in the parent
 
 static size_t pixel_size(const ImageModulePicture *picture)
 {
@@ -47,7 +48,7 @@ static size_t layer_size(const ImageModulePicture *picture)
            sizeof(uint32_t);
 }
 
-// The path, the format, the texts and the layers' names, in this order.
+// Counts the path, the format, the texts and the layers' names, in this order.
 static size_t string_count(const ImageModulePicture *picture)
 {
     return 2 + 2 * picture->text_count + picture->layer_count;
@@ -85,7 +86,7 @@ static bool send_request(const ImageModulePicture *picture)
            socket_send(channel, picture->layers, request.layer_size);
 }
 
-// Gives the picture its pointers into the strings; texts has room for all of them.
+// Points the picture's members into the strings. texts must have room for all of them.
 static void place_strings(ImageModulePicture *picture, const char *strings, const char **texts)
 {
     picture->path = strings;
@@ -147,7 +148,7 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     return ok;
 }
 
-// Ends when the other process does, of which it keeps nothing open.
+// Serves requests until the parent ends. The process keeps none of the parent's files open.
 static _Noreturn void serve(int socket, pid_t parent)
 {
     Error failure = {0};
@@ -155,7 +156,7 @@ static _Noreturn void serve(int socket, pid_t parent)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
         _exit(0);
-    // Stopping is for the other process, which has its picture written then.
+    // Only the parent handles these signals; it may still have its picture written here.
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     const int nothing = open("/dev/null", O_RDWR);

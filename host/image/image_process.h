@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A second process that holds OpenImageIO and writes pictures.  It loads the 261 libraries beside
-// everything else: within one process the dynamic loader's lock and the address space's would
-// make compiling and tracing wait for that.
+// A second process that holds OpenImageIO and writes pictures. It loads the 261 libraries
+// concurrently. In one process, the locks of the dynamic loader and of the address space would
+// block compiling and tracing meanwhile.
 #pragma once
 
 #include "base/error.h"
 #include "image/image_module.h"
 
-// Starts the process, which lasts no longer than this one.  For main alone, while no other thread
-// runs.  Where it fails, nothing is lost but time.
+// Starts the process, which ends with this one. Only main may call it, before other threads start.
+// A failure only costs time.
 void image_process_start(void);
 
-// Writes the picture, in that process where there is one; false and the reason alone where it
-// cannot.
+// Writes the picture, in that process if it runs. On failure, returns false and the reason alone.
 bool image_process_write(const ImageModulePicture *picture, Error *cause);

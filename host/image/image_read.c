@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Only formats that clrt writes come near a decoder: OpenImageIO has many more, and each is a way
-// in for hostile files.
+// Only formats that clrt writes reach a decoder. OpenImageIO has many more, and each is an attack
+// surface for hostile files.
 #include "image/image_read.h"
 
 #include "image/image_reader.h"
@@ -61,8 +61,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     return image_reader_run(image, path, format, cause);
 }
 
-// A pipe cannot be gone back in, once its format is known, and one that nobody writes to never
-// ends.
+// Rejects pipes: they cannot be rewound after the format is known, and may never end.
 static FILE *open_file(const char *path, Error *cause)
 {
     struct stat status;

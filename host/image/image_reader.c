@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The child reads the file and sends its head, its values or a message; the parent checks the head
-// as it would a file.
+// The child process reads the file and sends a header with its values or a message. The parent
+// checks the header as carefully as a file.
 #include "image/image_reader.h"
 
 #include "base/confinement.h"
@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define MEMORY_LIMIT ((rlim_t)12 << 30) // beside what is mapped already
-#define TIME_LIMIT   120                // seconds, of the processor and of the clock
+#define MEMORY_LIMIT ((rlim_t)12 << 30) // beside what is already mapped
+#define TIME_LIMIT   120                // seconds, of processor and wall time
 
 typedef struct {
     int ok;
@@ -73,7 +73,7 @@ static _Noreturn void serve(int socket, const char *path, const char *format)
     _exit(0);
 }
 
-// Messages quote files, which may hold what a terminal obeys.
+// Messages quote files, which may contain terminal escape sequences.
 static bool take_message(const Head *head, Error *cause)
 {
     char message[sizeof head->message];
@@ -84,7 +84,7 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-// Nothing of it is believed before it is checked.
+// Every field is checked before use.
 static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
     if (!head->ok)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Jansson makes the text; writing it is checked to the end.
+// Jansson formats the text. Every write is checked.
 #include "image/json_file.h"
 
 #include "base/output_file.h"

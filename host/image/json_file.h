@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// JSON values -> a file.
+// Writes JSON values to files.
 #pragma once
 
 #include "base/error.h"
 
 #include <jansson.h>
 
-// JSON is UTF-8 and a path need not be: bytes past ASCII in one that is not become '?'.
+// Returns path as a JSON string. In a path that is not UTF-8, bytes beyond ASCII become '?'.
 json_t *json_file_path(const char *path);
 
-// Writes root, with sorted keys, at path ("-": standard output), and gives it up.
+// Writes root with sorted keys to path ("-": standard output), and releases root.
 bool json_file_write(json_t *root, const char *path, Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Channels of a picture beside its colors, each of 32 bits: floats or unsigned integers.
+// A picture's channels beside its colors, with values of 32 bits: floats or unsigned integers.
 #pragma once
 
 #include "base/array.h"
@@ -17,14 +17,14 @@ typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;
     uint32_t width, height;
-    uint32_t *values; // height * width * count, the top row first, floats by their bits; owned
+    uint32_t *values; // height * width * count, top row first, floats as their bits; owned
 } Layers;
 
-// Takes the memory for the layers that the list already names; all values are zero.
+// Allocates the values, all zero, of the layers already listed.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 
-// The values of a pixel.
+// Returns the values of a pixel.
 static inline uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
 {
     return layers->values + ((size_t)y * layers->width + x) * layers->count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module lies beside the program in a build tree and under the library folder once installed.
+// The module is beside the program in a build tree, and in the library folder once installed.
 #include "image/open_module.h"
 
 #include "base/own_folder.h"
@@ -12,7 +12,7 @@ ModuleFunction *open_module(const char *name, Error *cause)
 {
     char folder[PATH_MAX], path[2 * PATH_MAX];
     if (!own_folder(folder)) {
-        error_set(cause, "the picture module cannot be found: /proc does not tell where clrt is");
+        error_set(cause, "the picture module cannot be found: /proc does not show where clrt is");
         return NULL;
     }
     snprintf(path, sizeof path, "%s/%s", folder, CLRT_IMAGE_MODULE);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Needs no library, so it is there in every build.
+// Needs no library, so every build has it.
 #include "image/pfm.h"
 
 #include "base/number.h"
@@ -20,7 +20,7 @@ static bool is_space(int c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-// A word of the header, and the one white character that ends it.
+// Reads a word of the header and the single whitespace character after it.
 static bool read_word(FILE *stream, char word[32])
 {
     size_t length = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Framebuffer -> PFM -> StoredImage.  The portable float map: a text header and the floats
-// themselves.
+// Writes a Framebuffer as PFM and reads PFM into a StoredImage. PFM, the portable float map, is a
+// text header followed by raw floats.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -8,9 +8,10 @@
 
 #include <stdio.h>
 
-// Writes little-endian floats, the bottom row first, as the format has it.  False on a write error.
+// Writes little-endian floats, bottom row first, as the format requires. Returns false on a write
+// error.
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 
-// Reads one of three channels or of one, in either order of bytes; false with the reason alone.
-// The scale is not applied.  The image is to be freed in either case.
+// Reads a file of three channels or one, in either byte order. On failure returns false and the
+// reason alone. The scale is not applied. The caller frees the image in both cases.
 bool pfm_read(StoredImage *image, FILE *stream, Error *cause);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nothing here is called but by libpng.
+// Only libpng calls these functions.
 #include "image/png_faults.h"
 
 void png_faults_take(png_structp png, png_const_charp reason)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How libpng tells of faults: to be given to it when it starts, with an Error as its pointer.
+// libpng's fault handlers. png_create_*_struct takes them, with an Error as the pointer.
 #pragma once
 
 #include "base/error.h"
 
 #include <png.h>
 
-// Leaves the reason in the error and jumps to the png_jmpbuf.
+// Stores the reason in the Error and jumps to the png_jmpbuf.
 void png_faults_take(png_structp png, png_const_charp reason);
 
-// libpng would print them.
+// Discards a warning, which libpng would print.
 void png_faults_ignore_warning(png_structp png, png_const_charp warning);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Framebuffer -> PNG of 8 bits a channel, with texts.
+// Writes a Framebuffer as PNG of 8 bits a channel, with texts.
 #pragma once
 
 #include "image/image_file.h"
 
 #include <stdio.h>
 
-// Writes the picture in the encoding of settings, and its texts.  False on a fault, with the reason
-// in error or, where the last bytes could not be written, in errno.
+// Writes the picture in the encoding of settings, with its texts. Returns false on a fault. The
+// reason is in error, or in errno if the last bytes could not be written.
 bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
                     Error *error);

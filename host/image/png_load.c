@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libpng turns every kind of PNG into red, green and blue.  It reports faults by a jump, which ends
-// in read_picture: what is to be freed hangs from Loading, made above that function.
+// libpng converts every kind of PNG to red, green and blue. It reports faults by a jump, which
+// ends in read_picture. Everything to be freed belongs to Loading, which is made above that
+// function.
 #include "image/png_load.h"
 
 #include "image/png_faults.h"
@@ -8,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of one text or profile, unpacked.
+// Size limit of one unpacked text or profile.
 #define CHUNK_SIZE_MAX 1000000
 
 typedef struct {
     StoredImage *image;
-    unsigned char *bytes; // the whole picture, as interlaced ones come in passes
+    unsigned char *bytes; // the whole picture, because interlaced ones come in passes
     int passes;
     Error *cause;
 } Loading;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dates come from SOURCE_DATE_EPOCH alone, so that equal runs write equal files.
+// Dates come only from SOURCE_DATE_EPOCH, so that equal runs write equal files.
 #include "image/provenance.h"
 
 #include "base/number.h"
@@ -26,7 +26,7 @@ bool provenance_check_date(Error *error)
            error_set(error, "SOURCE_DATE_EPOCH wants seconds since 1970, not '%s'", text);
 }
 
-// As EXIF, TIFF and EXR write it, in UTC.
+// Writes the date as EXIF, TIFF and EXR do, in UTC.
 static bool write_date(char *date, size_t size)
 {
     struct tm parts;

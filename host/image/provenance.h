@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts that a picture's file carries: where it comes from, in strings alone, since PNG keeps
-// no other type.
+// The texts stored in a picture's file, which record its origin. All are strings, because PNG
+// stores no other type.
 #pragma once
 
 #include "image/image_file.h"
@@ -17,11 +17,11 @@ typedef struct {
     size_t count;
 } Provenance;
 
-// Rejects a SOURCE_DATE_EPOCH in the environment that is no number of seconds.
+// Rejects a SOURCE_DATE_EPOCH in the environment that is not a number of seconds.
 bool provenance_check_date(Error *error);
 
-// Writes settings on one line, as short as it goes.
+// Writes settings as compact JSON on one line.
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
-// Lists the texts for a file.  SOURCE_DATE_EPOCH adds a date: identical runs write identical files.
+// Lists the texts for a file. SOURCE_DATE_EPOCH adds a date; identical runs write identical files.
 void provenance_list(Provenance *provenance);

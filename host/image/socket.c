@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signals and full buffers split messages; these put them together.
+// Signals and full buffers split messages. These functions join them.
 #include "image/socket.h"
 
 #include <errno.h>

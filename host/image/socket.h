@@ -5,6 +5,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// False where the other side is gone.
+// Return false if the other process has closed its socket.
 bool socket_send(int socket, const void *bytes, size_t size);
 bool socket_receive(int socket, void *bytes, size_t size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sizes are checked before anything is allocated for them: they come from files.
+// Sizes come from files, so they are checked before anything is allocated.
 #include "image/stored_image.h"
 
 #include <stdlib.h>

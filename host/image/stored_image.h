@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture as its file stores it: named channels of floats, where 8 bits v are v / 255.
+// A picture as its file stores it: named channels of floats. An 8-bit value v becomes v / 255.
 #pragma once
 
 #include "base/array.h"
@@ -9,12 +9,12 @@
 #define STORED_NAME_SIZE 32
 #define STORED_TEXT_SIZE 512
 
-// What is read at most.  The values are 4 GiB.
+// The largest picture that is read. Its values take 4 GiB.
 #define STORED_SIDE_MAX     65536
 #define STORED_CHANNELS_MAX 64
 #define STORED_VALUES_MAX   ((uint64_t)1 << 30)
 
-// The texts that clrt's own pictures carry; stored_text_names has their names in files.
+// The texts of clrt's own pictures. stored_text_names has their names in files.
 typedef enum {
     STORED_VERSION,
     STORED_SCENE_HASH,
@@ -31,25 +31,25 @@ extern const char *const stored_text_names[STORED_TEXTS];
 
 typedef struct {
     uint32_t width, height, channel_count;
-    char names[STORED_CHANNELS_MAX][STORED_NAME_SIZE]; // "R", "G", "B" and others; of gray, "Y"
-    char texts[STORED_TEXTS][STORED_TEXT_SIZE];        // each empty where there is none
-    float *values; // all channels of a pixel together, the top row first; owned
+    char names[STORED_CHANNELS_MAX][STORED_NAME_SIZE]; // "R", "G", "B" and others; "Y" for gray
+    char texts[STORED_TEXTS][STORED_TEXT_SIZE];        // empty if missing
+    float *values; // all channels of a pixel together, top row first; owned
 } StoredImage;
 
 void stored_image_free(StoredImage *image);
 
-// Whether a picture of that size is read.
+// Returns whether clrt reads a picture of that size.
 bool stored_image_check_size(uint64_t width, uint64_t height, uint64_t channels, Error *cause);
 
-// Makes the values of an image whose size and channel count are set.
+// Allocates the values of an image whose size and channel count are set.
 bool stored_image_allocate(StoredImage *image, Error *cause);
 
-// Place of the channel of that name, -1 where there is none.
+// Returns the index of the channel of that name, -1 if there is none.
 int stored_image_channel(const StoredImage *image, const char *name);
 
-// Places of red, green and blue, all three the same of a gray picture; false where they are not
-// there.
+// Finds the indices of red, green and blue; in a gray picture all three are equal. Returns false
+// if a color is missing.
 bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
-// 8 bits a channel -> the values of a file.
+// Converts 8-bit values to floats.
 void stored_image_values(const unsigned char *bytes, size_t count, float *values);
