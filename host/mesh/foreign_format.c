@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What Assimp 5 calls its formats' endings, without .ply, which clrt reads itself, .scn, which is
-// clrt's own, and .xml alone, which says nothing.
+// Assimp 5's file extensions. The list omits .ply, which clrt reads itself, .scn, which is clrt's
+// own, and plain .xml, which identifies no format.
 #include "mesh/foreign_format.h"
 
 #include <string.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The program is started afresh, not forked: other threads of this process may hold any lock.  It
-// limits itself before it looks at the file; what it writes, and for how long, is limited here.
+// The program is executed, not only forked, because other threads of this process may hold any
+// lock. It limits itself before it opens the file. This process limits the size and the time of
+// its output.
 #include "mesh/foreign_process.h"
 
 #include "base/array.h"
@@ -18,16 +19,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PIECE ((size_t)1 << 16) // the least that there is room for when more is read
+#define PIECE ((size_t)1 << 16) // the least free space before each read
 
-// Longer than the program gives itself: it says more when it ends by its own alarm.
+// Longer than the program's own limit: its message is better if it ends by its own alarm.
 const ForeignReader foreign_reader = {.seconds = 125, .bytes = (size_t)8 << 30};
 
 typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
-// As seen from this program: beside it in a build tree, and in the folder for programs of programs
-// once installed.
+// Finds the program beside this one, as in a build tree, or in the installed folder for helper
+// programs.
 static bool find_beside(char *path, size_t size)
 {
     char folder[PATH_MAX];
@@ -40,7 +41,7 @@ static bool find_beside(char *path, size_t size)
     return access(path, X_OK) == 0;
 }
 
-// Programs that use clrt's library find it where it was to be installed.
+// Programs that use clrt's library find it in the configured installation folder.
 static bool find_program(char *path, size_t size, const char *model, Error *error)
 {
     if (find_beside(path, size))
@@ -58,7 +59,7 @@ static bool find_program(char *path, size_t size, const char *model, Error *erro
 }
 #endif
 
-// The program gets the pipe as its output, and nothing else of this process.
+// Starts the program with the pipe as its output. It inherits nothing else from this process.
 static int start(pid_t *child, const char *program, const char *model, const int ends[2])
 {
     posix_spawn_file_actions_t actions;
@@ -85,7 +86,7 @@ static int start(pid_t *child, const char *program, const char *model, const int
 
 typedef enum { STREAM_WHOLE, STREAM_LATE, STREAM_LONG, STREAM_LOST } StreamFate;
 
-// Waits until there is something to read, which the end is too.
+// Waits until there is something to read, including the end of the stream.
 static StreamFate await(int pipe, double deadline)
 {
     for (;;) {
@@ -126,8 +127,8 @@ static StreamFate read_all(File *stream, int pipe, const ForeignReader *reader, 
     }
 }
 
-// Returns how the program ended.  Where its stream came whole it has ended already, unless it only
-// closed it; a signal that comes later changes nothing.
+// Returns the program's exit status. After a complete stream the program has usually ended
+// already, and a later signal changes nothing.
 static int finish(pid_t child)
 {
     int status = 0;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A file in another format than PLY -> the stream that the program which holds Assimp writes about
-// it (foreign_stream.h), in a process of its own: what crashes there, hangs or wants the whole
-// memory is one sentence here.
+// Runs the program that holds Assimp on a file and collects the stream that it writes
+// (foreign_stream.h). The program is a process of its own. If it crashes, hangs or exhausts
+// memory, clrt prints one error message.
 #pragma once
 
 #include "base/file.h"
 
 typedef struct {
-    const char *program; // NULL: the one that belongs to this build
-    double seconds;      // after which it is stopped, from its start
-    size_t bytes;        // the most that it may write
+    const char *program; // NULL: the program that belongs to this build
+    double seconds;      // time limit, from its start
+    size_t bytes;        // limit of its output
 } ForeignReader;
 
-// The limits that suit any model that can be drawn.
+// Limits that suit any model that clrt can render.
 extern const ForeignReader foreign_reader;
 
-// Fills stream; false with a sentence about the file at path.
+// Fills stream; on failure returns false with a message about the file at path.
 bool foreign_process_run(File *stream, const ForeignReader *reader, const char *path, Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Goes from record to record; each kind has the function that takes it, behind its own checks.
+// Parses record after record. Each kind has a function that checks it and takes its data.
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
@@ -14,7 +14,7 @@
 typedef struct {
     ForeignModel *model;
     const char *next, *end;
-    ForeignHead head; // of the record that next stands at
+    ForeignHead head; // of the record at next
     const char *name;
     PlyParse *parse;
     Error *error;
@@ -26,7 +26,7 @@ static bool fail_damaged(const Parser *parser)
                      parser->name);
 }
 
-// What people are shown holds nothing that a terminal obeys.
+// Replaces control characters, because the text is printed to a terminal.
 static void make_printable(char *text, size_t size, char substitute)
 {
     for (size_t i = 0; i < size; i++)
@@ -34,7 +34,7 @@ static void make_printable(char *text, size_t size, char substitute)
             text[i] = substitute;
 }
 
-// A copy of the record with a zero behind it; NULL where there is none to be had.
+// Returns a zero-terminated copy of the record, NULL on failure.
 static char *copy_text(const Parser *parser, const char *start, size_t size)
 {
     if (size == 0 || size > LONGEST_TEXT || memchr(start, '\0', size) != NULL) {
@@ -64,13 +64,13 @@ static bool take_file(Parser *parser)
     return array_push(&parser->model->hashes, hash, parser->error);
 }
 
-// Zero for what is no number.
+// Clamps value to [0, most]; NaN becomes zero.
 static float within(float value, float most)
 {
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// A name must stand in a scene as one word.
+// Turns name into a single word, as a scene file requires.
 static void make_word(char *name)
 {
     make_printable(name, strlen(name), '_');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the program that holds Assimp (host/foreign) writes about a file: records, each a head and
-// its bytes.  The reader believes none of it: Assimp may have been taken over by what it read.
+// The output of the program that holds Assimp (host/foreign): records, each a head and its bytes.
+// The reader trusts none of it, because a hostile file may have taken over Assimp.
 #pragma once
 
 #include "base/array.h"
@@ -8,19 +8,19 @@
 #include "mesh/ply.h"
 
 typedef enum {
-    FOREIGN_FILE = 1, // a ForeignHash and the path of a file that was read, the model's first
+    FOREIGN_FILE = 1, // a ForeignHash and the path of an input file, the model's first
     FOREIGN_MATERIAL, // a ForeignMaterial
     FOREIGN_PART,     // a binary PLY file; number is its material's, counted from 0
-    FOREIGN_NOTE,     // a sentence on what was left out
-    FOREIGN_FAILURE,  // why there is no model; the last record
-    FOREIGN_END       // nothing; the last record
+    FOREIGN_NOTE,     // a message about omitted parts
+    FOREIGN_FAILURE,  // the reason why there is no model; the last record
+    FOREIGN_END       // empty; the last record
 } ForeignKind;
 
-#define FOREIGN_NO_MATERIAL UINT32_MAX // the number of a part that has none
+#define FOREIGN_NO_MATERIAL UINT32_MAX // the number of a part without a material
 
 typedef struct {
     uint32_t kind, number;
-    uint64_t size; // of what follows
+    uint64_t size; // of the following bytes
 } ForeignHead;
 
 typedef struct {
@@ -35,15 +35,15 @@ typedef struct {
 
 typedef struct {
     Mesh mesh;
-    uint32_t material; // of the model's, or FOREIGN_NO_MATERIAL
+    uint32_t material; // index in the model, or FOREIGN_NO_MATERIAL
 } ForeignPart;
 
 typedef struct {
     ARRAY(ForeignPart) parts;
-    ARRAY(ForeignMaterial) materials; // named in printable ASCII; colors from 0 to 1
+    ARRAY(ForeignMaterial) materials; // with names in printable ASCII and colors from 0 to 1
     ARRAY(char *) files;              // owned
     ARRAY(ForeignHash) hashes;        // of those files
-    char *note;                       // NULL where nothing is to be told; owned
+    char *note;                       // about omitted parts, NULL without any; owned
 } ForeignModel;
 
 typedef struct {
@@ -51,8 +51,8 @@ typedef struct {
     size_t size;
 } ForeignStream;
 
-// Fills model from a stream about the file called name, whose parts are read by parse.  False with
-// a sentence where the stream is damaged or tells of a failure.
+// Fills model from a stream about the file called name. parse reads the parts. Returns false with
+// a message if the stream is damaged or reports a failure.
 bool foreign_stream_parse(ForeignModel *model, ForeignStream stream, const char *name,
                           PlyParse *parse, Error *error);
 void foreign_model_free(ForeignModel *model);

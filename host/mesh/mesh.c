@@ -34,7 +34,7 @@ static bool has_equal_corners(const double *a, const double *b, const double *c)
     return is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a);
 }
 
-// Once no triangle uses them, so that nobody meets a NaN.
+// Clears vertices after their triangles are dropped, so that no code reads a NaN.
 static void clear_lost_vertices(Mesh *mesh)
 {
     for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
@@ -42,7 +42,7 @@ static void clear_lost_vertices(Mesh *mesh)
             memset(mesh->positions[vertex], 0, sizeof mesh->positions[vertex]);
 }
 
-// Gaps are closed on the way.
+// Compacts the triangles in place.
 void mesh_drop_triangles(Mesh *mesh)
 {
     size_t kept = 0;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Where the places of all values in an element are known beforehand, reading one is a load: no
-// call, no check of the room that is left for each value, no place kept for messages.
+// If the offsets of all values in an element are known, reading a value is a load. No value needs
+// a call, a bounds check or a stored position for messages.
 #include "mesh/ply_bulk.h"
 
 #include <math.h>
 #include <string.h>
 
-#define COMPONENTS 6 // x y z nx ny nz, as PlyRole numbers them
+#define COMPONENTS 6 // x y z nx ny nz, in the order of PlyRole
 
-// Of the values that a mesh uses, in a vertex.
+// The vertex values that a mesh uses.
 typedef struct {
     size_t offsets[COMPONENTS];
     PlyType types[COMPONENTS];
@@ -107,7 +107,7 @@ void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t coun
     reader->index = index;
 }
 
-// The layout of a face with three corners.
+// Finds the layout of a face with three corners.
 static bool find_face_layout(FaceLayout *layout, const PlyReader *reader, PlyProperties properties)
 {
     *layout = (FaceLayout){0};
@@ -143,7 +143,7 @@ size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t v
     if (!find_face_layout(&layout, reader, properties))
         return 0;
     const bool swapped = is_swapped(reader);
-    // A negative index is one past every count when it is read as unsigned.
+    // Read as unsigned, a negative index exceeds every count.
     const uint32_t limit = (uint32_t)vertex_count;
     const char *bytes = reader->next;
     size_t done = 0;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The fast way through the body of a binary PLY file, for elements laid out as nearly every file
-// lays them out.  It reads what it can and stops in front of the first element that is unusual or
-// wrong, which is then for the reader that takes value by value and words the faults.
+// The fast path for the body of a binary PLY file, for the layout that nearly every file has. It
+// stops before the first unusual or invalid element. The general reader then continues there and
+// reports faults.
 #pragma once
 
 #include "mesh/mesh.h"
 #include "mesh/ply_header.h"
 
-// Reads vertices from reader->index on, where none of their properties is a list and all that a
-// mesh uses are floats, and leaves reader->index and reader->next behind the last one read.
+// Reads vertices from reader->index on, if none of their properties is a list and all used ones
+// are floats. reader->index and reader->next end after the last vertex read.
 void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh);
 
-// The bytes that a triangle takes in a file of faces whose only list is that of their corners, a
-// byte for its length and four for each corner; 0 where faces are laid out in another way.
+// Returns the bytes of a triangle in the file if the only list of its faces holds the corners,
+// with a byte for the length and four for each corner. Returns 0 for other layouts.
 size_t ply_bulk_triangle_size(const PlyReader *reader, PlyProperties properties);
 
-// Reads such faces from reader->index on while they have three corners below vertex_count, at most
-// room of them, and moves the reader on.  Returns how many triangles it has written.
+// Reads these faces from reader->index on, while they have three corners below vertex_count, at
+// most room of them. Advances the reader and returns the number of triangles written.
 size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t vertex_count,
                           size_t room, uint32_t (*triangles)[3]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Header lines -> elements and their properties.  A header of any length is read in one pass: only
-// vertex, face and the properties a mesh uses may not come twice, the rest is merely passed over.
+// Parses header lines into elements and their properties. Headers of any length take one pass.
+// Vertex, face and the properties that a mesh uses must not repeat; the parser skips everything
+// else.
 #include "mesh/ply_header.h"
 
 #include "base/number.h"
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one more than any statement has
+#define WORD_LIMIT 6 // one more than the longest statement has
 
 typedef struct {
     PlyHeader *header;
@@ -69,7 +70,7 @@ static void split_line(Parser *parser, const char *text, const char *end)
     }
 }
 
-// Splits the next line into words and goes to the line after it.
+// Splits the next line into words and moves to the line after it.
 static bool read_line(Parser *parser)
 {
     PlyReader *reader = parser->reader;
@@ -111,7 +112,8 @@ static bool read_format(Parser *parser)
                                            "binary_big_endian 1.0'");
 }
 
-// Vertices and faces make one mesh, so they come once and in countable numbers.
+// Checks that vertices and faces appear at most once, with counts in range, because they form one
+// mesh.
 static bool check_kind(const Parser *parser, const PlyElement *element)
 {
     const PlyHeader *header = parser->header;
@@ -160,7 +162,7 @@ static bool find_type(const Parser *parser, PlyWord word, PlyType *type)
     return ply_reader_fail(parser->reader, "'%s' is no property type", ply_reader_quote(word).text);
 }
 
-// Lists count and corners are numbered in whole numbers only.
+// List lengths and corner indices must have integer types.
 static bool check_property(const Parser *parser, const PlyProperty *property, PlyWord name)
 {
     const PlyReader *reader = parser->reader;
@@ -176,7 +178,7 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Gives the property its role, which no other property of the element may have.
+// Sets the property's role, which no other property of the element may have.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
 {
     *role = PLY_UNUSED;
@@ -261,7 +263,7 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Some normal components without the others mean nothing.
+// Ignores normals with missing components.
 static void forget_normals(PlyHeader *header, const PlyElement *element)
 {
     for (size_t index = 0; index < element->property_count; index++) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The header of a PLY file: which elements follow, how many, and what a value means to a Mesh.
+// The header of a PLY file: the elements that follow, their counts, and the meaning of each value
+// to a Mesh.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +10,7 @@
 #define PLY_COUNT_LIMIT      MESH_COUNT_MOST
 #define PLY_COORDINATE_BOUND COORDINATE_MOST
 
-// What a property is to the mesh: the component of that number, the corners of a face, or nothing.
+// A property's role in the mesh: a vertex component, the corners of a face, or none.
 typedef enum {
     PLY_X,
     PLY_Y,
@@ -33,26 +34,26 @@ typedef enum { PLY_VERTEX, PLY_FACE, PLY_OTHER } PlyKind;
 typedef struct {
     PlyWord name;
     PlyKind kind;
-    unsigned roles; // a bit for each role that its properties have
+    unsigned roles; // a bit for each role of its properties
     int64_t count;  // at most PLY_COUNT_LIMIT for vertices and faces
     size_t first_property, property_count;
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // with all that a mesh needs of vertices and faces
+    ARRAY(PlyElement) elements; // vertices and faces have all properties that a mesh needs
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals;
 } PlyHeader;
 
-// Those of one element, in the file's order; borrowed from the header.
+// The properties of one element, in the file's order; borrowed from the header.
 typedef struct {
     const PlyProperty *data;
     size_t count;
 } PlyProperties;
 
-// Parses the header at the reader's start; then the reader stands before the body and knows its
-// format.  The header is to be freed in either case.
+// Parses the header at the reader's start. The reader then points at the body and has its format.
+// The caller frees the header in both cases.
 bool ply_header_parse(PlyHeader *header, PlyReader *reader);
 void ply_header_free(PlyHeader *header);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Writes the words of the file in its own byte order, whatever the machine's is.
+// Writes the file in its own byte order, regardless of the machine's.
 #include "mesh/ply_write.h"
 
 #include <endian.h>
 #include <string.h>
 
 #define HEADER_SIZE 512
-#define FACE_SIZE   13 // a byte that counts three words, and those
+#define FACE_SIZE   13 // a count byte and three words
 
 typedef struct {
     char text[HEADER_SIZE];

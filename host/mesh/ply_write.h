@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> binary PLY, as ply_parse reads it fastest and with the same bits.
+// Writes a Mesh as binary PLY, which ply_parse reads fastest and with the same bits.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -7,9 +7,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-// How many bytes that takes.
+// Returns the number of bytes that ply_write writes.
 size_t ply_write_size(const Mesh *mesh);
 
-// Writes the mesh, its positions as floats where all of them are and as doubles otherwise; false
-// where the stream has failed.
+// Writes the mesh. Positions are floats if all fit exactly, else doubles. Returns false if the
+// stream has failed.
 bool ply_write(const Mesh *mesh, FILE *stream);

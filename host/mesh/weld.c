@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An open-addressed table of the lowest vertex at each position.
+// An open-addressed hash table of the lowest vertex at each position.
 #include "mesh/weld.h"
 
 #include "base/array.h"
@@ -9,11 +9,11 @@
 #include <xxhash.h>
 
 typedef struct {
-    uint32_t *vertices; // WELD_UNUSED where a place is free
-    size_t mask;        // places less one; a power of two of them
+    uint32_t *vertices; // WELD_UNUSED in empty slots
+    size_t mask;        // slots less one; their number is a power of two
 } Table;
 
-// Zeros of both signs are one coordinate.
+// Positive and negative zero are one coordinate.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -49,7 +49,7 @@ static bool make_table(Table *table, size_t count, Error *error)
     return table->vertices != NULL;
 }
 
-// Leaves WELD_UNUSED where nothing uses a vertex, and any other number where something does.
+// Leaves WELD_UNUSED for unused vertices and stores another number for all others.
 static void mark_used(Weld *weld, const Mesh *mesh)
 {
     memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its points: vertices at the same position are one, as they are to a ray.
+// Merges a mesh's vertices into points: vertices at the same position are one point to a ray.
 #pragma once
 
 #include "base/error.h"
@@ -9,8 +9,8 @@
 #define WELD_UNUSED UINT32_MAX
 
 typedef struct {
-    uint32_t *points;                    // by vertex: the lowest vertex in use at its position
-    size_t unused_count, repeated_count; // vertices without a point, and those with another's
+    uint32_t *points;                    // by vertex: the lowest used vertex at its position
+    size_t unused_count, repeated_count; // vertices without a point, and vertices with another's
 } Weld;
 
 bool weld_make(Weld *weld, const Mesh *mesh, Error *error);

@@ -20,7 +20,7 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
     const Vec3 down = vec3_cross(forward, right);
     const double half = viewpoint->fov_degrees / 2;
     const double half_height = sine_of_degrees(half) / cosine_of_degrees(half);
-    // Sample coordinates count half steps from the center, so both axes step by the same length.
+    // Sample coordinates count half steps from the center, so both axes have the same step.
     const double half_step = half_height / ((double)height * samples);
     CameraData camera;
     store(camera.eye, normalize_point(normalization, viewpoint->eye));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads material definitions; what a definition leaves out is the course's for its kind.
+// Reads material definitions. Missing properties have the course's values for the material's kind.
 #include "scene/define.h"
 
 #include "base/limits.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Exponents up to this are raised by squaring, which every device computes alike.
+// Exponents up to this are computed by squaring, with the same bits on every device.
 #define LARGEST_INTEGER_EXPONENT 1024
 
 static bool read_color(Tokens *tokens, float color[3])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials are named FILE:NAME, so that those of two files do not meet.
+// Materials are named FILE:NAME, so that two files' materials do not collide.
 #include "scene/foreign_mesh.h"
 
 #include "mesh/foreign_process.h"
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// What has no highlights is matte.
+// Materials without highlights are matte.
 static Material material_of(const ForeignMaterial *given)
 {
     const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
@@ -46,7 +46,7 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// The model's own path is told by whoever asked for it.
+// The caller adds the model's own path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The meshes of a scene, one behind the other, as one.
+// Concatenates the meshes of a scene into one.
 #pragma once
 
 #include "scene/scene.h"
 
-// Fills mesh with all triangles in the scene's order.  Normals that an object does without are
-// zero.
+// Fills mesh with all triangles in the scene's order. Objects without normals get zero normals.
 bool mesh_join(Mesh *mesh, const Scene *scene, Error *error);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How a mesh file is to be taken into a scene.
+// How to load a mesh file into a scene.
 #pragma once
 
 #include "mesh/ply.h"
 #include "scene/scene.h"
 
 typedef struct {
-    MeshObject object;        // what its objects are beside their meshes
-    bool takes_own_materials; // in place of the object's, where the file has any
-    bool is_plain_ply;        // PLY alone, without transforms
-    PlyParse *parse;          // how meshes are read
+    MeshObject object;        // properties of its objects beside their meshes
+    bool takes_own_materials; // instead of the object's, if the file has any
+    bool is_plain_ply;        // PLY only, without transforms
+    PlyParse *parse;          // the mesh reader
 } MeshOrder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses camera distance and lights by the sphere around the mesh's bounds.
+// Derives the camera distance and the lights from the bounding sphere of the mesh's bounds.
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
@@ -15,7 +15,7 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-// Half the diagonal of the bounds; center is left in *center.
+// Returns half the diagonal of the bounds, and their center in *center.
 static double radius_of(const Scene *scene, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
@@ -33,7 +33,7 @@ static bool add_cameras(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const double directions[6][3] = {{2, -2.6, 1.4}, {0, -1, 0}, {1, 0, 0},
                                             {0, 1, 0},      {-1, 0, 0}, {0, 0, 1}};
-    // The sphere around the mesh touches the picture's upper and lower edge: 1 / sin(fov / 2).
+    // The bounding sphere touches the picture's upper and lower edge: 1 / sin(fov / 2).
     const double distance = radius * 2.6131259297527532;
     for (int view = 0; view < 6; view++) {
         const double *d = directions[view];
@@ -56,7 +56,7 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
            array_push(&scene->lights, ((Light){fill, 0.3}), error);
 }
 
-// A mesh in place of a scene is seen from both sides.
+// A mesh that replaces a scene is visible from both sides.
 static MeshOrder order_of(PlyParse *parse)
 {
     return (MeshOrder){.object = {.material = 1, .two_sided = true, .smooth = true},
@@ -64,7 +64,7 @@ static MeshOrder order_of(PlyParse *parse)
                        .parse = parse};
 }
 
-// What a scene of nothing but objects lacks; takes down the scene where it cannot be had.
+// Adds the parts that a scene of objects lacks. Frees the scene on failure.
 static bool complete(Scene *scene, bool ok, Error *error)
 {
     Vec3 center;

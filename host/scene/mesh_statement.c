@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds a file's meshes and applies the transforms in the order written, in fp64.
+// Adds a file's meshes and applies the transforms in the written order, in fp64.
 #include "scene/mesh_statement.h"
 
 #include "base/clock.h"
@@ -18,8 +18,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Normals of any length are read; turned, a component may grow by the root of three.  Only their
-// lengths against each other count, so all of a mesh's are shortened where one could overflow.
+// Normals may have any length, and rotation may grow a component by the square root of three. Only
+// the ratios of their lengths count, so all normals of a mesh are shortened if one could overflow.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -119,7 +119,7 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Repeated scaling could otherwise leave the range the rest of the program relies on.
+// Repeated scaling could otherwise leave the range that the rest of the program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -149,7 +149,7 @@ static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Erro
     return ok;
 }
 
-// The scene's own line is named where the file itself tells no place.
+// The message names the scene's line if the file's own message has no position.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
     Error *error = tokens->error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Silhouettes and full mirrors need no light.
+// Silhouettes and perfect mirrors need no light.
 #include "scene/missing.h"
 
 static bool is_shaded(const Scene *scene, uint32_t material)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Scene -> what it lacks for a picture that shows something.
+// Finds what a scene lacks to show anything.
 #pragma once
 
 #include "scene/scene.h"
 
 typedef struct {
-    const char *kind; // a name for programs; NULL where nothing is missing
-    const char *text; // a clause for people
+    const char *kind; // a name for programs; NULL if nothing is missing
+    const char *text; // a clause for messages
 } MissingPart;
 
-// Returns the first part that is missing: anything to draw, or lights on surfaces that they shade.
+// Returns the first missing part: anything to render, or lights on surfaces that need them.
 MissingPart scene_missing(const Scene *scene);

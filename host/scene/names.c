@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids number the spheres and then the triangles of one mesh after the other.
+// Ids number the spheres first, then the triangles, mesh after mesh.
 #include "scene/names.h"
 
 #include <assert.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds center and scale from bounds, and refuses what does not fit the frame.
+// Computes center and scale from the bounds, and rejects scenes that do not fit the frame.
 #include "scene/normalize.h"
 
 #define LARGEST_RATIO 0x1p40

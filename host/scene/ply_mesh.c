@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hands the mesh to the scene, or frees it.
+// Moves the mesh into the scene, or frees it.
 #include "scene/ply_mesh.h"
 
 bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshOrder *order,

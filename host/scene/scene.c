@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The constants of the UvA course "Graphics and Game Technology" and a scene's memory.
+// The constants of the UvA course "Graphics and Game Technology", and a scene's memory.
 #include "scene/scene.h"
 
 #include "base/trigonometry.h"
@@ -37,7 +37,7 @@ bool scene_init(Scene *scene, Error *error)
            array_push(&scene->materials, mirror, error);
 }
 
-// Azimuth and rotation in degrees and distance from the origin, as the course's viewer keeps them.
+// Azimuth and rotation in degrees and distance from the origin, as in the course's viewer.
 static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
 {
     const double level = distance * cosine_of_degrees(azimuth);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as its file describes it, in the file's own coordinates and in fp64.
-// Elements refer to each other by index, so that the arrays may move while they grow.
+// A scene as its file describes it, in the file's own coordinates and in fp64. Elements refer to
+// each other by index, because the arrays may move while they grow.
 #pragma once
 
 #include "../kernels/shared.h"
@@ -12,7 +12,7 @@
 #define PICTURE_SIZE_MAX 65536
 #define MAX_LEVEL_LIMIT  1000
 
-#define COURSE_MATERIALS 4 // of every scene, its first
+#define COURSE_MATERIALS 4 // the first materials of every scene
 
 typedef struct {
     Vec3 position;
@@ -28,13 +28,13 @@ typedef struct {
 typedef struct {
     Mesh mesh;
     uint32_t material;
-    uint32_t input;         // of the scene's, its file
-    uint64_t number_before; // of triangles in other objects of that file, with those left out
+    uint32_t input;         // index of its file in the scene's inputs
+    uint64_t number_before; // triangles of earlier objects of that file, dropped ones included
     bool two_sided;
-    bool smooth; // shade with the vertex normals where there are any
+    bool smooth; // shade with the vertex normals, if there are any
 } MeshObject;
 
-// A camera: up and look_at - eye are neither zero nor parallel.
+// A camera. up and look_at - eye must be neither zero nor parallel.
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees; // vertical, between 0 and 180
@@ -49,38 +49,38 @@ typedef struct {
     ARRAY(Light) lights;
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
-    ARRAY(Material) materials;          // the first are the course's
-    ARRAY(MaterialName) material_names; // of those defined
+    ARRAY(Material) materials;          // the course's come first
+    ARRAY(MaterialName) material_names; // of the defined materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
-    bool is_mesh;          // its file was a mesh alone; viewpoints and lights are clrt's own
+    bool is_mesh;          // the file was a mesh alone; viewpoints and lights are clrt's own
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;
     uint32_t max_level;
     ARRAY(char *) inputs; // paths of the files it was read from; owned
-    ARRAY(char *) notes;  // sentences on what was left out of them; owned
-    double mesh_seconds;  // of the loading spent on reading meshes
+    ARRAY(char *) notes;  // messages about omitted parts of these files; owned
+    double mesh_seconds;  // loading time spent on meshes
     // XXH3 of the bytes of the scene file and its meshes in the order read, and of the meshes
-    // alone, which is zero without any.
+    // alone. The latter is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
-// Fills scene with what a scene file starts from: the course's constants and four materials.
+// Fills scene with the defaults of a scene file: the course's constants and four materials.
 bool scene_init(Scene *scene, Error *error);
 
-// Takes the course's six viewpoints where the scene has none of its own.
+// Adds the course's six viewpoints if the scene has none of its own.
 bool scene_complete(Scene *scene, Error *error);
 
-// Mixes size bytes of input into scene->hash, those of a mesh into scene->mesh_hash too.
+// Mixes size bytes of input into scene->hash; scene_hash_mesh also into scene->mesh_hash.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
 void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
 
-// 32 hexadecimal digits that name a hash, the high half first.
+// Writes a hash as 32 hexadecimal digits, the high half first.
 #define SCENE_HASH_SIZE 33
 void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE]);
 
-// Notes that the scene was read from the file at path too.
+// Adds the file at path to the inputs.
 bool scene_add_input(Scene *scene, const char *path, Error *error);
 
 // Adds "PATH: TEXT" to the notes.
@@ -89,8 +89,8 @@ bool scene_add_note(Scene *scene, const char *path, const char *text, Error *err
 size_t scene_triangle_count(const Scene *scene);
 void scene_free(Scene *scene);
 
-// What is wrong with where the camera stands and looks, in words; NULL where nothing is.
+// Returns a message about a fault of the camera's position or direction, NULL without one.
 const char *viewpoint_fault(const Viewpoint *viewpoint);
 
-// The material of a define statement that gives nothing but its kind.
+// Returns the material of a define statement that gives only its kind.
 Material material_of_shader(Shader shader);

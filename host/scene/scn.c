@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a scene file statement by statement.  The table at the end is the grammar: each statement
-// has its keyword, the form that messages quote, and a function named after what it reads.
+// Reads a scene file statement by statement. The table at the end is the grammar. Each statement
+// has a keyword, a form that messages quote, and a function named after the statement.
 #include "scene/scn.h"
 
 #include "base/file.h"
@@ -22,7 +22,7 @@ typedef struct {
     uint32_t material; // of the objects that follow, or MATERIAL_OWN
     MeshObject object; // the sides and normals of the objects that follow
     Vec3 up;           // of the cameras that follow
-    Token waiting_up;  // the latest `up` while no camera has followed it
+    Token waiting_up;  // the latest `up` until a camera follows it
     Error *error;
 } Parser;
 
@@ -218,7 +218,7 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// The parser knows its scene, how meshes are read, and where errors go.
+// Parses text. The parser already has its scene, mesh reader and Error.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
@@ -239,7 +239,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
-// Scene text; its file comes behind those of its meshes.
+// Loads scene text. The input list has the text's file after its meshes.
 static bool load_text(Parser *parser, const File *file, const char *path)
 {
     if (!parse(parser, file->bytes, file->size, path))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene text -> Scene.  The grammar is the course's four statements and clrt's extension; the
-// table in scn.c is its definition.
+// Parses scene text into a Scene. The grammar is the course's four statements and clrt's
+// extensions, defined by the table in scn.c.
 #pragma once
 
 #include "base/error.h"
@@ -8,13 +8,13 @@
 #include "mesh/ply.h"
 #include "scene/scene.h"
 
-// Parses the size bytes of a scene file; meshes are read from beside the file called name.
-// False with "name:line:column: ..." at the first thing that is not understood.
+// Parses the size bytes of a scene file. Mesh paths are relative to the folder of the file called
+// name. Returns false with "name:line:column: ..." at the first error.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
-// The same from the file at path, which may also be a mesh alone (mesh_scene.h).  parse_mesh reads
-// PLY meshes: ply_parse or ply_parse_tolerantly.
+// Loads the file at path, which may also be a mesh alone (mesh_scene.h). parse_mesh reads PLY
+// meshes: ply_parse or ply_parse_tolerantly.
 bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error);
 
-// The same from a file in memory; its meshes are beside a file called name.
+// Loads a file in memory. Mesh paths are relative to the folder of a file called name.
 bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error);

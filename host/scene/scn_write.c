@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A statement for everything that a scene's own text could have said; what is for objects that
-// follow stands before them where it changes.
+// Writes a statement for everything that scene text can describe. A statement for the objects that
+// follow is written before them when its value changes.
 #include "scene/scn_write.h"
 
 #include "base/number.h"
@@ -16,10 +16,10 @@ typedef struct {
     const Scene *scene;
     FILE *stream;
     MaterialName *names; // of the materials in this text, by index
-    MeshObject current;  // what the statements so far have set for objects
+    MeshObject current;  // state of the object statements so far
 } Writer;
 
-// The fewest digits that are read as the same number.
+// Writes the fewest digits that read back as the same number.
 static void write_number(FILE *stream, double value)
 {
     char text[32];
@@ -32,7 +32,7 @@ static void write_number(FILE *stream, double value)
     fprintf(stream, " %s", text);
 }
 
-// The same of a float, whose digits are fewer.
+// write_number for a float, which needs fewer digits.
 static void write_float(FILE *stream, float value)
 {
     char text[32];
@@ -123,7 +123,7 @@ static bool is_definable(const char *name)
            number_parse(name, name + strlen(name), &number) == NULL;
 }
 
-// The names that materials have, but for those that a mesh file gave and no scene can define.
+// Chooses the materials' names: their own, or numbered ones if no scene can define the own ones.
 static void choose_names(Writer *writer)
 {
     const Scene *scene = writer->scene;
@@ -140,7 +140,7 @@ static void choose_names(Writer *writer)
     }
 }
 
-// What a kind of material makes no use of is left out.
+// Omits the properties that a material's kind does not use.
 static void write_defines(const Writer *writer)
 {
     FILE *stream = writer->stream;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cuts scene text into tokens and words the messages about them.
+// Splits scene text into tokens and formats the messages about them.
 #include "scene/tokens.h"
 
 #include "base/limits.h"
@@ -57,7 +57,7 @@ static bool ends_token(char c, bool quoted)
     return quoted ? c == '"' || is_line_end(c) : c == ' ' || c == '\t' || is_line_end(c);
 }
 
-// Without one, the quote is taken for a part of the word, and the message shows it.
+// Without a closing quote, the quote counts as part of the word, and the message shows it.
 static bool has_closing_quote(const Tokens *tokens)
 {
     const char *c = tokens->next + 1;
@@ -101,7 +101,7 @@ bool token_is(Token token, const char *word)
            memcmp(token.text, word, token.length) == 0;
 }
 
-// Quotes the token for a message, shortened and without bytes a terminal would act on.
+// Quotes the token for a message, shortened and without terminal control bytes.
 static void describe_token(Token token, char *out, size_t size)
 {
     if (token.text == NULL) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray's weight is the product of the reflectivities on its way; none is larger than a power of
-// the largest of those in use.
+// A ray's weight is the product of the reflectivities on its path. It is at most a power of the
+// largest reflectivity in use.
 #include "scene/truncation.h"
 
 static double larger(double a, double b)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Scene -> how far colors can be off because rays of some level see the background: colors are at
-// most 1, so that the error is at most the weight that a ray of that level can have left.
+// Bounds the color error of a maximum ray level, because rays of that level see the background.
+// Colors are at most 1, so the error is at most the remaining weight of a ray of that level.
 #pragma once
 
 #include "scene/scene.h"
 
-// The largest error of any color where rays of max_level return the background.
+// Returns the largest error of any color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
-// The smallest max_level whose bound is at most that; MAX_LEVEL_LIMIT where there is none below.
+// Returns the smallest max_level whose error is at most bound; MAX_LEVEL_LIMIT if none is smaller.
 uint32_t truncation_level(const Scene *scene, double bound);

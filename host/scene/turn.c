@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine are clrt's own: the eye is the same bits on every machine.
+// Sine and cosine are clrt's own, so the eye has the same bits on every machine.
 #include "scene/turn.h"
 
 #include "base/trigonometry.h"

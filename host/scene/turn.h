@@ -4,6 +4,6 @@
 
 #include "scene/scene.h"
 
-// The viewpoint once its eye has turned so many degrees about up: about the point it looks at, or,
-// for the course's, about the origin.  At 0 it is the same bits.
+// Returns the viewpoint with its eye turned by degrees about up: around the point it looks at or,
+// for the course's viewpoints, around the origin. At 0 the bits are unchanged.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);
