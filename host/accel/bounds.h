@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes as builders handle them: lower and negated upper planes in vectors, so that one minimum
-// each unites two boxes.  Planes are never -0, so that unions do not depend on their order.
+// Boxes for builders: lower and negated upper planes in vectors, so that one minimum each unites
+// two boxes. Planes are never -0, so unions do not depend on their order.
 #pragma once
 
 #include "accel/bvh.h"
@@ -13,10 +13,10 @@ typedef float Float4 __attribute__((vector_size(16)));
 typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
-    Float4 low, negated_high; // x y z, and a fourth that means nothing
+    Float4 low, negated_high; // x y z, and an unused fourth
 } Bounds;
 
-// A triangle, or a cell of several, as builders move it about.
+// A triangle, or a cell of several, as builders move it.
 typedef union {
     Bounds bounds;
     struct {
@@ -56,14 +56,14 @@ static inline float bounds_extent(const Bounds *bounds, int axis)
     return -(bounds->low[axis] + bounds->negated_high[axis]);
 }
 
-// Half the surface; not a number for empty bounds.
+// Returns half the surface area, NaN for empty bounds.
 static inline float bounds_half_area(const Bounds *bounds)
 {
     const Float4 sides = bounds->low + bounds->negated_high;
     return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
 }
 
-// The same of three bounds; the fourth is that of the last.
+// Returns the half areas of three bounds; the fourth repeats the third.
 static inline Float4 bounds_half_areas(const Bounds bounds[3])
 {
     const Float4 a = bounds[0].low + bounds[0].negated_high;
@@ -103,13 +103,13 @@ static inline Bounds bounds_of_triangle(const Triangles *triangles, uint32_t tri
                     float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Around the doubled center of what is in the bounds.
+// Returns bounds around the doubled center of the bounded geometry.
 static inline Bounds bounds_of_center(const Bounds *bounds)
 {
     return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};
 }
 
-// The center of an item on an axis, doubled.
+// Returns the doubled center of an item on an axis.
 static inline float item_center(const BuildItem *item, int axis)
 {
     return item->low[axis] - item->negated_high[axis];

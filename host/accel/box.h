@@ -25,7 +25,7 @@ static inline void box_include_point(Box *box, const float point[3])
     }
 }
 
-// Half the surface; zero for an empty box.
+// Returns half the surface area, zero for an empty box.
 static inline float box_half_area(const Box *box)
 {
     const float x = box->high[0] - box->low[0];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Items move back and forth between two arrays: a node's are in one of them, and division writes
-// its children's to the same places of the other.  Nodes still to divide wait on a list, so that no
-// recursion can run out of stack.
+// Items move back and forth between two arrays. A node's items are in one of them, and a split
+// writes its children's items to the same positions of the other. Pending nodes wait on an
+// explicit stack, so that no recursion overflows.
 #include "accel/build.h"
 
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
-// A task whose items are in one of the two arrays.
+// A task, and the array that holds its items.
 typedef struct {
     BuildTask task;
     uint32_t array;
@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     const Build *build;
     BuildItem *items[2];
-    uint32_t first; // place of the first triangle
+    uint32_t first; // position of the first triangle
     BuildCounts *counts;
 } Subtree;
 
@@ -66,7 +66,7 @@ static int longest_axis(const Bounds *bounds)
     return longest;
 }
 
-// Any set of items, equal ones included, can be halved.
+// Any set of items can be halved, even if all are equal.
 static void move_halves(const BuildItem *items, BuildItem *other, uint32_t count,
                         const Bounds *centers)
 {
@@ -77,7 +77,7 @@ static void move_halves(const BuildItem *items, BuildItem *other, uint32_t count
         qsort(other, count, sizeof *other, compare[axis]);
 }
 
-// Returns how many items go to the left child; 0 where the node is a leaf.
+// Returns the number of items of the left child, 0 if the node is a leaf.
 static uint32_t divide(const Subtree *subtree, const Waiting *waiting)
 {
     const BuildTask *task = &waiting->task;
@@ -177,7 +177,7 @@ void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, 
         counts->node_count += 2;
         child += 2;
     }
-    // Children stand behind their parents.
+    // Children come after their parents.
     while (child > 2 * root->first + 1)
         build_count_leaves(build->bvh, --child);
     build_count_leaves(build->bvh, root->node);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Divides the triangles top down.  A node of very many triangles is sorted into cells, which are
-// divided instead of them, by all threads together; what is left below are subtrees that threads
-// build alone.  A subtree's nodes have places of their own, so that nothing depends on who builds
-// it, or when.
+// Divides the triangles top down. A node of very many triangles is sorted into cells. All threads
+// together divide the cells instead of the triangles. The remaining subtrees are each built by one
+// thread. Every subtree has its own node indices, so the tree does not depend on the schedule.
 #include "accel/bvh.h"
 
 #include "accel/build.h"
@@ -15,7 +14,7 @@ typedef struct {
     Build build;
     Crew *crew;
     Upper upper;
-    BuildItem *items;    // for subtrees, of each worker
+    BuildItem *items;    // buffer for subtrees, one per worker
     BuildCounts *counts; // of each subtree
 } Whole;
 
@@ -65,7 +64,7 @@ static bool build_subtrees(Whole *whole, Error *error)
     return true;
 }
 
-// Upper nodes are in the order of their division, so that children come behind their parents.
+// Upper nodes are in the order of their division, so children come after their parents.
 static void count_upper_leaves(const Whole *whole)
 {
     for (size_t i = whole->upper.nodes.count; i > 0; i--)
@@ -111,7 +110,7 @@ static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
     if (bvh->nodes == NULL || bvh->order == NULL)
         return false;
     crew_run(whole->crew, chunk_count(total), number_chunk, whole);
-    // The midpoint split is kept as it is known, by triangles alone.
+    // The midpoint split keeps its definition, on triangles only.
     const bool ok = builder == BVH_MIDPOINT
                         ? array_push(&whole->upper.subtrees, root, error)
                         : upper_divide(&whole->upper, &whole->build, whole->crew, error);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Triangles -> Bvh: a binary tree of boxes with triangles in its leaves (Rubin and Whitted,
-// "A 3-dimensional representation for fast rendering of complex scenes", 1980).
-// The same triangles give the same tree, always, whatever the number of threads.
+// Builds a Bvh from triangles: a binary tree of boxes with triangles in its leaves (Rubin and
+// Whitted, "A 3-dimensional representation for fast rendering of complex scenes", 1980). The same
+// triangles always give the same tree, regardless of the number of threads.
 #pragma once
 
 #include "accel/triangles.h"
 
 typedef enum { BVH_SAH, BVH_MIDPOINT } BvhBuilder;
 
-// What a leaf costs to test, which decides how large the surface area heuristic makes it.
+// The unit of a leaf's test cost, from which the surface area heuristic derives the leaf size.
 typedef enum {
     LEAVES_SINGLE, // its triangles one by one
     LEAVES_BLOCKS  // blocks of WIDE triangles, a block at once
@@ -23,16 +23,16 @@ typedef struct {
     float low[3], high[3];
 } Box;
 
-// With a count, a leaf: places [first, first + count) of the order; without, the children are the
-// nodes first and first + 1.
+// A node with a count is a leaf: positions [first, first + count) of the order. Otherwise the
+// children are the nodes first and first + 1.
 typedef struct {
     Box box; // exactly around the triangles below
     uint32_t first, count;
-    uint32_t leaf_count; // of the leaves below; a leaf has one
+    uint32_t leaf_count; // leaves below; a leaf counts itself
 } BvhNode;
 
 typedef struct {
-    BvhNode *nodes;                  // the root first; not all of their places are in use
+    BvhNode *nodes;                  // the root first; some entries are unused
     uint32_t *order;                 // the triangles' numbers, leaf after leaf
     uint32_t *upper;                 // the inner nodes above the subtrees, ascending
     uint32_t node_count, leaf_count; // in use
@@ -40,7 +40,7 @@ typedef struct {
     uint32_t largest_leaf, depth; // levels; at most BVH_MAX_DEPTH
 } Bvh;
 
-// Builds the tree; without triangles it has no nodes.
+// Builds the tree. Without triangles it has no nodes.
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
                Error *error);
 void bvh_free(Bvh *bvh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sorts triangles by the cell of their center with a radix sort in two passes.  All work is shared
-// out in chunks; counting first where each chunk's triangles go keeps them in order.
+// Sorts triangles by the cell of their center, with a radix sort in two passes. All work is
+// divided into chunks. Counting the destinations of each chunk's triangles first keeps the sort
+// stable.
 #include "accel/cells.h"
 
 #include <stdlib.h>
@@ -24,8 +25,8 @@ typedef struct {
     Grid grid;
     Keyed *keyed[2];
     Bounds *centers;            // of each chunk
-    uint32_t (*places)[DIGITS]; // of each chunk: how many of each digit, then where they go
-    uint32_t *cell_counts;      // of each chunk: cells that begin there, then how many before
+    uint32_t (*places)[DIGITS]; // of each chunk: the count of each digit, later its destination
+    uint32_t *cell_counts;      // of each chunk: cells that begin there, later the cells before it
     uint32_t shift;             // of the pass
     Cells *cells;
 } Sorting;
@@ -106,7 +107,8 @@ static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
     }
 }
 
-// Turns the chunks' counts into places: digit after digit, and chunk after chunk within each.
+// Turns the chunks' counts into destinations: digit after digit, and chunk after chunk within
+// each.
 static void place_digits(Sorting *sorting)
 {
     const uint32_t chunks = chunk_count(sorting->source.count);
@@ -148,7 +150,7 @@ static void count_cells(void *context, uint32_t chunk, uint32_t worker)
     sorting->cell_counts[chunk] = count;
 }
 
-// Makes the cell that begins at a place, and returns where the next one does.
+// Makes the cell that begins at a position, and returns the start of the next one.
 static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t first)
 {
     const Keyed *keyed = sorting->keyed[0];

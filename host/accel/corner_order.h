@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three corners -> the order in which they are stored for the device (kernels/shared.h).
+// The order in which a triangle's corners are stored for the device (kernels/shared.h).
 #pragma once
 
 #include <stdbool.h>
@@ -12,6 +12,6 @@ typedef struct {
 
 extern const CornerOrder corner_orders[8];
 
-// Returns an index into corner_orders.  Sorting by it gives the same three points for every order
+// Returns an index into corner_orders. Sorting by it gives the same three points for every order
 // of the arguments.
 uint8_t corner_order(const float *a, const float *b, const float *c);

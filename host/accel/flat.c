@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flattens a scene: everything but the triangles and their tree, which flat_pair.c and flat_wide.c
-// lay out.
+// Flattens everything but the triangles and their tree, which flat_pair.c and flat_wide.c lay out.
 #include "accel/flat.h"
 
 #include "accel/flat_looks.h"

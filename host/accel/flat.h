@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Scene and Bvh -> FlatScene: the arrays the device reads (kernels/shared.h), and nothing for what
-// the scene does not contain.
+// Flattens a Scene and its Bvh into the arrays that the device reads (kernels/shared.h). Features
+// that the scene lacks take no memory.
 #pragma once
 
 #include "accel/bvh.h"
 
-// How triangles and their tree lie in memory; the picture is the same.
+// The memory layout of triangles and their tree. The picture is the same for both.
 typedef enum {
-    NODES_PAIR, // two children a node, triangles one by one: for GPUs and as the plain reading
-    NODES_WIDE  // eight children a node, triangles in blocks of eight: for vector instructions
+    NODES_PAIR, // two children per node, single triangles: for GPUs and for plain reading
+    NODES_WIDE  // eight children per node, blocks of eight triangles: for vector instructions
 } NodeLayout;
 
 typedef struct {
@@ -16,10 +16,10 @@ typedef struct {
     PointLight *lights;
     Material *materials;
     SphereData *spheres;
-    BvhPair *pairs;          // of NODES_PAIR: none without triangles or without a tree
-    TriangleData *triangles; // of NODES_PAIR: in the order of the leaves
-    BvhWide *wides;          // of NODES_WIDE: none without triangles or without a tree
-    TriangleBlock *blocks;   // of NODES_WIDE: in the order of the leaves
+    BvhPair *pairs;          // of NODES_PAIR: NULL without triangles or tree
+    TriangleData *triangles; // of NODES_PAIR: in leaf order
+    BvhWide *wides;          // of NODES_WIDE: NULL without triangles or tree
+    TriangleBlock *blocks;   // of NODES_WIDE: in leaf order
     TriangleLook *looks;     // of NODES_WIDE: in file order
     CornerNormals *normals;  // of the smooth triangles, in file order
     uint32_t light_count, material_count, sphere_count;
@@ -28,22 +28,21 @@ typedef struct {
     float background[3], ambient;
 } FlatScene;
 
-// What a scene is flattened from.  A bvh without nodes gives a scene whose triangles are all
-// tested.
+// The input of flattening. With a bvh without nodes, the kernels test every triangle.
 typedef struct {
     const Scene *scene;
     const Triangles *triangles;
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    Crew *crew; // to share the work, NULL for none
+    Crew *crew; // threads for the work, NULL for none
 } FlatSource;
 
-// The leaves that suit a layout.
+// Returns the leaf unit that suits a layout.
 BvhLeaves flat_leaves(NodeLayout layout);
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
-// Bytes of all arrays: what goes to the device.
+// Returns the bytes of all arrays, which are uploaded to the device.
 size_t flat_size(const FlatScene *flat);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects one after the other, their triangles shared out.
+// Processes object after object. The threads share each object's triangles.
 #include "accel/flat_looks.h"
 
 #include <string.h>
@@ -8,8 +8,8 @@ typedef struct {
     const MeshObject *object;
     const uint8_t *orders;  // of its triangles, as in Triangles
     TriangleLook *looks;    // of its triangles
-    CornerNormals *normals; // of its triangles; NULL where it is flat
-    uint32_t first_normals; // their place among all
+    CornerNormals *normals; // of its triangles; NULL if it is flat
+    uint32_t first_normals; // their index among all normals
 } ObjectLooks;
 
 static Vec3 mesh_corner(const Mesh *mesh, const uint32_t *triangle, int corner)
@@ -39,8 +39,8 @@ static int sign_of(const CornerOrder *order)
     return order->reversed ? -1 : 1;
 }
 
-// The lengths of a triangle's normals weigh them against each other, so they are kept; a power of
-// two common to the three keeps their squares in range.
+// The ratios of a triangle's normal lengths are weights, so they are kept. A power of two, common
+// to the three, keeps their squares in range.
 static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {
@@ -66,7 +66,7 @@ static float extent_of(const float *normal)
     return xy > z ? xy : z;
 }
 
-// 2^-floor(log2(value)) of a value whose reciprocal is a normal number.
+// Returns 2^-floor(log2(value)) for a value whose reciprocal is a normal number.
 static float inverse_power(float value)
 {
     uint32_t bits;
@@ -77,7 +77,8 @@ static float inverse_power(float value)
     return power;
 }
 
-// scale_normals in float, which gives the same bits, where all three are given and of usual size.
+// scale_normals in float, with the same bits. Returns false unless all three normals are given and
+// of usual size.
 static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                                 const CornerOrder *order)
 {

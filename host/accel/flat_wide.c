@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Collapses the binary tree: a wide node starts with a binary node's two children and opens the one
-// with the largest surface, the likeliest to be met, until it has eight.  What would fill a node of
-// its own is not opened in part, which would leave nodes of two or three blocks.  One walk through
-// the upper levels finds the wide nodes below them; threads count what each of these will take with
-// all that is below, and then write it to its place.  Nodes are written depth first, and so are the
-// blocks.
+// Collapses the binary tree. A wide node starts with a binary node's two children. It then opens
+// the child with the largest surface, which rays most likely hit, until it has eight. A child that
+// would fill its own node is not opened partially, because that would leave nodes of two or three
+// blocks. One walk through the upper levels finds the wide nodes below them. Threads then count
+// the size of each of these branches, and later write it at its position. Nodes and blocks are
+// written depth first.
 #include "accel/flat_wide.h"
 
 #include "accel/box.h"
@@ -13,25 +13,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A part of the tree that is to become a child: a node, or triangles of a leaf, which may be too
-// many for one block.
+// A part of the tree that becomes a child: a node, or triangles of a leaf, possibly too many for
+// one block.
 typedef struct {
     Box box;
     float area;
     uint32_t node;
-    uint32_t first, count; // places of the triangles, for a leaf
+    uint32_t first, count; // positions of a leaf's triangles
     uint32_t leaf_count;
 } Part;
 
-// How much of the arrays something takes, or where it begins.
+// A size or a start position in the arrays.
 typedef struct {
     uint32_t nodes, blocks;
 } Extent;
 
-// A wide node, not of the upper levels, below one that is.
+// A wide node below the upper levels, whose parent belongs to them.
 typedef struct {
     Part part;
-    Extent extent; // of it and all below; then where they begin
+    Extent extent; // size of its subtree; later its start
 } Branch;
 
 typedef struct {
@@ -40,7 +40,7 @@ typedef struct {
     ARRAY(Branch) branches;
 } Collapse;
 
-// A walk through the upper levels ends at the branches, one through a branch at the blocks.
+// The walk through the upper levels ends at the branches, a walk through a branch at the blocks.
 typedef struct {
     Collapse *collapse;
     bool is_upper;
@@ -84,7 +84,7 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
-// Whether to open a part where there is room for so many more; the only part is opened always.
+// Returns whether to open a part if `room` more parts fit. A single part is always opened.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
@@ -101,7 +101,7 @@ static int largest_part(const Part *parts, uint32_t count)
     return largest;
 }
 
-// Turns one part into up to eight.
+// Splits one part into up to eight.
 static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
 {
     uint32_t count = 1;
@@ -121,7 +121,7 @@ static int compare_numbers(const void *first, const void *second)
     return (*a > *b) - (*a < *b);
 }
 
-// Whether an upper walk leaves the part to another one.
+// Returns whether an upper walk leaves the part to a branch's walk.
 static bool is_branch(const Walk *walk, const Part *part)
 {
     const Bvh *bvh = walk->collapse->source->bvh;
@@ -131,7 +131,7 @@ static bool is_branch(const Walk *walk, const Part *part)
            NULL;
 }
 
-// Recursion is bounded by the levels of the binary tree.
+// The depth of the binary tree bounds the recursion.
 static bool count_node(Walk *walk, const Part *part, Error *error)
 {
     Collapse *collapse = walk->collapse;
@@ -168,7 +168,7 @@ static void write_missing(BvhWide *wide, uint32_t child)
     wide->child[child] = 0;
 }
 
-// Fills a block from the triangles at places [first, first + count) of the order.
+// Fills a block from the triangles at positions [first, first + count) of the order.
 static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
 {
     const FlatScene *flat = collapse->flat;
@@ -242,7 +242,7 @@ static void write_branch(void *context, uint32_t number, uint32_t worker)
     write_node(&walk, &branch->part);
 }
 
-// Turns what the branches take into where they begin, behind the upper nodes and their blocks.
+// Turns the branches' sizes into their starts, after the upper nodes and their blocks.
 static void place_branches(Collapse *collapse, Extent next)
 {
     for (size_t i = 0; i < collapse->branches.count; i++) {
@@ -266,7 +266,7 @@ static bool allocate(FlatScene *flat, Error *error)
 static bool collapse_tree(Collapse *collapse, Error *error)
 {
     Crew *crew = collapse->source->crew;
-    // Without upper levels the root is a branch, and a lone block needs a node all the same.
+    // Without upper levels the root is a branch. Even a single block needs a node.
     const Part root = part_of(collapse->source->bvh, 0);
     Walk upper = {.collapse = collapse, .is_upper = true};
     if (!count_node(&upper, &root, error))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree with a stack of its own, as the kernels do.
+// Traverses the tree with an explicit stack, as the kernels do.
 #include "accel/levels.h"
 
 #include <string.h>

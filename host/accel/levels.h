@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How a tree spreads over its levels, for statistics.
+// The distribution of a tree's nodes over its levels, for statistics.
 #pragma once
 
 #include "accel/bvh.h"
 
-// Counts the inner nodes at every depth; the root, if it is one, is counts[0].
+// Counts the inner nodes at every depth. counts[0] is the root's level.
 void levels_count(const Bvh *bvh, uint32_t counts[BVH_MAX_DEPTH]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes as the device culls by them: grown by the slack that makes culling conservative
-// (kernels/traverse.cl) and rounded outward.
+// Grows boxes by the slack that makes the device's culling conservative (kernels/traverse.cl),
+// rounded outward.
 #pragma once
 
 #include "accel/bvh.h"

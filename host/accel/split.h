@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a builder divides the triangles of a node: one function for each builder.
+// The split of a node's triangles: one function for each builder.
 #pragma once
 
 #include "accel/bounds.h"
@@ -18,7 +18,7 @@ typedef struct {
 typedef enum {
     SPLIT_NONE,  // the node is a leaf
     SPLIT_PLANE, // items left of a plane and right of it
-    SPLIT_HALVES // as many items on one side as on the other
+    SPLIT_HALVES // equal numbers of items on both sides
 } SplitKind;
 
 // An item is left of the plane if (its doubled center - origin) * scale < limit.
@@ -26,10 +26,10 @@ typedef struct {
     SplitKind kind;
     int axis;
     float origin, scale, limit;
-    uint32_t left; // weight of the items that are: some, and not all
+    uint32_t left; // weight of the items on the left: some, but not all
 } Split;
 
-// Both are deterministic and keep no state.
+// Both are deterministic and stateless.
 Split split_midpoint(const BuildRange *range);
 Split split_sah(const BuildRange *range);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The course's split: a plane halfway through the box, across its longest axis first.  An axis is
-// refused when a side stays empty or a child is hardly smaller than its parent.
+// The course's split: a plane through the middle of the box, across its longest axis first. The
+// split rejects an axis if a side stays empty or a child is hardly smaller than its parent.
 #include "accel/split.h"
 
 #define LEAF_TRIANGLES    4
 #define SMALLEST_PROGRESS 0.9f // of the parent's extent
 
-// 10 levels more than a balanced tree of four triangles a leaf.
+// Returns 10 levels more than a balanced tree with four triangles a leaf.
 static uint32_t deepest_level(uint32_t triangle_count)
 {
     const uint32_t leaves = (uint32_t)(triangle_count / 4.0 + 0.5);
@@ -29,7 +29,7 @@ static void axes_by_extent(const Bounds *box, int axes[3])
             }
 }
 
-// Whether both sides get items and become smaller than the whole.
+// Returns whether both sides get items and are smaller than the whole.
 static bool makes_progress(const BuildRange *range, Split *split)
 {
     const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The surface area heuristic over bins: of 3 x 15 planes, the one that makes an average ray's
-// expected cost least (Wald, "On fast construction of SAH-based bounding volume hierarchies",
-// 2007).  A node becomes a leaf where no plane is cheaper than testing its triangles.
+// The binned surface area heuristic: of 3 x 15 planes, it takes the one with the least expected
+// cost of an average ray (Wald, "On fast construction of SAH-based bounding volume hierarchies",
+// 2007). A node becomes a leaf if no plane is cheaper than testing its triangles.
 #include "accel/split.h"
 
 #define BINS 16
 
-// Small nodes are many, and theirs are as good with fewer.
+// Small nodes are numerous, and fewer bins serve them as well.
 #define FEW_ITEMS 32
 #define FEW_BINS  8
 
-// Large ones are filled in two streams.
+// Large nodes fill two sets of bins.
 #define MANY_ITEMS 128
 
-// What a leaf of single triangles may hold.
+// The most triangles in a leaf of single triangles.
 #define LARGEST_LEAF 8
 
-// Deeper, halving bounds what an unlucky distribution can cost.
+// Below this depth, halving bounds the cost of degenerate distributions.
 #define MEDIAN_SPLIT_DEPTH 32
 
-// Prices are in tests of a leaf's unit, which is one triangle or a block of them.
+// Costs are in tests of a leaf's unit, which is one triangle or one block.
 typedef struct {
     uint32_t unit, unit_bits; // triangles, and their logarithm
     float node;               // reading a node and testing both its boxes
@@ -27,26 +27,26 @@ typedef struct {
 
 static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS] = {8, 3, 0.3f}};
 
-// Bin by bin those of the three axes, so that planes are priced three at a time.
+// Each bin holds the three axes together, so that three planes are priced at once.
 typedef struct {
     Bounds bounds[BINS][3];
     Uint4 weights[BINS];
 } Bins;
 
-// Bin = (doubled center - origin) * scale; the scale is zero on an axis without extent.
+// Bin = (doubled center - origin) * scale. The scale is zero on an axis without extent.
 typedef struct {
     Float4 origin, scale;
     int bins;
 } Binning;
 
 typedef struct {
-    int axis; // -1 while none was found
+    int axis; // -1 until one is found
     int bin;  // the first bin of the right side
     uint32_t left;
     float price;
 } Plane;
 
-// How many units so many triangles take.
+// Returns the number of units for each weight.
 static Float4 units_of(const Costs *costs, Uint4 weights)
 {
     const Uint4 units = (weights + (costs->unit - 1)) >> costs->unit_bits;
@@ -61,7 +61,7 @@ static Binning binning_of(const Bounds *centers, uint32_t count)
         const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
-    binning.origin[3] = 1; // far from the item numbers there, which are denormal numbers
+    binning.origin[3] = 1; // far from the item numbers there, which are denormals
     return binning;
 }
 
@@ -85,8 +85,8 @@ static void fill_item(Bins *bins, const BuildItem *item, const Binning *binning)
     }
 }
 
-// Neighbors fall into the same bins, and each would wait for the one before: two sets of bins, for
-// the two halves of the items.
+// Neighbors fall into the same bins, so each update would wait for the previous one. The two
+// halves of the items therefore fill two sets of bins.
 static void fill_bins_twice(Bins *bins, const BuildRange *range, const Binning *binning)
 {
     Bins second;
@@ -116,7 +116,7 @@ static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binnin
         fill_item(bins, &range->items[i], binning);
 }
 
-// What is on one side of a plane of each axis.
+// The geometry on one side of a plane of each axis.
 typedef struct {
     Bounds bounds[3];
     Uint4 weights;
@@ -134,13 +134,14 @@ static void sides_add(Sides *sides, const Bins *bins, int bin)
     sides->weights += bins->weights[bin];
 }
 
-// Prices of empty sides are no numbers.
+// The cost of an empty side is NaN.
 static Float4 sides_price(const Sides *sides, const Costs *costs)
 {
     return bounds_half_areas(sides->bounds) * units_of(costs, sides->weights);
 }
 
-// Sweeps once from the right, to know each right side, and once from the left, to price each plane.
+// Sweeps once from the right to compute the right sides, and once from the left to price each
+// plane.
 static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
 {
     Float4 right_prices[BINS];
@@ -170,7 +171,7 @@ static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
 Split split_sah(const BuildRange *range)
 {
     const Costs *costs = &costs_of[range->leaves];
-    // A block is tested at once, however full.
+    // A block is tested at once, regardless of its fill.
     if (range->weight <= costs->unit)
         return (Split){.kind = SPLIT_NONE};
     Plane best = {-1, 0, 0, INFINITY};

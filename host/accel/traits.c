@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks at what primitives really use: a material that is defined but selected by nothing costs
-// nothing.
+// Inspects the materials that primitives use. A defined but unused material costs nothing.
 #include "accel/traits.h"
 
 #include <stdio.h>

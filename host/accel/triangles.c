@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Normalizes every vertex in fp64 and rounds it once; triangles keep sharing them.
+// Normalizes every vertex in fp64 and rounds it once. Triangles keep sharing vertices.
 #include "accel/triangles.h"
 
 #include <stdlib.h>
 
-// A mesh whose vertices come behind those of the meshes before.
+// A mesh, and the position of its vertices after those of earlier meshes.
 typedef struct {
     const Mesh *mesh;
     const Normalization *normalization;
     float (*points)[4];     // its own
     uint32_t (*corners)[3]; // its own
     uint8_t *orders;        // its own
-    uint32_t first_point;   // among all
+    uint32_t first_point;   // index among all points
 } Storing;
 
 // Returns the value, with +0 for -0: equal points must have equal bits.
@@ -80,7 +80,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
-    // Ids share 32 bits with the spheres', and marks take two of them (kernels/shared.h).
+    // Ids share 32 bits with the spheres' ids, and flags take two of them (kernels/shared.h).
     if (count + scene->spheres.count >= 0x3fffffff)
         return error_set(error, "the scene has %zu triangles, more than 2^30 primitives", count);
     if (points > UINT32_MAX)

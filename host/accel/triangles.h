@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene -> Triangles: all triangles in id order, their corners as the floats that are traced.
-// Equal points give equal floats, which watertightness and the builders rest on.
+// Collects all triangles of a scene in id order, with the float corners that are traced. Equal
+// points give equal floats, as watertightness and the builders require.
 #pragma once
 
 #include "accel/corner_order.h"
@@ -9,12 +9,12 @@
 
 typedef struct {
     float (*points)[4];     // all meshes' vertices in the normalized frame; the fourth is zero
-    uint32_t (*corners)[3]; // of each triangle: the places of its points, as in the file
-    uint8_t *orders;        // of each triangle: the place of its order in corner_orders
+    uint32_t (*corners)[3]; // of each triangle: indices of its points, in file order
+    uint8_t *orders;        // of each triangle: the index of its order in corner_orders
     size_t count, point_count;
 } Triangles;
 
-// The n-th triangle here is the scene's n-th in file order.
+// The n-th triangle is the scene's n-th in file order.
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorts a node's triangles into cells and divides the cells, which are far fewer; where a node has
-// few cells and many triangles left, it gets a finer grid of its own.
+// Sorts a node's triangles into cells and divides the cells, which are far fewer. A node with few
+// cells but many triangles gets a finer grid of its own.
 #include "accel/upper.h"
 
 #include "accel/cells.h"
@@ -8,26 +8,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Nodes of more triangles are divided while there are cells enough: with fewer, planes between them
-// would be too far from the best.
+// Larger nodes are divided while they have enough cells. With fewer cells, the planes between them
+// would be too far from the best plane.
 #define USUAL_TRIANGLES 8192
 #define FEWEST_CELLS    32
 
-// Deeper, the triangles lie so unevenly that grids hardly divide them.
+// Below this depth, the triangles are so uneven that grids hardly divide them.
 #define DEEPEST_GRID 24
 
 // A node of some of the cells.
 typedef struct {
     BuildTask task;
     uint32_t first_item, item_count;
-    uint32_t array; // the one its items are in
+    uint32_t array; // the array that holds its items
 } CellTask;
 
 typedef struct {
     const Build *build;
     Upper *upper;
     Cells cells;
-    BuildItem *items[2]; // the cells', and room for as many
+    BuildItem *items[2]; // the cells' items, and room for as many
 } Division;
 
 static bool is_divided_by_cells(const Division *division, const CellTask *node)
@@ -61,7 +61,7 @@ static uint32_t count_left(const Split *split, const BuildItem *items, uint32_t 
     return left;
 }
 
-// Brings the node's triangles to their places and lists it to be divided by other means.
+// Moves the node's triangles to their positions and lists the node to be divided by other means.
 static bool finish_node(const Division *division, const CellTask *node, bool is_stuck, Error *error)
 {
     const Cells *cells = &division->cells;
@@ -77,7 +77,7 @@ static bool finish_node(const Division *division, const CellTask *node, bool is_
     return array_push(&division->upper->tasks, node->task, error);
 }
 
-// Recursion goes no deeper than DEEPEST_GRID.
+// DEEPEST_GRID bounds the recursion.
 static bool divide(const Division *division, const CellTask *node, Error *error)
 {
     const bool is_whole = node->item_count == division->cells.count;
@@ -117,7 +117,7 @@ static bool divide_node(Upper *upper, const Build *build, const BuildTask *task,
     return ok;
 }
 
-// The largest first: small ones are shared out more evenly at the end.
+// Sorts the largest first, because small ones balance the load at the end.
 static int compare_subtrees(const void *first, const void *second)
 {
     const BuildTask *a = first, *b = second;

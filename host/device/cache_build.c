@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of PoCL's files belong to a program shows when the process loads its kernels.  Files of
-// other drivers stay unknown, and unchecked: their manifests are empty.
+// When the process loads a program's kernels, it learns which of PoCL's files belong to the
+// program. Files of other drivers stay unknown and unchecked, so their manifests are empty.
 #include "device/cache_build.h"
 
 #include "device/manifest.h"
@@ -28,7 +28,7 @@ bool cache_has_program(const Cache *cache, const char *key)
     return manifest != NULL;
 }
 
-// Appends the lines of the manifests in the folder, as far as they are whole.
+// Appends the lines of all intact manifests in the folder.
 static bool append_manifests(const Cache *cache, Lines *lines)
 {
     char path[MANIFEST_PATH_SIZE];
@@ -64,7 +64,7 @@ static void remove_unlisted(const Cache *cache, const char *listed)
     fts_close(tree);
 }
 
-// Removes the programs that no manifest lists: nobody knows whether they are whole.
+// Removes the programs without a manifest, because they may be damaged.
 static void sweep(const Cache *cache)
 {
     Lines listed = {0};
@@ -134,7 +134,7 @@ void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key)
         sweep(cache);
 }
 
-// Where the process had loaded the program before, its files stay unknown.
+// If the process had loaded the program before, its files stay unknown.
 static void write_manifest(const CacheBuild *build, LoadedKernels *kernels)
 {
     char path[MANIFEST_PATH_SIZE];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds a program under the cache's lock.  The files that PoCL keeps of it are checked before,
-// against the checksums in a manifest, and damaged ones are removed, so that PoCL compiles again:
-// it crashes on damaged files, or computes something else.
+// Builds a program under the cache's lock. Before the build, PoCL's files for the program are
+// checked against a manifest of checksums. Damaged files are removed, so that PoCL compiles again;
+// with damaged files it crashes or computes wrong results.
 #pragma once
 
 #include "device/cache.h"
@@ -9,17 +9,16 @@
 typedef struct {
     const Cache *cache;
     const char *key;
-    char *manifest;        // NULL where no whole one was found; owned
+    char *manifest;        // NULL without an intact one; owned
     unsigned loaded_count; // kernels that the process had loaded before
     int lock;
 } CacheBuild;
 
-// Waits for the lock, and removes what is damaged of the program with this key, which is borrowed.
+// Waits for the lock, and removes damaged files of the program with this key. Borrows key.
 void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key);
 
-// Writes the manifest if the program works, which includes the first run of its kernels, and
-// unlocks.
+// Unlocks. If the program works, including the first run of its kernels, also writes the manifest.
 void cache_build_end(CacheBuild *build, bool works);
 
-// Returns whether a program with this key was built before, by its manifest alone.
+// Returns whether a program with this key has been built, judging by its manifest alone.
 bool cache_has_program(const Cache *cache, const char *key);

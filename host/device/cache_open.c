@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens the cache of the program itself, which alone sets the environment.
+// Opens the program's cache. Only this file sets the environment.
 #include "device/cache.h"
 
 #include <stdio.h>
@@ -7,14 +7,14 @@
 #include <string.h>
 #include <sys/statvfs.h>
 
-// Compilers write some megabytes, and a warm start still writes the preprocessed source.  Where a
-// disk is full, LLVM ends the process.
+// Compilers write some megabytes, and even a warm start writes the preprocessed source. LLVM ends
+// the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
 #define OWN_FOLDER    "/clrt" // in the folder that the user has chosen
-#define KERNEL_FOLDER "/pocl" // in that
+#define KERNEL_FOLDER "/pocl" // in OWN_FOLDER
 
-// Some file systems do not say how large they are.
+// Some file systems do not report their size.
 static bool has_room(const Cache *cache)
 {
     struct statvfs disk;
@@ -35,7 +35,7 @@ static bool take(Cache *cache, const char *base, const char *rest)
     return true;
 }
 
-// The user's choice, or what cache_open made of it before, in this process or in its parent.
+// Takes the user's choice, or the result of an earlier cache_open in this process or its parent.
 static bool take_chosen(Cache *cache)
 {
     static const char own[] = OWN_FOLDER KERNEL_FOLDER;
@@ -70,7 +70,7 @@ void cache_open(Cache *cache)
     if (!take_chosen(cache) && !take(cache, getenv("XDG_CACHE_HOME"), OWN_FOLDER) &&
         !take(cache, getenv("HOME"), "/.cache" OWN_FOLDER) && !take_temporary(cache))
         *cache = (Cache){0};
-    // PoCL cannot make a folder in a device, and lists none of its own then.
+    // PoCL cannot create a folder in a device, and then lists no CPU of its own.
     setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);
 }
 

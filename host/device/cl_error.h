@@ -7,8 +7,8 @@
 
 #include <CL/cl.h>
 
-// True for CL_SUCCESS; otherwise records "cannot ATTEMPT: CL_..." and returns false.
+// Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.
 bool cl_succeeded(cl_int status, const char *attempt, Error *error);
 
-// "CL_OUT_OF_RESOURCES"; words that say so for a code that is not in the list.
+// Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
 const char *cl_error_name(cl_int status);

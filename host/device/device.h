@@ -9,33 +9,33 @@ typedef struct {
     cl_context context;
     cl_command_queue queue;
     char platform[256];          // names the OpenCL implementation
-    char name[256];              // as the driver gives it
+    char name[256];              // as the driver reports it
     char version[256];           // of the driver
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool is_cpu;
     bool shares_memory;    // with the host, whose arrays it reads in place
-    bool correct_division; // offers correctly rounded divide and square root
-    bool has_fp64;         // computes with doubles
+    bool correct_division; // offers correctly rounded division and square root
+    bool has_fp64;         // supports double precision
 } Device;
 
 // Opens the device that spec names: "PLATFORM:DEVICE" (as device_list prints them), a type (cpu,
-// gpu, accelerator, all), or part of a device's or platform's name in any case.  NULL takes the
-// first GPU, else the first device.  Where nothing matches, the message says what there is.
+// gpu, accelerator, all), or part of a device's or platform's name in either case. NULL takes the
+// first GPU, else the first device. If nothing matches, the message lists the devices.
 bool device_open(Device *device, const char *spec, Error *error);
 void device_close(Device *device);
 
-// Writes all devices into text as `clinfo -l` prints them; false where there is none.
+// Writes all devices into text as `clinfo -l` prints them. Returns false without devices.
 bool device_list(char *text, size_t size, Error *error);
 
 #define DEVICES_MOST 64
 
-// A device that could be opened: what describes it, without context and queue.
+// Describes an available device, without context and queue.
 typedef struct {
     unsigned platform, number; // PLATFORM:DEVICE
     const char *type;          // cpu, gpu, accelerator or other
     Device device;
 } DeviceEntry;
 
-// Fills entries with all devices and returns how many; 0 where there is none.
+// Fills entries with all devices and returns their number, 0 without any.
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);

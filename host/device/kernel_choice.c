@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The switches stand beside those of the traits: a program is made of both.
+// A program is specialized by these switches and by the traits.
 #include "device/kernel_choice.h"
 
 #include <assert.h>
@@ -46,8 +46,8 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
     return true;
 }
 
-// Platforms of implementations for CPUs that take longer to compile packets, or to trace with them,
-// than single rays take in all.  docs/devices.md has the measurements.
+// Platforms of CPU implementations that take longer to compile or trace packets than single rays
+// take in total. docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checksums are XXH3's of 64 bits: they find accidents, and nobody's intent.
+// Checksums are 64-bit XXH3 hashes. They detect accidents, not attacks.
 #include "device/manifest.h"
 
 #include "base/file.h"

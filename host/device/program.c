@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One clBuildProgram of one source: PoCL's cache holds that, but not what is compiled and linked
-// in steps (a warm start is 0.02 s against 0.37 s).
+// Calls clBuildProgram once on one source. PoCL caches such programs, but not programs compiled
+// and linked in steps (a warm start takes 0.02 s against 0.37 s).
 #include "device/program.h"
 
 #include <errno.h>
@@ -12,10 +12,10 @@
 
 #define OPTIONS_SIZE 2048
 
-// kernels/samples.cl and kernels/ladder.cl, made at build time.
+// kernels/samples.cl and kernels/ladder.cl, embedded at build time.
 extern const char samples_source[], ladder_source[];
 
-// Each kernel with the source that is compiled behind the tile's, NULL for none.
+// Each kernel with the source that is compiled after the tile's, NULL for none.
 static const struct {
     const char *name, *source;
 } entries[] = {[KERNEL_TILE] = {"render_tile", NULL},
@@ -43,8 +43,8 @@ static bool write_options(char options[OPTIONS_SIZE], const Device *device,
     return length > 0 && length < OPTIONS_SIZE;
 }
 
-// The files of a folder find each other: includes are relative to the file they stand in.  The
-// absolute path spares an option, whose quoting drivers disagree about.
+// Includes are relative to the including file, so the kernel files find each other. An absolute
+// path avoids the -I option, whose quoting differs between drivers.
 static bool write_include(char include[PATH_MAX + 32], const char *folder, Error *error)
 {
     char path[PATH_MAX];

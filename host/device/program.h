@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Embedded kernel source, SceneTraits and KernelChoice -> a built program on a device.
+// Builds a program for a device from the embedded kernel source, SceneTraits and a KernelChoice.
 #pragma once
 
 #include "accel/traits.h"
@@ -10,7 +10,7 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// Which of the kernels is wanted; the first is in every program.
+// The requested kernel. Every program contains the first one.
 typedef enum {
     KERNEL_TILE,    // render_tile
     KERNEL_SAMPLES, // trace_samples
@@ -22,23 +22,24 @@ typedef struct {
 } Program;
 
 typedef struct {
-    const char *kernel_folder; // read the sources from there; NULL for the embedded ones
+    const char *kernel_folder; // folder to read the sources from; NULL for the embedded ones
     const char *extra_options; // for the compiler, after clrt's own; NULL for none
-    const char *appended;      // source to add behind the kernels, for tests; NULL for none
+    const char *appended;      // source to append to the kernels, for tests; NULL for none
     KernelChoice choice;
     KernelEntry entry;
 } ProgramSource;
 
 const char *program_entry_name(KernelEntry entry);
 
-// The message of a failure holds the compiler's log.  The caller calls it between cache_build_begin
-// and cache_build_end, and runs each kernel once there: drivers finish compiling then.
+// Builds the program; the message of a failure holds the compiler's log. Call it between
+// cache_build_begin and cache_build_end, and run each kernel once there, because drivers finish
+// compiling then.
 bool program_build(Program *program, const Device *device, const ProgramSource *source,
                    const SceneTraits *traits, Error *error);
 void program_free(Program *program);
 
 #define PROGRAM_KEY_SIZE 33
 
-// Names the program that these inputs make, for cache_build_begin.
+// Writes the key of the program that these inputs make, for cache_build_begin.
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE]);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How many threads a CPU device may use, told to PoCL through its environment.
+// Limits the threads of CPU devices through PoCL's environment variables.
 #pragma once
 
 #include <stdint.h>
 
-// Caps PoCL's threads at count, or where count is 0 at what the process may use: its processors
-// and its control group's quota, which PoCL itself does not look at.  What the user set in the
-// environment stays, unless count is given.  For main alone, before the first OpenCL call.
+// Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
+// control group's quota, which PoCL ignores. The user's environment variables take precedence
+// unless count is given. Only main may call it, before the first OpenCL call.
 void threads_limit(uint32_t count);
 
-// How many threads of its own the program may use: count, or where it is 0 as many as above.
+// Returns the number of threads for the program itself: count or, if count is 0, the limit above.
 uint32_t threads_allowed(uint32_t count);

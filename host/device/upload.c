@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenCL has no empty buffers, so a few bytes stand for an array of no elements.
+// OpenCL has no empty buffers, so an empty array gets a few bytes.
 #include "device/upload.h"
 
 #include "device/cl_error.h"
