@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Channels tell of the ray through a pixel's center alone.  Where both pictures have the same
-// samples, what is left is rounding, be it that of one sample's decision; where they have others,
-// all that is more than rounding is coverage.
+// Channels describe only the ray through a pixel's center. If both pictures have the same samples,
+// any other difference is rounding, possibly of one sample's decision. If they have different
+// samples, every difference above rounding is coverage.
 #include "compare/causes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-// More than what floats of colors in [0, 1] differ by for their rounding, with room.
+// More than rounding changes floats of colors in [0, 1].
 #define ROUNDING_MOST 1e-5
 
 static const char *const names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
@@ -30,11 +30,11 @@ const char *cause_meaning(CauseKind kind)
 
 typedef struct {
     const StoredImage *image;
-    int primitive, shadow, bounces, samples; // channels; -1 where there is none
-    int level;                               // what --max-level was, -1 where it is not told
+    int primitive, shadow, bounces, samples; // channel indices; -1 if missing
+    int level;                               // value of --max-level, -1 if it is not recorded
 } Side;
 
-// The number of that name among the settings, which are JSON without blanks.
+// Returns the number of that name in the settings, which are JSON without blanks.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
@@ -64,13 +64,13 @@ static float value_at(const Side *side, size_t pixel, int channel)
     return side->image->values[pixel * side->image->channel_count + (size_t)channel];
 }
 
-// By their bits, which integers have as well.
+// Compares bits, so integer channels work, too.
 static bool are_equal(float a, float b)
 {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-// The shorter path was ended where its picture's limit is, and the longer one was not.
+// Returns whether the shorter path ended at its picture's limit and the longer one did not.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {value_at(&sides[0], pixel, sides[0].bounces),
@@ -80,7 +80,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// By the setting that tells where samples are.
+// Compares the setting that determines the sample positions.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];
@@ -106,7 +106,7 @@ static bool differ(const Side sides[2], size_t pixel, const int channels[2])
                       value_at(&sides[1], pixel, channels[1]));
 }
 
-// What the channels alone show; CAUSE_COVERAGE where they show nothing.
+// Returns the cause that the channels show; CAUSE_COVERAGE if they show none.
 static CauseKind cause_in_channels(const Side sides[2], size_t pixel)
 {
     const int primitives[] = {sides[0].primitive, sides[1].primitive};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One pass, in doubles: rows are summed apart, so that sums of millions stay exact to 12 digits.
+// Takes one pass in doubles. Each row has its own sum, so that sums of millions stay exact to 12
+// digits.
 #include "compare/difference.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ bool image_pair_check(ImagePair *pair, Error *error)
     return true;
 }
 
-// Adds a pixel, and returns the sum of its squares.
+// Adds a pixel and returns the sum of its squares.
 static double add_pixel(Difference *difference, const ImagePair *pair, size_t pixel)
 {
     double squares = 0, largest = 0;
@@ -64,7 +65,7 @@ static double add_pixel(Difference *difference, const ImagePair *pair, size_t pi
     return squares;
 }
 
-// Ids are compared, not measured: by their bits, whatever type they had.
+// Compares the bits of ids, for any channel type.
 static void count_hits(Difference *difference, const ImagePair *pair)
 {
     int places[2];

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Two pictures -> how much they differ.  Values are those that the files store, 8 bits v as
-// v / 255, and all three colors count alike.
+// Measures the difference of two pictures. Values are as stored in the files, with an 8-bit v as v
+// / 255. All three colors have equal weight.
 #pragma once
 
 #include "image/stored_image.h"
 
-// Pixels are off by more than one and by more than four steps of 8 bits in some color.  What two
-// files of 8 bits store is rounded, so a step is counted as one with this on top.
+// Tolerance of the counts of pixels that differ by more than one and by more than four 8-bit steps
+// in some color. 8-bit files store rounded values, so a step counts as one up to this excess.
 #define DIFFERENCE_ROUNDING 0x1p-22
 
-// The channel of first hits in files with more than colors.
+// The channel of first hits, in files with more than colors.
 #define DIFFERENCE_HITS "primitive"
 
 typedef struct {
@@ -17,28 +17,28 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // where, the first in reading order
+    uint32_t maximum_x, maximum_y, maximum_color; // its position, the first in reading order
     uint64_t off_by_1, off_by_4;                  // pixels
-    bool has_hits;                                // both files tell what each pixel's ray meets
-    uint64_t wrong_hits;                          // pixels where that differs
+    bool has_hits;                                // both files have the channel of first hits
+    uint64_t wrong_hits;                          // pixels with different first hits
 } Difference;
 
-// The two pictures, and where their colors are.
+// The two pictures, and the indices of their colors.
 typedef struct {
     const StoredImage *images[2];
     const char *paths[2];
     uint32_t colors[2][3];
 } ImagePair;
 
-// False, with a sentence that names the file, where sizes differ, where there are no colors and
-// where some are not finite.
+// Returns false with a message that names the file if sizes differ, colors are missing or values
+// are not finite.
 bool image_pair_check(ImagePair *pair, Error *error);
 
-// What a checked pair differs by.
+// Measures the difference of a checked pair.
 void difference_measure(Difference *difference, const ImagePair *pair);
 
-// Decibels below 1; infinite for equal pictures.
+// Returns the signal-to-noise ratio in decibels, for a peak of 1; infinite for equal pictures.
 double difference_psnr(const Difference *difference);
 
-// The difference of one color, the second picture's value less the first's.
+// Returns the difference of one color: the second picture's value minus the first's.
 double image_pair_difference(const ImagePair *pair, size_t pixel, int color);

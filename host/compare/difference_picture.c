@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The scale is the same for all pictures, so that two maps can be set side by side.
+// All pictures have the same scale, so that two maps can be compared.
 #include "compare/difference_picture.h"
 
 #include <math.h>
 
-#define FULL (64 / 255.0) // the difference that shows as 1
+#define FULL (64 / 255.0) // the difference that maps to 1
 
 static double shown(double difference)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Two pictures -> a picture of where they differ.
+// Makes a picture of the difference of two pictures.
 #pragma once
 
 #include "compare/difference.h"
 #include "image/framebuffer.h"
 
-// Each color is the size of its difference as it is, for files of floats, or, for the eye, its
-// square root: 1/255 shows as 1/8, 4/255 as 1/4, and from 64/255 on all is full.
+// Each color is the absolute difference for float files. With for_the_eye it is the square root:
+// 1/255 maps to 1/8, 4/255 to 1/4, and everything from 64/255 to 1.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);

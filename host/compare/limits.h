@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "rmse=0.01,share1=2%" -> limits on a difference, and which of them it breaks.
+// Parses limits like "rmse=0.01,share1=2%" and checks a difference against them.
 #pragma once
 
 #include "compare/difference.h"
@@ -19,13 +19,13 @@ typedef struct {
     double values[LIMIT_KINDS];
 } Limits;
 
-// False where the text is not understood, with the reason alone.
+// Returns false if the text is invalid, with the reason alone.
 bool limits_parse(Limits *limits, const char *text, Error *cause);
 
 const char *limit_name(LimitKind kind);
 
-// What the limit is on; NAN where the files do not tell.
+// Returns the measured value that the limit applies to; NAN if the files lack it.
 double limit_measured(LimitKind kind, const Difference *difference);
 
-// Whether the difference keeps within the limit; what is not told does not.
+// Returns whether the difference is within the limit. A missing value is not.
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shares are told as parts of one in JSON and in percent in text.
+// JSON reports shares as fractions, text as percent.
 #include "compare/report.h"
 
 #include "image/json_file.h"
@@ -24,7 +24,7 @@ static void write_count(const CompareReport *report, const char *what, uint64_t 
             100 * (double)count / (double)report->difference->pixels);
 }
 
-// A cause's part of the mean square error.
+// Returns a cause's part of the mean square error.
 static double share_of(const CompareReport *report, CauseKind kind)
 {
     double sum = 0;

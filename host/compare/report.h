@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a comparison measured, as text and as JSON.
+// Writes the result of a comparison as text and as JSON.
 #pragma once
 
 #include "compare/causes.h"
@@ -14,10 +14,10 @@ typedef struct {
     const Limits *limits;
 } CompareReport;
 
-// Whether the difference keeps within all limits.
+// Returns whether the difference is within all limits.
 bool compare_report_is_kept(const CompareReport *report);
 
 void compare_report_write_text(const CompareReport *report, FILE *stream);
 
-// Versioned JSON with sorted keys, at path ("-": standard output).
+// Writes versioned JSON with sorted keys to path ("-": standard output).
 bool compare_report_write_json(const CompareReport *report, const char *path, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files are read at once and kept: Assimp opens the same one several times, to guess its format.
-// What is outside of the model's folder is none of its business, whatever a model names.
+// Files are read once and kept, because Assimp opens a file several times to guess its format.
+// Assimp cannot read outside of the model's folder, regardless of the names in a model.
 #include "foreign/files.h"
 
 #include "foreign/limits.h"
@@ -14,7 +14,7 @@
 // One opening of a file.
 typedef struct {
     struct aiFile interface;
-    size_t opened; // which of the files
+    size_t opened; // index of the file
     size_t place;
     Files *files;
 } Reading;
@@ -24,19 +24,19 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
-// Returns whether a file is in the folder, both without links.
+// Returns whether a file is in the folder. Neither path may contain links.
 static bool is_below(const char *file, const char *folder)
 {
     const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether links, which a model's author may have packed beside it, stay in the folder.
+// Returns whether path stays in the folder after links, which may be packed with the model.
 static bool stays_inside(const Files *files, const char *path)
 {
     char *target = realpath(path, NULL);
     if (target == NULL)
-        return errno == ENOENT; // a file that cannot be opened either
+        return errno == ENOENT; // a file that does not exist is harmless
     char *name = strndup(files->model, folder_length(files));
     char *folder = name != NULL ? realpath(name, NULL) : NULL;
     const bool stays = folder != NULL && is_below(target, folder);
@@ -48,7 +48,7 @@ static bool stays_inside(const Files *files, const char *path)
 
 static bool is_inside(const Files *files, const char *path)
 {
-    // The user names the model, so that it may be a link to anywhere.
+    // The user names the model, so it may be a link to anywhere.
     if (strcmp(path, files->model) == 0)
         return true;
     const size_t folder = folder_length(files);
@@ -66,14 +66,14 @@ static bool is_inside(const Files *files, const char *path)
 static bool read_regular(File *file, const char *path, Error *error)
 {
     struct stat status = {0};
-    // Neither a pipe nor a device: they may never end.
+    // Pipes and devices are rejected, because they may never end.
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
     limits_allow_file((size_t)status.st_size);
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;
-    // Whoever tells people names the file.
+    // The caller's message names the file.
     const size_t length = strlen(path);
     const bool is_named = strncmp(cause.text, path, length) == 0;
     return error_set(error, "%s", cause.text + (is_named ? length + strlen(": ") : 0));
@@ -137,7 +137,7 @@ static size_t tell_size(struct aiFile *interface)
     return file_of(reading_of(interface))->size;
 }
 
-// Offsets are taken as signed: callers go back from the end and from where they are.
+// Offsets are signed: callers seek backward from the end and from the current position.
 static enum aiReturn seek(struct aiFile *interface, size_t offset, enum aiOrigin origin)
 {
     Reading *reading = reading_of(interface);
@@ -155,7 +155,7 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-// Assimp goes on to look for a library under other names, so that the first counts.
+// Assimp also tries other names for a library, so only the first counts.
 static void note_missing(Files *files, const char *path)
 {
     const size_t folder = folder_length(files);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that Assimp may read for a model: its own and those in its folder or below, whole and
-// once, and nothing to write.
+// The files that Assimp may read for a model: its own and those in its folder or below. Each is
+// read whole and once. Assimp may not write.
 #pragma once
 
 #include "base/array.h"
@@ -16,14 +16,14 @@ typedef struct {
 typedef struct {
     struct aiFileIO interface; // for Assimp; it points back to the files
     const char *model;         // path, with a folder
-    ARRAY(OpenedFile) opened;  // the model's first, once it was opened
-    size_t outside_count;      // how often a file outside of the folder was asked for
-    char missing[256];         // the first material library that could not be opened, as seen
-                               // from the folder; "" without one
+    ARRAY(OpenedFile) opened;  // the model's first, once it is opened
+    size_t outside_count;      // number of requests for files outside of the folder
+    char missing[256];         // the first material library that could not be opened, relative
+                               // to the folder; "" without one
 } Files;
 
-// The files for the model at that path, which is in use as long as they are.
+// Initializes the files for the model at that path, which must outlive them.
 void files_init(Files *files, const char *model);
 
-// Reads the model; false with the reason where it cannot be.
+// Reads the model; on failure returns false and the reason.
 bool files_open_model(Files *files, Error *error);

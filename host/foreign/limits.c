@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Of memory there are two limits: the lower one, which rises with every file that is read, keeps a
-// short file from asking for all that the longest may have.  Most of the time before it is reached
-// goes to the system, which clears pages: nodes that share children double with each level.
+// Memory has two limits. The lower one rises with every file read, so a short file cannot use the
+// memory of the longest possible one. Before it is reached, most of the time goes to the system,
+// which clears pages: nodes that share children double with each level.
 #include "foreign/limits.h"
 
 #include "base/confinement.h"
 
 #include <unistd.h>
 
-#define MEMORY_MOST   ((rlim_t)12 << 30)  // beside what is mapped already
+#define MEMORY_MOST   ((rlim_t)12 << 30)  // beside what is already mapped
 #define MEMORY_LEAST  ((rlim_t)512 << 20) // for any file, however short
 #define MEMORY_FACTOR 128                 // bytes for a byte of a file
-#define STACK_LIMIT   ((rlim_t)8 << 20)   // a deeper tree of nodes is a crash
-#define TIME_LIMIT    120                 // seconds, of the processor and of the clock
+#define STACK_LIMIT   ((rlim_t)8 << 20)   // a deeper tree of nodes crashes
+#define TIME_LIMIT    120                 // seconds, of processor and wall time
 #define FILE_LIMIT    32
 
-// Sanitizers map more than any limit could allow.  gcc tells of them by a macro, clang otherwise.
+// Sanitizers map more than any limit could allow. gcc defines a macro for them; clang has
+// __has_feature.
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
@@ -34,7 +35,7 @@ static rlim_t smaller(rlim_t a, rlim_t b)
     return a < b ? a : b;
 }
 
-// A machine with less memory than that must have some left for others.
+// A machine with less memory than the limit must keep some for other processes.
 static void limit_memory(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the process may take from the machine, whatever becomes of it.
+// Limits the resources of the process, regardless of what happens in it.
 #pragma once
 
 #include <stddef.h>
 
-// Gives up descriptors, privileges to come, files to write, memory and time.
+// Gives up file descriptors, later privileges, file writing, memory and time.
 void limits_take(void);
 
-// Allows the memory that a file of so many bytes more may need, within what all may have.
+// Raises the memory limit for a file of `bytes` bytes, up to the overall limit.
 void limits_allow_file(size_t bytes);

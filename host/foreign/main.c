@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt-foreign PATH: reads one model with Assimp and writes it to standard output as
-// mesh/foreign_stream.h says.  clrt starts it, and nobody else.
+// clrt-foreign PATH: reads one model with Assimp and writes it to standard output in the format of
+// mesh/foreign_stream.h. Only clrt starts it.
 #include "foreign/limits.h"
 #include "foreign/model.h"
 #include "foreign/send.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// The pipe, out of the way of importers that print.
+// Returns the pipe, moved away from standard output because importers print there.
 static FILE *take_output(void)
 {
     const int own = dup(STDOUT_FILENO);
@@ -28,13 +28,13 @@ int main(int count, char **words)
     FILE *stream = take_output();
     if (stream == NULL)
         return EXIT_FAILURE;
-    // With a folder in front, so that side files are looked for in one.
+    // The path includes a folder, so that companion files are searched there.
     char *path = file_path_beside("./", words[1], &error);
     if (path == NULL)
         return EXIT_FAILURE;
     files_init(&files, path);
     if (!model_send(stream, &files, &error))
         send_text(stream, FOREIGN_FAILURE, "%s", error.text);
-    // The end of the process closes the pipe, and nothing before.
+    // Only the end of the process closes the pipe.
     _exit(fflush(stream) == 0 ? EXIT_SUCCESS : EXIT_FAILURE);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values are taken as the file has them; whoever receives them brings them into range.
+// Copies values as they are in the file. The receiver clamps them.
 #include "foreign/materials.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Some importers do not name what they invent, and make it gray or white.
+// Some importers leave invented materials unnamed, and make them gray or white.
 bool material_is_given(const struct aiMaterial *material)
 {
     const float gray = 0.6f, white = 1;

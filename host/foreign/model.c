@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Assimp reads and cuts polygons into triangles; all that depends on the whole model is told here.
+// Assimp reads the model and triangulates its polygons. This file reports everything that depends
+// on the whole model.
 #include "foreign/model.h"
 
 #include "foreign/parts.h"
@@ -10,7 +11,7 @@
 #include <assimp/postprocess.h>
 #include <string.h>
 
-// Coordinates stay as the file has them: no turn to Assimp's idea of upward, no skeletons.
+// Coordinates stay as in the file, without Assimp's change of the up axis and without skeletons.
 static const struct aiScene *import(Files *files)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A model in any format that Assimp reads -> the records of mesh/foreign_stream.h.
+// Reads a model in any format of Assimp and writes the records of mesh/foreign_stream.h.
 #pragma once
 
 #include "foreign/files.h"
 
 #include <stdio.h>
 
-// Sends all records but a failure's; false with the reason where there is no model in the file or
-// nobody receives it.
+// Sends all records except a failure's. Returns false and the reason if the file has no model or
+// the receiver is gone.
 bool model_send(FILE *stream, Files *files, Error *error);

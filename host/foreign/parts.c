@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes with the product of their matrices in fp64.  Where that is the identity
-// coordinates pass unchanged; a mirroring one turns triangles, so that fronts stay fronts.
+// Walks the tree of nodes with the product of their matrices in fp64. An identity passes
+// coordinates unchanged. A mirroring matrix reverses triangles, so that fronts stay fronts.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -26,7 +26,7 @@ typedef struct {
     const struct aiScene *scene;
     bool keeps_normals;
     PartCounts *counts;
-    uint32_t *numbers; // of each material of the scene among those sent, 0 for not yet
+    uint32_t *numbers; // of each of the scene's materials among those sent, 0 if unsent
     uint32_t sent_count;
     ForeignPart part; // under construction
     ARRAY(Triangle) triangles;
@@ -59,7 +59,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Zeros of both signs are one number.
+// Positive and negative zero are one number.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -69,7 +69,7 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Normals turn by the cofactors, which are the inverse's transpose but for a factor.
+// Normals are transformed by the cofactors, which equal the inverse transpose up to a factor.
 static Turn turn_of(const Placement *placement)
 {
     Turn turn = {.is_identity = is_identity(placement)};
@@ -102,7 +102,7 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Shortened before they are turned, so that no product leaves the range of float.
+// Normals are shortened before the transform, so that no product exceeds the range of float.
 static void turn_normal(const struct aiVector3D *given, const Turn *turn, float normal[3])
 {
     const Vec3 unit = vec3_normalize(vec3((double)given->x, (double)given->y, (double)given->z));
@@ -134,7 +134,7 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh, const
     }
 }
 
-// What Assimp lets pass would be another part's vertex.
+// An index that Assimp failed to check would refer to another part's vertex.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -197,7 +197,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Makes room in the part for count vertices more.  Normals are zero where a mesh before gave none.
+// Reserves count more vertices in the part. Vertices of earlier meshes without normals get zero
+// normals.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Assimp's scene -> parts, each the triangles of one material that follow each other, in the
-// coordinates of the whole file.
+// Splits Assimp's scene into parts, each a run of triangles of one material, in the coordinates of
+// the whole file.
 #pragma once
 
 #include "mesh/foreign_stream.h"
@@ -14,7 +14,7 @@ typedef struct {
     bool is_textured; // the color of a part has a texture
 } PartCounts;
 
-// Sends every part behind its material.  Normals are kept unless they are those of facets, which
-// say nothing that corners do not.
+// Sends every part after its material. Facet normals are omitted, because the corners already
+// determine them.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes heads and what belongs behind them.
+// Writes record heads and their data.
 #include "foreign/send.h"
 
 #include "mesh/ply_write.h"

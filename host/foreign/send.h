@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records of mesh/foreign_stream.h -> a stream.  Failures show when it is flushed.
+// Writes records of mesh/foreign_stream.h to a stream. Failures show when the stream is flushed.
 #pragma once
 
 #include "mesh/foreign_stream.h"
@@ -8,11 +8,11 @@
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
 
-// A record of that kind whose bytes are a text, shortened where it is too long.
+// Sends a record of that kind with a text, shortened if too long.
 __attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
                                                      const char *format, ...);
 
-// The hash of size bytes and the path of the file that they are.
+// Sends the hash of a file's `size` bytes, and its path.
 void send_file(FILE *stream, const char *path, const void *bytes, size_t size);
 
 void send_part(FILE *stream, const ForeignPart *part);

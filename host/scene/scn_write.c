@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a statement for everything that scene text can describe. A statement for the objects that
-// follow is written before them when its value changes.
+// Writes a statement for everything that scene text can describe. A statement about objects
+// precedes the first object with its value.
 #include "scene/scn_write.h"
 
 #include "base/number.h"
