@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing: a sample a pixel, and then more where neighbors differ.  What is decided
-// depends on the whole picture and on no order, so that every device draws the same.
+// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ. Decisions depend
+// on the whole picture and not on the order of work, so every device renders the same bits.
 #pragma once
 
 #include "base/parallel.h"
@@ -9,10 +9,11 @@
 #include "refine/thin_parts.h"
 #include "render/renderer.h"
 
-// Samples that cutting a cell takes.
+// Samples for subdividing a cell.
 #define ADAPTIVE_CUT (GROUP_CELLS - 1)
 
-// Of a threshold, where seams are placed: a sample halves one, where cutting a cell takes eight.
+// Seams are located to this fraction of the threshold. Halving a seam's interval takes one sample,
+// subdividing a cell eight.
 #define ADAPTIVE_SEAM_PART 0.15f
 
 typedef struct {
@@ -21,34 +22,34 @@ typedef struct {
     FrameData frame;
     RefineTree tree;
     PixelContrasts pixel_contrasts;
-    Footprints footprints; // of small spheres, whose cells are cut in any case
-    ThinParts thin_parts;  // of meshes, the same
+    Footprints footprints; // of small spheres, whose cells are always subdivided
+    ThinParts thin_parts;  // of meshes, whose cells are always subdivided
     uint64_t samples;      // taken
 } Adaptive;
 
-// What it stands on.
+// The inputs of adaptive anti-aliasing.
 typedef struct {
     Renderer *renderer;       // of KERNEL_SAMPLES
     const FlatScene *flat;    // of the renderer
     const CameraData *camera; // made for REFINE_GRID samples
-    Crew *crew;               // to share the work, NULL for none
-    const Scene *scene;       // of the renderer too
+    Crew *crew;               // threads for the work, NULL for none
+    const Scene *scene;       // of the renderer, too
     const Normalization *normalization;
 } AdaptiveSetup;
 
-// Takes one sample a pixel.
+// Takes one sample per pixel.
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Refines until no cell has a contrast above the threshold, in parts of one and of a pixel's area,
-// or the observer stops it.
+// Refines until no cell's contrast exceeds the threshold, as a fraction and weighted by the cell's
+// part of a pixel, or until the observer stops it.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
-// Whether the observer has not stopped it.
+// Returns whether the observer has not stopped it.
 bool adaptive_is_whole(const Adaptive *adaptive);
 
-// Stores the picture, as far as it is refined.
+// Stores the picture in its current state.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
 
 void adaptive_close(Adaptive *adaptive);

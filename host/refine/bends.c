@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Second differences along rows, columns and both diagonals.
+// Computes second differences along rows, columns and both diagonals.
 #include "refine/bends.h"
 
 #include <math.h>

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Rounds: fractions rise, and the pixels advance that they choose.
+// Works in rounds. Each raises the strata's fractions and advances the pixels that they choose.
 #include "refine/goal.h"
 
 #include "base/clock.h"
 
 #include <math.h>
 
-// An error that is not held after so many rounds is given up.
+// After this many rounds the error goal is abandoned.
 #define ROUNDS_MOST 300
 
-// Spending time: the part of what is left that a round may take, the part of all from which one
-// round takes the rest, and the part that is not worth another.
+// Parts of the time budget: the part of the remaining time for a round, the part of the total
+// below which one round takes the rest, and the part that is too small for another round.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03
 
-// A round that spends time aims at this part of the mean square error there is.
+// The target of a round with a time budget, as a fraction of the current mean square error.
 #define FALL_OF_ROUND 0.25
 
 static void describe(const Ladder *ladder, GoalOutcome *outcome)
@@ -45,7 +45,7 @@ bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *
     return ok;
 }
 
-// How many samples there is time for in the next round, at the pace of the latest.
+// Returns the number of samples that fit into the next round, at the speed of the last one.
 static double samples_in_time(const GoalTime *time, double seconds_per_sample)
 {
     const double left = time->seconds - (clock_seconds() - time->start);

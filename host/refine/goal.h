@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Advances the pixels of a ladder until the picture's error is held, or until time is spent.
+// Advances the pixels of a ladder until the picture meets an error goal, or until a time budget is
+// spent.
 #pragma once
 
 #include "refine/ladder.h"
@@ -11,13 +12,13 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most that, or nothing is left that would lower it.
+// Refines until the bound is at most `most`, or no step would lower it.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
-// By clock_seconds.
+// A time budget, on the clock of clock_seconds.
 typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until so many seconds have passed since the start.
+// Refines until time->seconds have passed since the start.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);

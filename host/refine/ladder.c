@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A round lists the chosen pixels in picture order, traces their samples, and records their changes
-// in the same order, so that floating-point sums do not depend on threads.
+// A round lists the chosen pixels in picture order, traces their samples, and records their
+// changes in that order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
 #include "refine/bends.h"
@@ -10,11 +10,11 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Seeds of hashes: of a pixel's scramble, and of its rungs from here on.
+// Seeds of hashes: of a pixel's scramble, and of its rungs, counted from RUNG_SEED.
 #define SCRAMBLE_SEED 0
 #define RUNG_SEED     1
 
-// Samples of a request on the way to the rung of REQUEST_SAMPLES; beyond, requests are full.
+// Samples per request up to the rung of REQUEST_SAMPLES. Above it, requests are full.
 #define FIRST_SAMPLES 4
 
 static uint64_t hash_of(uint32_t pixel, uint64_t seed)
@@ -40,7 +40,7 @@ static void enter(Ladder *ladder, size_t pixel, uint32_t stratum, double feature
     strata_enter(&ladder->statistics, stratum, (double)ladder->features[pixel]);
 }
 
-// All pixels come to rung 0, by what their centers show.
+// Puts all pixels on rung 0, in strata chosen by the samples at their centers.
 static bool enter_all(Ladder *ladder, Error *error)
 {
     const size_t pixels = ladder->statistics.pixels;
@@ -104,9 +104,9 @@ void ladder_close(Ladder *ladder)
     *ladder = (Ladder){0};
 }
 
-// How a pixel gets from a rung to the next.
+// The samples that take a pixel from a rung to the next.
 typedef struct {
-    uint32_t first;   // of the samples that it gets
+    uint32_t first;   // index of its first sample
     uint32_t samples; // of a request
     uint32_t requests;
 } Step;
@@ -140,7 +140,7 @@ static double mean_square_change(const float before[3], const float after[3])
     return sum / 3;
 }
 
-// The sums of a pixel, which gets room for them on rung 0; NULL where memory runs out.
+// Returns the sums of a pixel, and allocates them on rung 0. Returns NULL if memory runs out.
 static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
 {
     if (ladder->sum_places[pixel] == 0) {
@@ -151,7 +151,7 @@ static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
     return &ladder->sums.data[ladder->sum_places[pixel]];
 }
 
-// Takes the pixel to its next rung by the sums of its requests.
+// Moves the pixel to its next rung with the sums of its requests.
 static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Error *error)
 {
     const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
@@ -173,7 +173,8 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
     return true;
 }
 
-// Traces the requests of the listed pixels, takes those to their next rungs, and empties the list.
+// Traces the requests of the listed pixels, moves the pixels to their next rungs, and empties the
+// list.
 static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
 {
     PixelRequests *requests = &ladder->requests;
@@ -210,19 +211,19 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
 // The choice of the pixels that advance, in chunks.
 typedef struct {
     const Ladder *ladder;
-    double fractions[STRATA_COUNT]; // 0 where all that are chosen have advanced
-    uint32_t *pixels;               // of each chunk from its first pixel's place on
+    double fractions[STRATA_COUNT]; // 0 if all chosen pixels have advanced
+    uint32_t *pixels;               // of each chunk, from its first pixel's index on
     uint32_t *counts;               // of each chunk
 } Choosing;
 
-// A number in [0, 1) that is the same as long as the pixel stays on its rung.
+// Returns a number in [0, 1) that is constant while the pixel stays on its rung.
 static double chance_of(const Ladder *ladder, uint32_t pixel)
 {
     return (double)(hash_of(pixel, RUNG_SEED + rung_of(ladder, pixel)) >> 11) * 0x1p-53;
 }
 
-// Chooses from the strata whose requests have that many samples.  A stratum whose fraction and
-// pixels are as they were at the last choice has nobody to choose, which spares most hashes.
+// Selects the strata whose requests have that many samples. A stratum with unchanged fraction and
+// pixels has no new pixel to choose; skipping it avoids most hashes.
 static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
 {
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
@@ -253,7 +254,7 @@ static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
     choosing->counts[chunk] = (uint32_t)(chosen - (choosing->pixels + first));
 }
 
-// Moves what was chosen of each chunk together, and returns how much that is.
+// Moves the chosen pixels of all chunks together, and returns their number.
 static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
 {
     uint64_t count = 0;
@@ -265,7 +266,7 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
     return count;
 }
 
-// Lets pixels advance whose requests have that many samples, and adds them to *advanced.
+// Advances pixels whose requests have that many samples, and adds their number to *advanced.
 static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {
     const uint32_t pixels = (uint32_t)ladder->statistics.pixels, chunks = chunk_count(pixels);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A picture whose pixels climb a ladder of samples: the center alone, then 4, 16, 64, 256 and 1024
-// points of a sequence of their own.  Strata decide how many pixels advance, and hashes of their
-// places which of them, so that the picture depends on no order and no device.
+// points of a per-pixel sequence. Strata decide how many pixels advance, and hashes of their
+// positions decide which. The picture therefore depends neither on order nor on the device.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 #include "refine/pixel_requests.h"
 #include "refine/strata.h"
 
-// The longest side of a picture: places of sub-pixels fit into 31 bits.
+// The longest side of a picture: sub-pixel positions must fit into 31 bits.
 #define LADDER_SIDE_MOST   (1u << 19)
 #define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
 
@@ -19,28 +19,28 @@ typedef struct {
     Framebuffer *picture;  // borrowed; means of the pixels' samples
     float *features;       // of each pixel, for its stratum
     uint8_t *strata;       // of each pixel
-    uint32_t *sum_places;  // of each pixel in sums, 0 on rung 0
-    ARRAY(PixelSums) sums; // from 1
+    uint32_t *sum_places;  // of each pixel: index in sums, 0 on rung 0
+    ARRAY(PixelSums) sums; // from index 1
     Strata statistics;
-    Strata chosen;    // the statistics by which pixels were chosen last
+    Strata chosen;    // the statistics of the last choice of pixels
     uint64_t samples; // taken
 } Ladder;
 
 typedef struct {
     Renderer *renderer;             // of KERNEL_LADDER
     const CameraData *camera;       // made for LADDER_GRID samples
-    Crew *crew;                     // to share the work, NULL for none
-    Framebuffer *picture;           // of the renderer's size; the ladder draws into it
+    Crew *crew;                     // threads for the work, NULL for none
+    Framebuffer *picture;           // of the renderer's size; the ladder renders into it
     const RenderObserver *observer; // may stop it; or NULL
 } LadderSetup;
 
-// Takes one sample a pixel.  Fails where the picture is larger than these limits.
+// Takes one sample per pixel. Fails if the picture exceeds these limits.
 bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Lets the pixels advance by a rung that the fractions of their strata choose, and counts them in
-// *advanced.  Where the observer stops it, some have not advanced.
+// Advances the pixels chosen by the fractions of their strata by one rung, and counts them in
+// *advanced. If the observer stops it, some have not advanced.
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
-// How many samples a pixel has been given.
+// Returns the number of samples that a pixel has taken.
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);

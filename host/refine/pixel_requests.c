@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which are packets.
+// Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
 #include "refine/pixel_requests.h"
 
 #include "base/array.h"
@@ -24,9 +24,9 @@ void pixel_requests_free(PixelRequests *requests)
     *requests = (PixelRequests){0};
 }
 
-// Coordinate x of a point is its number with the bits reversed; the bits of y are sums of binomial
-// coefficients mod 2.  Both are linear over GF(2): the coordinates of first + i are those of first
-// XOR those of i, which the kernel knows.
+// Coordinate x of a point is its bit-reversed index. The bits of y are sums of binomial
+// coefficients mod 2. Both are linear over GF(2), so the coordinates of first + i are the XOR of
+// those of first and those of i, which the kernel computes.
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
 {
     uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A stratum with few controls leans on a prior: its mean feature times the rung's change per
-// feature.  Pixels that look flat may hide detail that no sample has hit, so the feature in the
-// prior has a minimum.  The minimum is larger beside contrast, where most hidden detail was found:
-// with one value for all, errors reached 1.3 E on tiled floors.
+// A stratum with few controls relies on a prior: its mean feature times the rung's change per
+// feature. Pixels that look flat may hide detail that no sample has hit, so the prior's feature
+// has a minimum. The minimum is larger beside contrast, where most hidden detail was found. With
+// one minimum for all, errors reached 1.3 E on tiled floors.
 #include "refine/strata.h"
 
 #include <math.h>
 
-// The bend from which a pixel counts as bent, and the one from which its neighbors are beside
-// contrast.
+// The least bend of a bent pixel, and the least bend whose neighbors are beside contrast.
 #define BENT     0.05
 #define CONTRAST 0.125
 
@@ -16,27 +15,28 @@
 #define RUNG_WEIGHT    4
 #define STRATUM_WEIGHT 2
 
-// The change per feature on rung 0 before any is known.
+// The change per feature on rung 0 before any is measured.
 #define FIRST_RATIO 0.03
 
-// The least feature in a prior, in parts of the largest of the rung: beside contrast on rung 0,
+// The least feature in a prior, as a fraction of the rung's largest: beside contrast on rung 0,
 // away from it, and above rung 0.
 #define LEAST_NEAR    0.3
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
-// The longer prefix of a sequence contains the shorter one, so the change underestimates the error.
+// A longer prefix of a sequence contains the shorter one, so the change underestimates the error.
 #define NESTED_FACTOR 1.15
 
-// The first controls of a stratum: this fraction, and at least so many pixels.
+// The first controls of a stratum: at least this fraction, and at least this many pixels.
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
 
-// A stratum without controls must get some if its expected error is at least this part of the aim.
+// A stratum without controls must get some if its expected error is at least this fraction of the
+// aim.
 #define FORCED_PART 0.02
 
-// Planning a round: the part of the excess that it covers, the lowest acceptable score relative to
-// the best, the part of a gain that is relied on, and the smallest part of a step.
+// Parameters of a round's plan: the part of the excess to cover, the lowest acceptable score
+// relative to the best, the reliable part of a gain, and the smallest part of a step.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -67,7 +67,7 @@ uint32_t strata_rung(uint32_t stratum)
     return stratum < BEND_CLASSES ? 0 : 1 + (stratum - BEND_CLASSES) / (2 * DEVIATION_CLASSES);
 }
 
-// The class of a value by powers of two: 0 from a half on.
+// Returns the octave of a value: class 0 from one half on.
 static uint32_t octave(double value, uint32_t classes)
 {
     uint32_t number = 0;
@@ -115,7 +115,8 @@ static double mean_feature(const Stratum *stratum)
     return stratum->entered > 0 ? stratum->feature / (double)stratum->entered : 0;
 }
 
-// Changes per feature of independent samples fall with their number; those of a sequence faster.
+// Returns the prior change per feature. For independent samples it falls with their number, for a
+// sequence faster.
 static double first_ratio(uint32_t rung)
 {
     return rung == 0 ? FIRST_RATIO : 0.5 / sqrt(ladder_samples[rung] / 4.0);
@@ -158,7 +159,7 @@ static Outlook outlook_of(const Strata *strata, uint32_t number, const Rung *run
                      .variance = fmax(square - mean * mean, 0.1 * mean * mean)};
 }
 
-// The variance of a stratum's sum once so many more have advanced.
+// Returns the variance of a stratum's sum after `more` pixels have advanced.
 static double variance_after(const Stratum *stratum, const Outlook *outlook, double more)
 {
     const double left = outlook->left - more;
@@ -195,10 +196,10 @@ StrataEstimate strata_estimate(const Strata *strata)
 // A step of a stratum's fraction.
 typedef struct {
     uint32_t stratum;
-    double fraction; // it goes to
-    double pixels;   // that advance, as far as expected
-    double gain;     // that the bound falls by
-    double score;    // gain a sample
+    double fraction; // after the step
+    double pixels;   // expected to advance
+    double gain;     // decrease of the bound
+    double score;    // gain per sample
     bool is_forced;
 } Step;
 
@@ -221,8 +222,8 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
     step->score = step->gain / (step->pixels * step_cost(step->stratum));
 }
 
-// Returns whether the stratum has a step, with which the first pixels of it would advance or twice
-// as many as have.
+// Returns whether the stratum has a step. The step advances its first pixels, or doubles their
+// number.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
                       double aim)
 {
@@ -241,7 +242,7 @@ static bool next_step(Step *step, uint32_t number, const Strata *strata, const F
     return true;
 }
 
-// The step that is best by its score of those left; its place, or count where none is left.
+// Returns the index of the remaining step with the best score, or count if none remains.
 static uint32_t best_step(const Step *steps, uint32_t count)
 {
     uint32_t best = count;
@@ -251,7 +252,7 @@ static uint32_t best_step(const Step *steps, uint32_t count)
     return best;
 }
 
-// Takes steps by their scores until they cover what is missing, or all that may be taken.
+// Takes steps by score until they cover the missing gain or use up the samples.
 static void take_steps(Strata *strata, Step *steps, uint32_t count, double missing, double samples)
 {
     double good = 0;

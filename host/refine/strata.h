@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling techniques",
-// 1977).  A pixel's rung is its number of samples; the pixels of a rung that look alike form a
-// stratum.  In every stratum, pixels chosen at random advance to the next rung.  They are its
-// controls: their change estimates the error of the pixels that stay.
+// Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling
+// techniques", 1977). A pixel's rung is its number of samples. Similar pixels of a rung form a
+// stratum. In every stratum, random pixels advance to the next rung. They are its controls: their
+// change estimates the error of the pixels that stay.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// Samples of a pixel on each rung: its center, or that many of its sequence.
+// Samples of a pixel on each rung: its center, or that many points of its sequence.
 #define LADDER_RUNGS 6
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
 
-// Strata of rung 0 are octaves of the bend; those from FLAT_CLASS on exist twice, away from
-// contrast and from NEAR_CLASS on beside it.  Higher rungs have octaves of the standard deviation
+// Strata of rung 0 are octaves of the bend. Those from FLAT_CLASS on exist twice: away from
+// contrast, and beside it from NEAR_CLASS on. Higher rungs have octaves of the standard deviation
 // of the pixel's samples, for straight and for bent pixels.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
@@ -21,14 +21,14 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
 #define DEVIATION_CLASSES 7
 #define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
 
-// A change is the mean square of a pixel's color values after minus before it advanced; its feature
-// is a number that its squared error is roughly proportional to.
+// A change is the mean square difference of a pixel's color values by advancing. A feature is a
+// number that is roughly proportional to the pixel's squared error.
 typedef struct {
-    uint64_t entered, advanced; // pixels, ever
+    uint64_t entered, advanced; // pixels, in total
     double feature;             // sum over the pixels that entered
-    double advanced_feature;    // sum over those that advanced
-    double change, square;      // sums of changes and of their squares over those that advanced
-    double fraction;            // of the stratum that is to advance, in [0, 1]
+    double advanced_feature;    // sum over the pixels that advanced
+    double change, square; // sums of changes and of their squares over the pixels that advanced
+    double fraction;       // part of the stratum that shall advance, in [0, 1]
 } Stratum;
 
 typedef struct {
@@ -42,17 +42,18 @@ typedef struct {
     double bound; // one-sided, at two standard deviations
 } StrataEstimate;
 
-// The rung of a stratum.
+// Returns the rung of a stratum.
 uint32_t strata_rung(uint32_t stratum);
 
-// The stratum of a pixel on rung 0 by its bend and the largest one nearby (refine/bends.h).
+// Returns the stratum of a pixel on rung 0 from its bend and the largest one nearby
+// (refine/bends.h).
 uint32_t strata_of_bend(double bend, double nearby);
 
-// The stratum of a pixel on a rung above 0, by the standard deviation of its samples.
+// Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
 
-// Whether a pixel of the stratum counts as bent on the next rung; bend is that of a pixel on rung
-// 0.
+// Returns whether a pixel of the stratum counts as bent on the next rung. bend applies to pixels
+// on rung 0.
 bool strata_is_bent(uint32_t stratum, double bend);
 
 // Records that a pixel enters a stratum.
