@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# What each floor may include besides itself.  Pictures are beside the scene, not above it.
+# The floors that each floor may include besides itself.  Pictures are beside the scene, not above it.
 BELOW = {
     "base": [],
     "image": ["base"],

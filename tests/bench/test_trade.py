@@ -156,7 +156,7 @@ class Trade(unittest.TestCase):
         page = self.folder / "trade.html"
         if not page.exists():
             self.assertIn("tools/trade: no page, no SSIM and no FLIP: ", self.said)
-            print(f"passed over: {self.said.strip().splitlines()[-1]}", file=sys.stderr)
+            print(f"skipped: {self.said.strip().splitlines()[-1]}", file=sys.stderr)
             return
         text = page.read_text(encoding="utf-8")
         for source in re.findall(r'(?:src|href|xlink:href)="([^"]*)"', text):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What real arithmetic decides about a pixel's ray tree on the stored scene: in 64 bits where they
-// settle it, in 113 where they do not.  Written apart from the kernels, and by other methods.
+// Decides a pixel's ray tree in real arithmetic on the stored scene: in 64 bits if they suffice,
+// else in 113. The code is independent of the kernels and uses other methods.
 #pragma once
 
 #include "certainty/real_tree.h"
@@ -21,7 +21,7 @@ typedef struct {
     uint32_t signature; // of all decisions, as certify.cl mixes them
 } RealDecisions;
 
-// Of the sample in that column and row.
+// Decide the sample in that column and row.
 RealDecisions real_decide_64(const RealView *view, uint32_t column, uint32_t row);
 RealDecisions real_decide_113(const RealView *view, uint32_t column, uint32_t row);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What --aov certainty promises: a pixel that is certified or repaired has real arithmetic's
-// decisions; most pixels are certified; and the picture changes where pixels are repaired alone.
-// At tier 0 a share of the pixels is compared, at tier 1 all, more than ten million.
+// Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
+// pixels are certified, and only repaired pixels change. Tier 0 compares a share of the pixels,
+// tier 1 all, more than ten million.
 #include "certainty/extreme_scenes.h"
 #include "certainty/real_draw.h"
 #include "extremes/support/check.h"
@@ -141,7 +141,7 @@ static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **st
     Sum sum = {0};
     (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
-        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/creature.scn", 950);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# What the command line's tests share: counted checks, and runs of clrt with an expected exit code.
+# Shared by the command line's tests: counted checks, and runs of clrt with an expected exit code.
 # Sourced in the folder that the streams of each run go to.
 failures=0
 checks=0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // export_model MODEL FORMAT FILE: writes a model in one of the formats that Assimp writes, by its
-// name for it.  export_model alone: tells the endings of the formats that it reads.
+// name for it.  Without arguments, export_model
+// prints the extensions of the formats that Assimp reads.
 #include <assimp/cexport.h>
 #include <assimp/cimport.h>
 #include <assimp/importerdesc.h>

@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-// Of the program's code, the first object that the loader tells of.
+// The range of the program's code: the first object that the loader reports.
 static uintptr_t program_start, program_end;
 static long first_failure;
 static atomic_long allocations;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What shells complete: each is run on a terminal of its own and asked by its tab key.
+# Runs each shell on its own terminal and reads its completions by the tab key.
 import fcntl
 import os
 import pty
@@ -47,7 +47,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def read(self, until, seconds=20):
-        """What comes until the function says it is enough, or for so long."""
+        """Returns the output until the function is satisfied or the time is over."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not until(text):
             if select.select([self.file], [], [], 0.2)[0]:

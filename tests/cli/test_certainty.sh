@@ -41,7 +41,7 @@ for change in "-j 1" "--tile 16x8" "--kernel ray" "--nodes pair" "--bvh midpoint
   check "certainty with $change" draws e.exr --aov certainty $change
   check "... is the same" cmp c.exr e.exr
 done
-check "statistics as text tell the counts" draws e.exr --aov certainty --stats
+check "statistics as text report the counts" draws e.exr --aov certainty --stats
 check "... in a line" says "pixels certified, [0-9]* repaired, [0-9]* open"
 check "statistics without certainty" draws e.exr --stats=e.json
 check "... tell null" grep -q '"certainty": null' e.json
@@ -50,7 +50,7 @@ check "... so that fewer pixels are certified" python3 -c "
 import json
 certified = [json.load(open(name))['certainty']['certified'] for name in ('c.json', 'e.json')]
 raise SystemExit(not certified[1] < certified[0])"
-check "adaptive samples are refused" \
+check "clrt rejects adaptive samples" \
   refuses 2 "--aov certainty is of the samples of --aa: leave out --aa-adaptive, --error and --time" \
   "$scene" -o e.exr --aov certainty --aa-adaptive
 check "fp64 is refused" \

@@ -45,9 +45,9 @@ for form in "--kernel ray --nodes pair" "--kernel ray --nodes wide" "--kernel pa
   check "... with no leak" json form.json "m['leak_test']['leaks']['count'] == 0 and m['leak_test']['aimed_at'] == 10"
 done
 check "an open mesh may be meant" run 0 check open.ply
-check "... but is told of" tells "note: 3 edges of a single triangle, the first at triangle 0"
+check "... but gives a note" tells "note: 3 edges of a single triangle, the first at triangle 0"
 check "... as not closed" tells "open.ply: 3 triangles, 4 vertices, not closed"
-check "a mesh with a turned triangle is told of" run 0 check turned.ply
+check "a mesh with a turned triangle gives a note" run 0 check turned.ply
 check "... by its edges" tells "note: 3 edges whose triangles face opposite sides, the first at triangle 0"
 check "equal corners fail the check" run 1 check equal.ply
 check "... with their number and the first" tells "FAULT: 2 triangles with two equal corners, left out, the first triangle 2"
@@ -72,7 +72,7 @@ check "... fronts that face inwards" tells "note: its fronts face inwards"
 
 for model in creature figure coral; do
   if [ ! -e "$source/scenes/models/$model.ply" ]; then
-    echo "$model.ply is not made here: its check is passed over"
+    echo "$model.ply is missing: its check is skipped"
     continue
   fi
   check "$model is fine" run 0 check "$source/scenes/models/$model.ply" --json=model.json
@@ -115,7 +115,7 @@ check "a full disk is exit 5" run 5 check closed.ply --json=/dev/full
 check "help tells of check" run 0 --help
 check "... and its exit status" tells "1 check found faults"
 
-check "drawing tells what it leaves out" run 0 equal.ply -s 8x8 -o a.pfm
+check "rendering reports what it drops" run 0 equal.ply -s 8x8 -o a.pfm
 check "... in one sentence" test "$(cat err)" = "clrt: equal.ply: triangle 2, the first of 2 such, has two equal corners and is left out"
 check "--bad-geometry drop does the same" run 0 equal.ply -s 8x8 -o b.pfm -q --bad-geometry drop
 check "... quietly if asked" test ! -s err

@@ -109,7 +109,7 @@ check "adaptive samples are no grid" refuses 2 \
 check "a contrast is a part of one" refuses 2 \
   "--aa-adaptive wants a number above 0 and up to 1, not '2'" --aa-adaptive=2 "$scene" -o a.pfm
 check "an error is asked for" pixels b.pfm --error 0.5% --stats=b.json
-check "... held as far as one can tell" json b.json \
+check "... met within the estimate" json b.json \
   "d['samples']['goal_reached'] and 0 < d['samples']['error_estimate'] < d['samples']['error_bound'] <= 0.005"
 check "... with the levels that it takes" json b.json "d['settings']['truncation_bound'] <= 0.00125"
 check "... and is told" pixels b.pfm --error 0.005 --stats
@@ -244,7 +244,7 @@ check "Ctrl-C exits with 130" test $code = 130
 check "... and writes what is done" test -s stopped.pfm
 check "... marked as incomplete" json stopped.json "not d['complete']"
 
-# Compiled ahead: the first line is told in the past tense when it is asked for again.
+# Compiled ahead: a second run prints the first line in the past tense.
 rm -rf warm-cache
 warm() { env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" --warm --kernel ray "$@" >out 2>err; }
 check "--warm compiles ahead" warm
@@ -258,7 +258,7 @@ check "... and says so" grep -q "^general kernels, ray, .* nodes, fp32: were com
 check "a scene then finds its own compiled" env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" \
   --kernel ray "$scene" -s 48x32 -o warm.pfm --stats=warm.json
 check "... and takes it" json warm.json "d['settings']['specialized']"
-check "--warm tells of a scene that is not there" run 3 --warm missing.scn
+check "--warm reports a missing scene" run 3 --warm missing.scn
 check "--warm with a device that is not there" run 4 --warm --device 9:9
 
 # Twelve cold starts on one cache.
@@ -319,7 +319,7 @@ check "... and its PFM" run 0 "$scene" -s 801x603 --aa -o many.pfm
 check "... the same" is_png_of many.png many.pfm
 check "PNG goes to standard output" run 0 "$scene" -s 48x32 -o -
 check "... the same as to a file" cmp out a.png
-check "--format decides whatever the ending" pixels odd.bin --format png
+check "--format overrides the extension" pixels odd.bin --format png
 check "... as the same PNG" cmp odd.bin a.png
 # The scene comes late: its pipe is opened once the folder has been looked at.
 mkdir gone

@@ -66,7 +66,7 @@ check "... alone" cmp out expected.pfm
 
 check "one picture is usage" refuses 2 "clrt compare wants the names of two pictures" compare a.pfm
 check "three are, too" refuses 2 "clrt compare wants the names of two pictures" compare a.pfm b.pfm a.pfm
-check "options of pictures are refused" refuses 2 "clrt compare takes no --aa" compare a.pfm b.pfm --aa
+check "clrt compare rejects options of pictures" refuses 2 "clrt compare takes no --aa" compare a.pfm b.pfm --aa
 check "--fail is for compare" refuses 2 "--fail is for clrt compare" "$source/scenes/simple.scn" -o a.png --fail rmse=1
 check "limits are checked" refuses 2 \
   "--fail wants limits like rmse=0.01,max=0.1,psnr=40,share1=1%,share4=0,hits=0, not 'mse=1'" compare a.pfm b.pfm --fail mse=1
@@ -82,7 +82,7 @@ check "so is infinity" refuses 3 "inf.pfm: R of pixel 1,0 is not finite" compare
 check "a map that cannot be written is exit 5" run 5 compare a.pfm b.pfm -o none/map.png
 check "a full disk is exit 5" run 5 compare a.pfm b.pfm --json=/dev/full
 
-# Every format clrt writes, told by its first bytes.  JPEG and HDR keep less.
+# clrt recognizes every format it writes by the first bytes. JPEG and HDR are less exact.
 scene="$source/tests/image/every_feature.scn"
 "$CLRT" "$scene" -s 64x48 -q -o one.pfm
 for format in ${FORMATS//,/}; do
@@ -132,7 +132,7 @@ case $FORMATS in *exr*)
   causes aa "d['causes']['coverage']['share'] > 0.99"
   causes fp64 "d['causes']['rounding']['share'] == 1"
   check "a limit on hits is judged" run 1 compare plain.exr moved.exr --fail hits=0
-  check "... and causes are told" tells "another primitive is hit first"
+  check "... and reports the causes" tells "another primitive is hit first"
   check "... and kept where the hits are the same" run 0 compare plain.exr aa.exr --fail hits=0 ;;
 esac
 
@@ -167,7 +167,7 @@ case $FORMATS in *ppm*)
   check "a vast PPM is refused" refuses 3 "vast.ppm: cannot be read: it is too large" compare vast.ppm vast.ppm ;;
 esac
 printf 'GIF89a\1\0\1\0' >a.gif
-check "other formats are refused" run 3 compare a.gif a.gif
+check "clrt rejects other formats" run 3 compare a.gif a.gif
 check "... with the names of those that are not" grep -q "a.gif: cannot be read: it is no PNG" err
 
 echo "$checks checks, $failures failures"

@@ -50,7 +50,7 @@ class Scenes(Convert):
         scenes = list(self.scenes())
         self.assertGreater(len(scenes), 5)
         if not COURSE.is_dir():
-            print("the course's scenes are not here and passed over")
+            print("skipped: the course's scenes are missing")
         for scene in scenes:
             self.converts(scene, "out.scn", "-q")
             self.expect_same_pictures(scene, "out.scn", 1)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# A crop is that part of the whole picture, to the bit, whatever it is drawn with.
+# A crop has the bits of that part of the whole picture, regardless of how it is rendered.
 # Usage: test_crop.py CLRT FORMATS
 import json
 import pathlib

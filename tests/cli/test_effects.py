@@ -18,7 +18,7 @@ CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
-# What is compiled already would decide whether kernels are special.
+# With "auto", the cache would decide whether the kernels are specialized.
 PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
@@ -84,10 +84,10 @@ TRIALS = {
     "help": ([], ["--help"]),
 }
 
-# What only a window shows is tried where there is one.
+# Options that need a window are tested there.
 IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
 
-# What differs between two runs of the same words.
+# Values that differ between two runs with the same arguments.
 MEASURED = ("seconds", "frame_seconds", "bytes")
 
 
@@ -105,7 +105,7 @@ def statistics(path):
 
 @functools.cache
 def observe_words(words):
-    """What can be seen of a run in a folder of its own, times left out."""
+    """Returns all visible effects of a run in its own folder, without times."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / FLAT).write_text(

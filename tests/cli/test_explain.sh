@@ -22,16 +22,16 @@ END
 json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
 tells() { grep -qF -- "$1" out; }
 
-# The color that is told of pixel 70,60 is the picture's, drawn with the same options.
+# The reported color of pixel 70,60 is the picture's with the same options.
 agrees() {
-  run 0 "$scene" --explain-pixel 70,60 --json=told.json "$@" &&
+  run 0 "$scene" --explain-pixel 70,60 --json=explained.json "$@" &&
     run 0 "$scene" -o a.pfm "$@" && python3 - <<'END'
 import json, struct, sys
 data = open("a.pfm", "rb").read()
 _, size, _, pixels = data.split(b"\n", 3)
 width, height = map(int, size.split())
 place = ((height - 1 - 60) * width + 70) * 12
-sys.exit(list(struct.unpack("<3f", pixels[place : place + 12])) != json.load(open("told.json"))["color"])
+sys.exit(list(struct.unpack("<3f", pixels[place : place + 12])) != json.load(open("explained.json"))["color"])
 END
 }
 
@@ -95,10 +95,10 @@ done
 check "--encode srgb has an effect" run 0 mirrors.scn --explain-pixel 2,2 --encode srgb
 check "... on the bytes" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 169 169 191"
 
-# What a scene lacks is left out of special kernels; general ones hold it idle.
+# Specialized kernels omit features that a scene lacks; general ones contain them unused.
 printf 'size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n' >ball.scn
 printf 'size 8 8\nmaterial 0\nply_file %s/scenes/cube.ply\n' "$source" >flat.scn
-part() { json told.json "[p[k] for p in d['parts'] if p['name'] == '$1' for k in ('needed', 'compiled', 'reason')] == [$2, $3, '$4']"; }
+part() { json explained.json "[p[k] for p in d['parts'] if p['name'] == '$1' for k in ('needed', 'compiled', 'reason')] == [$2, $3, '$4']"; }
 check "a scene is explained" run 0 ball.scn --explain --specialize always
 check "... with what is compiled" tells "  spheres     1 of them"
 check "... and what is left out" tells "  tree        there are no triangles to find"
@@ -106,22 +106,22 @@ check "... with the reason" tells "  triangles   there are none"
 check "... under its heading" test "$(sed -n '/^left out$/,/^uploaded/p' out | grep -c '^  ')" = 4
 check "... and what is uploaded" tells "  spheres     48 bytes"
 check "... and what is not" tells " nodes triangles looks normals"
-check "special kernels as JSON" run 0 ball.scn --explain --specialize always --json=told.json
+check "special kernels as JSON" run 0 ball.scn --explain --specialize always --json=explained.json
 check "... have what the scene has" part spheres True True "1 of them"
 check "... not what it lacks" part triangles False False "there are none"
 check "... and no mirrors" part mirrors False False "no material in use reflects: no ray is followed on"
-check "... and say why they are" json told.json "d['program'] == {'special': True, 'reason': '--specialize always'}"
-check "general kernels" run 0 ball.scn --explain --specialize never --json=told.json
+check "... and say why they are" json explained.json "d['program'] == {'special': True, 'reason': '--specialize always'}"
+check "general kernels" run 0 ball.scn --explain --specialize never --json=explained.json
 check "... hold all but counters" part triangles False True "there are none"
 check "... which are asked for" part statistics False False "nobody asks to count: no --stats"
-check "counters" run 0 ball.scn --explain --specialize never --stats --json=told.json
+check "counters" run 0 ball.scn --explain --specialize never --stats --json=explained.json
 check "... are compiled where they are" part statistics True True "--stats counts rays and tests"
-check "silhouettes" run 0 flat.scn --explain --specialize always --json=told.json
+check "silhouettes" run 0 flat.scn --explain --specialize always --json=explained.json
 check "... are not lit" part lights False False "all materials in use are silhouettes: no shadow rays"
 check "... and few triangles get no tree" part tree False False "10 triangles are tested sooner than found"
-check "a tree that is asked for" run 0 flat.scn --explain --bvh sah --kernel ray --nodes pair --json=told.json
-check "... is there" json told.json "next(p for p in d['parts'] if p['name'] == 'tree')['needed'] and d['uploaded_bytes']['nodes'] > 0"
-check "... with the kernels asked for" json told.json "d['kernels'] == {'family': 'ray', 'nodes': 'pair', 'precision': 'fp32', 'reason': '--kernel asks for it'}"
+check "a tree that is asked for" run 0 flat.scn --explain --bvh sah --kernel ray --nodes pair --json=explained.json
+check "... is there" json explained.json "next(p for p in d['parts'] if p['name'] == 'tree')['needed'] and d['uploaded_bytes']['nodes'] > 0"
+check "... with the kernels asked for" json explained.json "d['kernels'] == {'family': 'ray', 'nodes': 'pair', 'precision': 'fp32', 'reason': '--kernel asks for it'}"
 check "explaining draws nothing" refuses 2 "clrt --explain takes no --output" ball.scn --explain -o a.pfm
 
 check "a pixel outside is named" refuses 2 \

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# What goes wrong around clrt - disks that are full or read-only, files that change while they are
-# read, memory that runs out - ends with one sentence, its exit status and no half-written file.
+# Faults of the system - full or read-only disks, files that change while they are read, exhausted
+# memory - end with one message, the documented exit status and no partial file.
 # Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], as tests/cli/fail_memory.c
 # and fail_device.c are built
 import os

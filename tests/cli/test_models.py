@@ -129,7 +129,7 @@ class Formats(Work):
 
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
 class Exported(Work):
-    """What Assimp itself writes of a PLY mesh."""
+    """Returns the file that Assimp itself writes for a PLY mesh."""
 
     SCENE = CAMERA + "material 2\nmesh "
 

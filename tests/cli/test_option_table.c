@@ -104,7 +104,7 @@ static void every_understood_word_is_listed(void **state)
     }
 }
 
-// What --help shows.
+// Returns the text of --help.
 static const char *help_text(void)
 {
     static char text[1 << 16];

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# tools/manual/peers.md keeps its word: whatever it says clrt does is shown by tests that exist.
+# Every feature that tools/manual/peers.md claims for clrt has a test that exists.
 # Usage: test_peers.py CTEST BUILD_FOLDER
 import json
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# What a picture's file tells of where it comes from, and what the hash of its pixels is good for.
+# Tests the metadata in a picture's file and the options for the hash of its pixels.
 # Usage: test_provenance.py CLRT FORMATS
 import json
 import os

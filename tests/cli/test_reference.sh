@@ -37,10 +37,10 @@ check "an adaptive picture is measured" run 0 "$scene" "${small[@]}" --error 0.5
 check "... and has the error that was asked for" holds "r['rmse'] < 0.0055" five.json
 check "a finer reference is drawn" run 0 "$scene" "${small[@]}" --aa=4 --reference=fine.pfm --reference-samples 2048 --stats=fine.json
 check "... of that many samples" holds "r['samples'] == 2048" fine.json
-check "... that tells the same error" holds "abs(r['rmse'] / s['rmse'] - 1) < 0.08" fine.json four.json
+check "... that reports the same error" holds "abs(r['rmse'] / s['rmse'] - 1) < 0.08" fine.json four.json
 check "... and less of its own" holds "r['own_error'] < 0.4 * s['own_error']" fine.json four.json
 run 0 compare one.pfm fine.pfm --json=own.json
-check "the error it tells of itself is the error it has" python3 -c "
+check "its reported own error is its true error" python3 -c "
 import json
 told, found = json.load(open('one.json'))['reference']['own_error'], json.load(open('own.json'))['rmse']
 assert 0.6 < found / told < 1.6, (found, told)"

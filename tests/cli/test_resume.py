@@ -74,7 +74,7 @@ class Resume(unittest.TestCase):
         self.assertEqual(process.wait(), -signal.SIGKILL)
 
     def resumed_tiles(self, *words):
-        """Goes on to the end, and tells how many tiles it found."""
+        """Continues to the end and returns the number of tiles found."""
         talk = self.clrt(*words, "-o", NAME, "--resume", "-v")
         line = next(line for line in talk.splitlines() if line.startswith("resumed: "))
         return int(line.split()[1])

@@ -135,6 +135,6 @@ class Stops(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # What is ignored here, as in a background job, would be ignored there.
+    # clrt would inherit ignored signals, as a background job has them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# What the program says and where: data on standard output, talk on standard error, JSON by its
-# schemas, an exit status for every outcome.
+# Tests the program's output: data on standard output, messages on standard error, JSON that follows
+# its schemas, and an exit status for every outcome.
 # Usage: test_talk.py CLRT
 import json
 import os
@@ -118,7 +118,7 @@ class StandardInput(Run):
 
 class Terminals(Run):
     def talk_on_terminal(self, **environment):
-        """What a picture that is stopped says on a terminal."""
+        """Returns the terminal output of a stopped picture."""
         talk, terminal = pty.openpty()
         process = subprocess.Popen(
             [CLRT, *LONG, "-o", "a.pfm"],

@@ -37,7 +37,7 @@ class Work(unittest.TestCase):
         )
 
     def clrt(self, *words, code=0, **environment):
-        """What it prints or, where it is to fail with code, says on standard error."""
+        """Returns its standard output or, if it shall fail with code, its standard error."""
         done = self.run_clrt(*words, **environment)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr if code else done.stdout

@@ -24,7 +24,7 @@ MONTHS = ("January February March April May June July August September October N
 
 
 def titles():
-    """What each test asks for, from the table in README.md."""
+    """Returns the title of each test, from the table in README.md."""
     found = {}
     with open(os.path.join(FOLDER, "README.md"), encoding="utf-8") as readme:
         for line in readme:
@@ -46,7 +46,7 @@ def run_tier(build, tier):
 
 
 def machine():
-    """The processor and PoCL, in words."""
+    """Returns the names of the processor and PoCL."""
     name = "unknown"
     with open("/proc/cpuinfo", encoding="utf-8") as info:
         for line in info:
@@ -75,8 +75,8 @@ class Results:
             test, form, rest = match.groups()
             if test in known:
                 continue
-            if rest.startswith("passed over: "):
-                self.passed_over[test] = rest[len("passed over: "):]
+            if rest.startswith("skipped: "):
+                self.passed_over[test] = rest[len("skipped: "):]
                 continue
             self.add(test, form, rest.split(" "))
 

@@ -52,7 +52,7 @@ static Box special_box(size_t number)
 
 // Directions shorter than this cannot arise: a camera's or a reflection's is about as long as 1,
 // and from a light to a surface it is at least the distance the point is kept off its surface.
-// Of shorter ones the reciprocals overflow.
+// The reciprocals of shorter directions overflow.
 #define SHORTEST_DIRECTION 1e-20f
 
 static void rays_of_special_values_miss_no_box_they_meet_t21(void **state)

@@ -86,7 +86,7 @@ static size_t judge_highlights(const Probe *probe, uint32_t lanes, double shinin
     Random random = {53};
     size_t wrong = 0;
     double largest = 0;
-    // Past a million no picture can tell highlights from points of light.
+    // Above a million, highlights are single points of light in any picture.
     const double limit = shininess <= 1e6 ? 1e-3 : 1;
     for (int i = 0; i < CASES; i++)
         cases[i] = highlight_case(i, shininess, &random);

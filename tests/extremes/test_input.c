@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that are wrong in every way are refused with the place of their fault or repaired as
-// documented, and never crash; places with many digits keep them.
+// clrt rejects faulty files with the position of the fault, or repairs them as documented, and
+// never crashes. Coordinates with many digits keep them.
 #include "support/check.h"
 #include "support/random.h"
 #include "support/report.h"

@@ -32,7 +32,7 @@ static void leaving_free(Leaving *leaving)
     free(leaving->hits);
 }
 
-// Of length 1; every fourth leaves the face that normal is of at a sine down to 2^-lowest.
+// Chooses a unit vector. Every fourth leaves the face with this normal at a sine down to 2^-lowest.
 static void choose_outward(Leaving *leaving, size_t place, Vec3 normal, uint32_t lowest,
                            Random *random)
 {

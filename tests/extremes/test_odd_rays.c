@@ -57,7 +57,7 @@ static size_t count_disturbed(void *context, const TestRay *rays, const TestHit 
     return wrong;
 }
 
-// Of all processors together, which other processes do not make more.
+// Returns the time of all processors together, which other processes do not increase.
 static double seconds_of(RayBatch *batch, const TestRay *rays, size_t count, TestHit *hits)
 {
     double least = INFINITY;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles that no tree can part: equal, concentric, coplanar, or each half as large as the one
-// before.  Trees stay shallow all the same, and answers exact.
+// before.  Trees still stay shallow, and hits exact.
 #include "support/aim.h"
 #include "support/check.h"
 #include "support/exact.h"

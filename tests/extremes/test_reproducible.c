@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One scene, one picture: whatever the device does with denormals, however the work is divided and
-// ordered, and whether the kernels are optimized or not.
+// One scene gives one picture, regardless of the device's denormals, the division and order of the
+// work, and the optimization of the kernels.
 #include "support/check.h"
 #include "support/picture.h"
 #include "support/random.h"

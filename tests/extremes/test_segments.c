@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// What is met this near to an end is a matter of the side that the end lies on.
+// For hits this close to an end, the side that the end lies on decides.
 #define NEAR_END 1e-4f
 
 typedef enum {

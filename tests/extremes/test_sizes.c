@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-// What the oracle sees in the middle of a pixel.
+// Returns the oracle's sample at the center of a pixel.
 static OracleSample sample_at(const OracleView *view, uint32_t x, uint32_t y)
 {
     return oracle_sample(view, x + 0.5, y + 0.5);

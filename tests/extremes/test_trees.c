@@ -164,7 +164,7 @@ static void make_shadow_ray(TestRay *ray, bool doubled)
         ray->direction[axis] *= 2;
 }
 
-// Of rays into the scenes some meet something.
+// Returns the least number of rays into the scenes that must hit something.
 static size_t least_met(BatchTask task, size_t count)
 {
     return task == BATCH_BLOCKED ? count / 100 : count / 20;

@@ -59,7 +59,7 @@ def print_groups(pictures, key, title):
 
 
 def print_costs(pictures):
-    """What --error costs beside the cheapest fixed settings that hold the same error."""
+    """Prints the cost of --error relative to the cheapest fixed settings with that error."""
     print("goal    rival     pictures  samples     time   (geometric means, --error / rival)")
     for goal in sorted({picture["goal"] for picture in pictures}, reverse=True):
         for rival in ("uniform", "adaptive"):

@@ -10,5 +10,5 @@
 // Writes the path of scenes/NAME or references/NAME.
 void course_path(char path[COURSE_PATH_SIZE], const char *kind, const char *name);
 
-// Whether the file is there; says in words that the test passes over it where it is not.
+// Returns whether the file exists. If not, prints that the test skips it.
 bool course_has(const char *path);

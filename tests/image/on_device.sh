@@ -12,7 +12,7 @@ mkdir -p "$cache"
 export POCL_CACHE_DIR=$cache XDG_CACHE_HOME=$cache
 
 pass_over() {
-  echo "passed over: $1"
+  echo "skipped: $1"
   exit 0
 }
 

@@ -33,8 +33,8 @@ typedef struct {
     void *visit_context;
 } PictureRequest;
 
-// What the program does without options, but always with the general kernels, since which of them
-// "auto" takes depends on what was compiled before, and with those of form_choice.
+// Returns the program's defaults with the kernels of form_choice, always in the general form: the
+// choice of "auto" depends on the cache.
 PictureRequest picture_request(const char *scene_path, uint32_t view);
 
 // Draws on the device that the environment variable CLRT_DEVICE names (unset: the best).

@@ -75,7 +75,7 @@ static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
 
 #define SIDE 240
 
-// What a contrast must reach: the error of side x side samples, with so many times fewer.
+// The requirement for a contrast: the error of side x side samples, with `times` times fewer.
 typedef struct {
     float contrast;
     uint32_t side, times;
@@ -133,7 +133,7 @@ static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
 
 #define SPHERES 60 // along a side
 
-// A wall of bright spheres on black, of these radii in pixels by turns.
+// Writes a wall of bright spheres on black. The radii, in pixels, alternate.
 static const char *write_spheres(const double radii[], int count)
 {
     static char path[TEMPORARY_PATH];
@@ -176,7 +176,7 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
     remove(request.scene_path);
 }
 
-// Of a sphere 80 pixels wide that hardly stands out.
+// Writes a sphere, 80 pixels wide, with little contrast to the background.
 static const char *write_faint_sphere(void)
 {
     static char path[TEMPORARY_PATH];

@@ -165,7 +165,7 @@ static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
 {
     (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
-        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
     check(SOURCE_SCENE("scenes/creature.scn"), 8);

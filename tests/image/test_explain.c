@@ -50,7 +50,7 @@ static double component(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// A surface's color is made of the light it is told to have received.
+// A surface's color is the sum of its reported lights.
 static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
 {
     const Scene *scene = explainer->scene;
@@ -145,7 +145,7 @@ static void the_same_of_a_large_mesh(void **state)
 {
     (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
-        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
     check_scene(SOURCE_SCENE("scenes/creature.scn"), 2);

@@ -33,7 +33,7 @@ static const char leaning_text[] =
 
 static char folder[64];
 
-// What is told of one pixel, kept past the explainer.
+// The explanation of one pixel, copied from the explainer.
 typedef struct {
     uint32_t x, y;
     ExplainedRay rays[4];

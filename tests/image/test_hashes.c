@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Pixel hashes on record hold: on every device, PoCL target and compiler setting that runs this.
-// Usage: test_hashes SIZE [VIEWS] checks the pictures of that size on record, of views up to VIEWS
-// and, where CLRT_TEST_SCENES lists scenes, of those alone; `test_hashes list SIZE` prints what
-// would be recorded.  CLRT_TEST_OPTIONS goes to the kernels' compiler.
+// Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
+// Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of that size and of views up to
+// VIEWS. CLRT_TEST_SCENES limits it to the listed scenes. `test_hashes list SIZE` prints the lines
+// to record. CLRT_TEST_OPTIONS goes to the kernels' compiler.
 #include "image/course.h"
 #include "image/picture.h"
 #include "unit/cmocka_all.h"
@@ -78,7 +78,7 @@ static void pictures_have_the_hashes_on_record(void **state)
         if (strcmp(hash, expected) == 0)
             continue;
         wrong++;
-        print_error("%s view %u: %s on record, %s drawn\n", scene, view, expected, hash);
+        print_error("%s view %u: %s recorded, %s rendered\n", scene, view, expected, hash);
     }
     fclose(record);
     print_message("%u pictures of %ux%u checked\n", checked, wanted_size, wanted_size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One picture: whatever the form of the kernels, the tree, the tiles, the work-groups and the
-// program, the same bits.
+// A scene gives the same bits regardless of the form of the kernels, the tree, the tiles, the
+// work-groups and the program.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"

@@ -104,7 +104,7 @@ static void the_projects_meshes_are_drawn_as_the_oracle_does(void **state)
     const uint32_t step = PROJECT_MESH_STEP;
     (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
-        print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
     check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", step);

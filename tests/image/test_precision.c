@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// What two roundings of a color to float are apart at most, with what one in steps of 2^-32 adds.
+// The largest difference of two roundings of a color to float, plus a rounding to steps of 2^-32.
 #define ROUNDED 0x1.01p-23f
 
 // The oracle takes minutes for all pixels of a mesh.
@@ -119,7 +119,7 @@ static bool has_models(void)
 {
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) == 0)
         return true;
-    print_message("passed over: scenes/models was not made (CLRT_WITH_MODELS)\n");
+    print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
     return false;
 }
 
@@ -165,7 +165,8 @@ static void every_pixel_of_unusual_scenes_is_the_oracles(void **state)
     }
 }
 
-// Of every 100,000 pixels of a view, how many may differ in fp32 by more than an 8-bit step.
+// share is the number of pixels per 100,000 of a view that may differ in fp32 by more than an 8-bit
+// step.
 static void check_fp32(const char *name, uint64_t share)
 {
     char path[256];

@@ -74,7 +74,7 @@ static void refined_pictures_have_the_hashes_on_record(void **state)
         if (strcmp(hash, expected) == 0)
             continue;
         wrong++;
-        print_error("%s %s: %s on record, %s drawn\n", scene, name, expected, hash);
+        print_error("%s %s: %s recorded, %s rendered\n", scene, name, expected, hash);
     }
     fclose(record);
     print_message("%u pictures of %ux%u checked\n", checked, SIZE, SIZE);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of meshes is thinner than a pixel is seen where pictures are refined, at any contrast.
+// Refined pictures show parts of meshes that are thinner than a pixel, at any contrast.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -70,7 +70,7 @@ static void write_mesh(const Drawing *drawing)
     assert_int_equal(fclose(stream), 0);
 }
 
-// What is drawn is of that lightness before black.
+// The object has that lightness before a black background.
 static PictureRequest request_of(const Drawing *drawing, double light)
 {
     write_mesh(drawing);

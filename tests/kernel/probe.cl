@@ -91,7 +91,7 @@ kernel void probe_truths(global const uint *bits, global uint *results)
         results[item * CLRT_LANES + lane] = ((const uint *)&words)[lane];
 }
 
-// places holds CLRT_LANES places in words for each item.
+// places holds CLRT_LANES indices into words for each item.
 kernel void probe_gather(global const uint *words, global const uint *places, global uint *results)
 {
     const uint item = get_global_id(0);

@@ -38,7 +38,7 @@ static void host_and_device_agree_on_the_layout(void **state)
 
 // Every squaring doubles the relative error so far and adds one rounding: 2^-24 for each unit of
 // the exponent.  The exponential path rounds its argument x a few times, which moves exp(-x) by
-// x exp(-x) times that, less than 1e-6 whatever the exponent.
+// x exp(-x) times that, less than 1e-6 for any exponent.
 static void powers_are_close_to_exact_ones(void **state)
 {
     (void)state;

@@ -7,7 +7,7 @@
 // An error that is filled with other bytes, so that what is left of them would show.
 ClrtError faults_blank(void);
 
-// Fails the test unless ok is false and error tells of that fault in words with these among them.
+// Fails the test unless ok is false and error has that fault and a message that contains words.
 void faults_assert(bool ok, const ClrtError *error, ClrtFault fault, const char *words);
 
 // The call, which fills `error`, must find an argument that it cannot work with.

@@ -143,7 +143,7 @@ static void write_scene(FILE *file)
 {
     write_numbers(file, "background", background, 3);
     write_numbers(file, "ambient", &ambient, 1);
-    fputs("max_level 5\n", file); // which the library is told with the picture
+    fputs("max_level 5\n", file); // the library gets it with the picture
     for (int i = 0; i < 2; i++) {
         write_numbers(file, "light", lights[i], 4);
         write_camera(file, &filled_cameras[i]);

@@ -18,7 +18,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 EXAMPLE = TESTS / "library/picture.c"
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
-# What the example fills in.
+# The scene of the example.
 SCENE = """
 light 4 -2 6 0.9
 camera 3 -5 3 0 0 0 45
@@ -52,7 +52,7 @@ add_executable(picture picture.c)
 target_link_libraries(picture PRIVATE clrt::clrt)
 """
 
-# What a library may not do to the program that it is part of.
+# Functions that a library must not call in its host program.
 FORBIDDEN = (
     r"_?exit|quick_exit|abort|raise|f?puts|put(char|s)|(__)?v?f?printf(_chk)?|perror|fputc|fwrite|"
     r"(un)?setenv|putenv|clearenv|setlocale|signal|sigaction|sigprocmask|pthread_sigmask|atexit|"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no caller should ask of a renderer gives an error in words, and the next picture is drawn;
-// nothing is printed, and the environment stays as it was.
+// Invalid requests to a renderer give an error with a message, and the next picture still renders.
+// The library prints nothing and leaves the environment unchanged.
 #define CL_TARGET_OPENCL_VERSION 120
 #include "library/faults.h"
 #include "library/filled.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What no caller should put into a scene gives an error in words and changes nothing.
+// Invalid additions to a scene give an error with a message and change nothing.
 #include "library/faults.h"
 #include "library/filled.h"
 #include "unit/cmocka_all.h"

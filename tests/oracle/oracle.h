@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A second ray tracer, to judge the first by: it traces a Scene as it was read, on the host, in
-// fp64, in the file's own coordinates, by recursion and without a tree, and shares no method with
-// the kernels.  Beside a color it names the decisions behind it, so that a difference can be told
-// from an edge that merely falls on the other side of a sample.
+// A second ray tracer as a reference: it traces a Scene as read, on the host, in fp64, in the
+// file's own coordinates, by recursion and without a tree. It shares no method with the kernels.
+// Beside a color it returns the decisions behind it, which separates errors from edges that fall on
+// the other side of a sample.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -29,8 +29,8 @@ typedef struct {
 OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_t width,
                        uint32_t height, uint32_t max_level);
 
-// What a ray tree decided: the object met by the camera ray and by each reflected one, from which
-// side, and which lights reach the point.
+// The decisions of a ray tree: the object hit by the camera ray and by each reflected one, the
+// side, and the lights that reach the point.
 typedef struct {
     uint64_t signature; // a hash of all that
     bool grazes;        // a light stands so low over a true surface that a point's last bits decide
@@ -44,7 +44,7 @@ typedef struct {
 // The sample at x and y pixels from the picture's top left corner.
 OracleSample oracle_sample(const OracleView *view, double x, double y);
 
-// What the sample's ray meets first, and where it goes.
+// The first hit of the sample's ray, and its path from there.
 typedef struct {
     double depth;          // along the view's axis; INFINITY where nothing is met
     OracleSurface surface; // zero there

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# What an installation holds, the Debian packages of the same, and the licenses of all files.
+# Tests the files of an installation and of the Debian packages, and the licenses of all files.
 # Usage: test_package.py CLRT BUILD_FOLDER
 import os
 import pathlib

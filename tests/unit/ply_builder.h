@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests of scene/ply share: a file under construction, and parsing under strict watch.
+// Shared by the PLY tests: a file under construction, and parsing with strict checks.
 #pragma once
 
 #include "mesh/ply.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both builders promise about any set of triangles.
+// Tests the guarantees of both builders for any set of triangles.
 #include "accel/bvh.h"
 #include "accel/levels.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What clrt check counts, each on a mesh or scene that has it and one that has not.
+// Tests each count of clrt check, on a mesh or scene with the fault and on one without.
 #include "check/census.h"
 #include "mesh/ply.h"
 #include "scene/scn.h"
@@ -57,7 +57,7 @@ typedef struct {
     Census census;
 } Taken;
 
-// Of a scene that holds only this mesh, in a frame that is the mesh's own.
+// Takes the census of a scene with only this mesh, in the mesh's own frame.
 static Taken census_of_mesh(const char *points, const char *faces)
 {
     Taken taken = {0};

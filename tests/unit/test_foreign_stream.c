@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program with Assimp writes -> a model: every record, and no stream that does harm.
+// Parses the output of the program with Assimp: every record, and hostile streams.
 #include "unit/stream_builder.h"
 
 #include <math.h>

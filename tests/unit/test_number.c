@@ -243,8 +243,8 @@ static void a_token_of_a_megabyte_is_still_rounded_correctly(void **state)
     assert_same_double(value_around_zeros("1", ""), HUGE_VAL, "10...0");
 }
 
-// (2^53 - 1) / 2^1075, half-way between the largest subnormal and the smallest normal number, takes
-// all of its 768 digits to tell.
+// Rounding (2^53 - 1) / 2^1075, half-way between the largest subnormal and the smallest normal
+// number, depends on all of its 768 digits.
 static void a_tie_of_768_digits_is_told_from_its_neighbors(void **state)
 {
     (void)state;

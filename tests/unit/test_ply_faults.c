@@ -181,7 +181,8 @@ static void each_fault_of_a_binary_body_has_its_sentence(void **state)
                         "t.ply: byte 101: a 0: the file ends too early");
 }
 
-// Sound elements are read many at a time; the first that is not must still be told by its place.
+// Valid elements are read in bulk. The message must still give the position of the first invalid
+// one.
 static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **state)
 {
     (void)state;

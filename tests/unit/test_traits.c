@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene contains decides its program.
+// A scene's contents determine its program.
 #include "accel/traits.h"
 
 #include "unit/cmocka_all.h"

@@ -62,7 +62,7 @@ class Drag:
         self.send(window, Event(message=message))
 
     def give(self, request, content):
-        """Answers who asks for what is dragged."""
+        """Sends the dragged content to the requestor."""
         self.x.XChangeProperty(self.display, Handle(request.requestor), Atom(request.property),
                                Atom(request.target), 8, 0, content, len(content))
         answer = Answer(type=SELECTION_NOTIFY, requestor=request.requestor,

@@ -21,7 +21,7 @@ TICK = 0.02  # they are counted in, so that a machine which stood still meanwhil
 
 
 def pass_over(reason):
-    print(f"passed over: {reason}")
+    print(f"skipped: {reason}")
     sys.exit(0)
 
 
@@ -81,7 +81,7 @@ class Screen:
 
 
 class Window:
-    """clrt showing a scene.  -v makes it tell its state once nothing moves any more."""
+    """clrt showing a scene. With -v it prints its state when nothing moves any more."""
 
     def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
         self.screen, self.size = screen, size
@@ -91,7 +91,7 @@ class Window:
                                         stderr=subprocess.PIPE)
         screen.windows.append(self.process)
         self.lines = queue.Queue()
-        self.told = []
+        self.printed = []
         threading.Thread(target=self._listen, daemon=True).start()
         screen.do("mousemove", size[0] // 2, size[1] // 2)
 
@@ -101,7 +101,7 @@ class Window:
         self.lines.put(None)
 
     def wait(self, *parts):
-        """The next line told that holds all the parts."""
+        """Returns the next printed line that contains all the parts."""
         for _ in range(int(PATIENCE / TICK)):
             try:
                 line = self.lines.get(timeout=TICK)
@@ -109,10 +109,10 @@ class Window:
                 continue
             if line is None:
                 break
-            self.told.append(line)
+            self.printed.append(line)
             if all(part in line for part in parts):
                 return line
-        raise AssertionError(f"no line with {parts} after {self.told[-3:]}")
+        raise AssertionError(f"no line with {parts} after {self.printed[-3:]}")
 
     def press(self, key, *parts):
         """Presses a key and waits for a state with these parts."""
@@ -125,7 +125,7 @@ class Window:
                        "mouseup", button)
 
     def read(self):
-        """What the window shows once it stands still."""
+        """Returns the window's content when it stands still."""
         shown = None
         while True:
             before, shown = shown, self.screen.read(*self.size)
@@ -134,7 +134,7 @@ class Window:
             time.sleep(0.05)
 
     def until(self, condition, what):
-        """What the window shows once that meets the condition."""
+        """Returns the window's content when it meets the condition."""
         for _ in range(int(PATIENCE / TICK)):
             shown = self.screen.read(*self.size)
             if condition(shown):
@@ -148,11 +148,11 @@ class Window:
 
     def end(self, code=0):
         found = self.process.wait(PATIENCE)
-        assert found == code, f"exit {found} instead of {code}: {self.told[-3:]}"
+        assert found == code, f"exit {found} instead of {code}: {self.printed[-3:]}"
 
 
 def render(scene, *options, size=(320, 240)):
-    """What -o writes, as bytes of blue, green and red, rounded as files of 8 bits are."""
+    """Returns the picture of -o as bytes of blue, green and red, rounded as in 8-bit files."""
     with tempfile.TemporaryDirectory() as folder:
         path = f"{folder}/picture.pfm"
         subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", f"{size[0]}x{size[1]}",

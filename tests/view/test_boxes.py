@@ -40,7 +40,7 @@ def counts_agree_with_statistics(screen):
     if COURSE.is_dir():
         scenes += [(COURSE / "scenes" / "cow.scn", []), (COURSE / "scenes" / "buddha.scn", [])]
     else:
-        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
     for scene, options in scenes:
         inner, leaves = check_counts(screen, scene, *options)
         print(f"         {scene.stem} {options}: {leaves} leaves, inner nodes {inner}")
@@ -50,7 +50,7 @@ def write_clusters(folder):
     """Small groups of triangles with gaps between them, in a plane seen from above."""
     corners, faces = [], []
     for cluster in range(SIDE * SIDE):
-        # Gaps of several sizes: else nothing tells in which order to divide.
+        # The gaps have several sizes: otherwise the order of division is arbitrary.
         x, y = (place + 0.05 * place * place for place in divmod(cluster, SIDE))
         for part in range(6):
             first = len(corners)

@@ -13,13 +13,13 @@
 #define CYCLES     200
 #define WARMING_UP 20 // cycles after which drivers have all they keep
 
-// What PoCL keeps of every kernel it makes, three times; a picture here is six times as large.
+// Three times the memory that PoCL keeps for each kernel. A picture here is six times as large.
 #define BYTES_A_CYCLE 32768
 
 static Cache cache;
 
-// Drivers stay loaded, so that the sanitizer can tell whose a block is.  They find this function
-// only where it is exported.
+// Drivers stay loaded, so that the sanitizer can attribute their blocks. They find this function
+// only if it is exported.
 __attribute__((visibility("default"))) int dlclose(void *handle)
 {
     (void)handle;

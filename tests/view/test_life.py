@@ -25,7 +25,7 @@ def write_large(folder):
 
 def a_million_triangles_open_orbit_and_close(screen):
     if not LARGE.exists():
-        print("passed over: scenes/models/coral.ply has not been made")
+        print("skipped: scenes/models/coral.ply has not been made")
         return
     with tempfile.TemporaryDirectory() as folder:
         scene = write_large(pathlib.Path(folder))
@@ -116,7 +116,7 @@ def o_never_touches_the_display(_):
         door.setblocking(False)
         port = door.getsockname()[1]
         if port < 6000:
-            print("passed over: no port that a display could have")
+            print("skipped: no port that a display could have")
             return
         there = {**os.environ, "DISPLAY": f"127.0.0.1:{port - 6000}"}
         words = [os.environ["CLRT"], str(ROOT / "scenes" / "simple.scn"), "-s", "8x8"]

@@ -98,7 +98,7 @@ def agree(screen, path):
 
 def outlines_agree_in_the_courses_scenes(screen):
     if not COURSE.is_dir():
-        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
         return
     for name in NAMES:
         agree(screen, COURSE / "scenes" / f"{name}.scn")
@@ -108,7 +108,7 @@ def outlines_agree_in_own_scenes(screen):
     for name in OWN:
         path = ROOT / "scenes" / f"{name}.scn"
         if name == "creature" and not (ROOT / "scenes" / "models" / "creature.ply").exists():
-            print("passed over: scenes/models/creature.ply has not been made")
+            print("skipped: scenes/models/creature.ply has not been made")
             continue
         agree(screen, path)
 

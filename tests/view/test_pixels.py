@@ -30,7 +30,7 @@ def opened(screen, scene, *options, **more):
 
 def every_view_of_the_courses_scenes_is_the_same(screen):
     if not COURSE.is_dir():
-        print("passed over: the course's scenes are not there (CLRT_COURSE names their folder)")
+        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
         return
     for name in ("blinn_phong", "reflections", "cow", "buddha"):
         scene = COURSE / "scenes" / f"{name}.scn"
@@ -131,7 +131,7 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
         window.press("s", "saved")
         window.close()
         if not (folder / "reflections-1.png").exists():
-            print("passed over: this build writes no PNG")
+            print("skipped: this build writes no PNG")
             return
         png = (folder / "reflections-1.png").read_bytes()
         assert planes_of_png(png, size) == render(scene, size=size), "the PNG differs"
@@ -140,7 +140,7 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
             if saved.exists():
                 subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "160x120", "-o",
                                 str(folder / f"a.{ending}")], check=True)
-                # The texts at the start tell of different settings, the pixels behind are equal.
+                # The texts at the start have different settings; the pixels after them are equal.
                 written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
                 same = common_end(written, found)
                 assert same > 0.9 * len(written), f"the .{ending} differs: {same} bytes are equal"

@@ -64,7 +64,7 @@ def a_changed_mesh_is_shown(screen, folder):
 @in_folder
 def a_changed_material_library_is_shown(screen, folder):
     if not (pathlib.Path(os.environ["CLRT"]).parent / "clrt-foreign").exists():
-        print("this build is without Assimp: the test of a model's materials is passed over")
+        print("skipped: this build has no Assimp, so a model's materials are not tested")
         return
     (folder / "mesh.obj").write_text(
         "mtllib mesh.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 1\nusemtl a\nf 1 2 3\n"
@@ -111,7 +111,7 @@ def a_mesh_that_was_missing_is_found_when_it_comes(screen, folder):
     line = window.read()
     scene.write_text(scene.read_text() + "ply_file late.ply\n")
     window.wait("late.ply: cannot be opened")
-    window.until(lambda shown: shown != line, "tells that a mesh is missing")
+    window.until(lambda shown: shown != line, "reports a missing mesh")
     window.press("t", "text off")
     shutil.copy(ROOT / "scenes" / "tetrahedron.ply", folder / "late.ply")
     expect(window, scene, "shows the mesh that came late")
@@ -133,7 +133,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
         line = window.read()
         shade.write_text(text + "this is no kernel\n")
         window.wait("clrt: the kernels")
-        window.until(lambda shown: shown != line, "tells that the kernels do not compile")
+        window.until(lambda shown: shown != line, "reports that the kernels do not compile")
         window.press("t", "text off")
         assert window.read() == before, "the last good picture is gone"
         dark = text.replace("rint(clamp_to_one(color)", "rint(clamp_to_one(0.5f * color)")

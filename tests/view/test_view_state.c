@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keys and the mouse do to the state, and what the state reads like.
+// Tests the effect of keys and mouse on the view's state, and the state's text.
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 #include "view/state.h"

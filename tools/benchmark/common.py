@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every comparison needs: where things are, clrt as a command, and figures as text."""
+"""Shared by all comparisons: paths, clrt as a command, and figures as text."""
 
 import json
 import os

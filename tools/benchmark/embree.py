@@ -34,7 +34,7 @@ def read_pfm(path):
 
 
 def share_of_differing_pixels(first, second):
-    """Of two pictures of one size: those that differ by more than one step of 8 bits."""
+    """Returns the share of pixels of two pictures that differ by more than one 8-bit step."""
     a, b = read_pfm(first), read_pfm(second)
     apart = [abs(x - y) > 1 / 255 for x, y in zip(a, b)]
     return sum(map(any, zip(apart[::3], apart[1::3], apart[2::3]))) / (len(a) / 3)
@@ -153,7 +153,7 @@ def print_builds(builds):
 def run(options, folder):
     if not PEER.exists():
         print("build/release/embree_peer is not there, since this machine has no Embree 3 "
-              "(libembree-dev of Debian 12), so the comparison with it is passed over.")
+              "(libembree-dev of Debian 12), so the comparison with it is skipped.")
         return None
     columns = columns_of(options)
     counts = [options.threads] if options.threads else sorted({1, common.threads_of_machine()})

@@ -159,7 +159,7 @@ def print_table(results):
 
 def run(options, folder):
     if shutil.which("povray") is None:
-        print("povray is not installed, so the comparison with it is passed over.")
+        print("povray is not installed, so the comparison with it is skipped.")
         return None
     contests = [Contest(name, variant, scenes.write(text, name, variant, folder), options, folder)
                 for name, text in scenes.texts(options.scenes).items()

@@ -59,7 +59,7 @@ def texts(names):
         if mesh.exists():
             found[name] = with_mesh(found["creature"], mesh, camera)
         else:
-            print(f"The course's {name} is not here, so it is passed over.")
+            print(f"The course's {name} is missing and is skipped.")
     return found
 
 

@@ -25,7 +25,7 @@ end_header
 
 
 def waves(angle):
-    """Of each kind of bump its height at an angle, and its slope."""
+    """Returns the height at an angle and the slope of each kind of bump."""
     return [(math.sin(n * angle + n), n * math.cos(n * angle + n)) for n, _ in BUMPS]
 
 

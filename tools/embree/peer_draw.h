@@ -29,7 +29,7 @@ typedef struct {
 extern const PeerMode peer_modes[];
 extern const int peer_mode_count;
 
-// A picture in this mode; flags are what Embree is told of each kind of ray.
+// A picture in this mode. flags are Embree's context flags for each kind of ray.
 typedef struct {
     const PeerScene *scene;
     const PeerMode *mode;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile as kernels/trace.cl does, LANES rays at a time in SIMD, and hands them
 // to Embree PACKETS packets a call.  Compiled once for each mode (CMakeLists.txt).
-// Unlike clrt it lets every triangle be seen from both sides and keeps rays off the surface they
-// leave by a fixed distance: what Embree's users do, and cheaper for it than filters.
+// Unlike clrt, it makes every triangle visible from both sides and offsets rays from the surface
+// that they leave by a fixed distance. Embree's users do so, and it is cheaper than filters.
 #include "calls.h"
 #include "peer_draw.h"
 
@@ -16,7 +16,7 @@
 // How far new rays start from a surface, and shadow rays end before it; the scene is 1 to 2 long.
 #define AWAY 3e-5f
 
-// What a packet's rays have become on their way.
+// The state of a packet's paths.
 typedef struct {
     Points origin, direction, color;
     Floats weight;
@@ -174,7 +174,7 @@ typedef struct {
     Floats diffuse, specular;
 } Received;
 
-// What a packet has met: where there is no hit, the rest is not set.
+// A packet's hits. Without a hit, the other members are not set.
 typedef struct {
     Mask hit;
     Surfaces surfaces;

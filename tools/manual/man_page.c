@@ -120,7 +120,7 @@ static void write_classes(FILE *stream)
     fputs(".El\n", stream);
 }
 
-// What --help says of the keys, a line each with two blanks between keys and meaning.
+// Writes the keys of --help, one per line, with two blanks between keys and meaning.
 static void write_keys(FILE *stream)
 {
     char text[4096] = "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be said of an option's value.
+// The kinds of an option's value.
 #pragma once
 
 #include "cli/options/table.h"

@@ -21,7 +21,7 @@ static void write_quoted(FILE *stream, const char *text)
     }
 }
 
-// What follows a name: the sentence, and what the value is to be completed with.
+// Writes the text after a name: the help, and the completion of the value.
 static void write_rest(FILE *stream, const Option *option)
 {
     char words[VALUE_WORDS_SIZE], name[64];

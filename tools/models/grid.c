@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples a field block by block, passing over blocks that the surface cannot reach, and repairs
+// Samples a field block by block, skipping blocks that the surface cannot reach, and repairs
 // the inside into a well-composed set (Latecki, Eckhardt, Rosenfeld: "Well-Composed Sets", CVIU
 // 1995): one in which no two inside or outside samples touch only across the diagonal of a
 // square or of a cube.  The border of such a set is a 2-manifold, so surface nets over it are
@@ -13,11 +13,11 @@
 
 #define BLOCK_SAMPLES 4
 
-// Fields are distances to first order only: a block is passed over where its middle is farther
-// from the surface than twice the way to its corners.
+// Fields are distances to first order only. A block is skipped if its center is farther from the
+// surface than twice the distance to its corners.
 #define BLOCK_CAUTION 2.0
 
-// What a repaired sample is set to, in cells: barely inside, the surface hardly moves.
+// The value of a repaired sample, in cells. It is barely inside, so the surface hardly moves.
 #define REPAIR_DEPTH 0.05F
 
 static int smaller_count(int a, int b)
@@ -106,7 +106,7 @@ static bool touches_across_the_cube(unsigned mask)
     return false;
 }
 
-// Of the cell's outside corners, the one nearest to the surface becomes inside.
+// Moves the cell's outside corner nearest to the surface inside.
 static void repair_cell(Grid *grid, size_t cell)
 {
     float *nearest = NULL;

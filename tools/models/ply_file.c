@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the PLY file byte by byte, so that it is the same whatever the machine's byte order.
+// Writes the PLY file byte by byte, so that it does not depend on the machine's byte order.
 #include "ply_file.h"
 
 #include <errno.h>

@@ -12,7 +12,7 @@
 // More even out little further.
 #define RELAX_STEPS 6
 
-// Of the way to the neighbors' mean, in one step.
+// The fraction of the way to the neighbors' mean per step.
 #define RELAX_SPEED 0.6
 
 // A vertex moves at most that many cells onto the surface in one step: where the field is bent
@@ -28,7 +28,7 @@
 // Twice the least area of a good triangle, of its edges' squares; 0.29 in an even triangle.
 #define LEAST_AREA 0.09
 
-// What a cut's length counts beside its distance from the surface.
+// The weight of a cut's length relative to its distance from the surface.
 #define LENGTH_FAULT 0.1
 
 typedef struct {

@@ -142,7 +142,7 @@ static inline double shape_join(double a, double b, double blend)
     return shape_smaller(a, b) - near * near / (4 * blend);
 }
 
-// What is inside both, with the edge rounded to that width.
+// The intersection of both, with the edge rounded to that width.
 static inline double shape_overlap(double a, double b, double blend)
 {
     return -shape_join(-a, -b, blend);

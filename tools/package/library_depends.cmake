@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Run by CPack: the packages that libclrt is linked to, as dpkg-shlibdeps tells them.
+# Run by CPack: finds the packages that libclrt is linked to, with dpkg-shlibdeps.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()

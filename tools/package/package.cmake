@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# What belongs to an installation beside the program, and the Debian packages: cmake --workflow
-# --preset package makes them.  They run no script when they are installed: kernels are compiled when
-# they are first used, or by clrt --warm.
+# The files of an installation beside the program, and the Debian packages, which cmake --workflow
+# --preset package makes. The packages run no script at installation. Kernels are compiled on first
+# use, or by clrt --warm.
 set(folder ${CMAKE_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")
@@ -19,9 +19,9 @@ endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# Debian's archive has no wish for the package that its changelog could close.  Of what lintian -I
-# tells beside errors and warnings, CPack's strip leaves the compilers' names (.comment) in, versions
-# of symbols are told by shlibs, and "ment" is a piece of a word that the compiler has cut.
+# Debian's archive has no request for the package that its changelog could close. lintian -I has
+# three more remarks: CPack's strip leaves the compilers' names (.comment) in, shlibs gives the
+# versions of symbols, and "ment" is a piece of a word that the compiler has cut.
 file(WRITE ${folder}/clrt "clrt: initial-upload-closes-no-bugs\n")
 install(FILES ${folder}/clrt DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides)
 

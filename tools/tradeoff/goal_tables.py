@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What became of goals -> tables of the page."""
+"""Makes the page's tables of goals."""
 
 import html
 
@@ -13,7 +13,7 @@ def table(head, rows):
 
 
 def beside(rival):
-    """What a goal costs, as multiples of a rival's time and samples."""
+    """Returns a goal's cost as multiples of a rival's time and samples."""
     if rival is None:
         return "none holds it"
     return (f"{rival['times']:.2f} x time, {rival['samples_ratio']:.2f} x samples<br>"

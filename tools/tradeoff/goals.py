@@ -53,11 +53,11 @@ def all_errors(scenes):
 
 def summary(scenes):
     """One sentence on all errors that were asked for, None where none was."""
-    told = all_errors(scenes)
-    if not told:
+    errors = all_errors(scenes)
+    if not errors:
         return None
-    held = sum(goal["held"] for goal in told)
-    strictly = sum(goal["ratio"] <= 1 for goal in told)
-    on_front = sum(goal["front"] for goal in told)
-    return (f"of {len(told)} errors asked for {held} are held within {MARGIN:g} E, {strictly} "
+    held = sum(goal["held"] for goal in errors)
+    strictly = sum(goal["ratio"] <= 1 for goal in errors)
+    on_front = sum(goal["front"] for goal in errors)
+    return (f"of {len(errors)} errors asked for {held} are held within {MARGIN:g} E, {strictly} "
             f"within E; {on_front} lie on their scene's front")

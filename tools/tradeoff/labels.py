@@ -38,7 +38,7 @@ def outside(box, frame):
 
 
 def cost(candidate, half, taken, frame):
-    """What a place covers first, how far it is second."""
+    """Returns the covered area first and the distance second."""
     distance, center = candidate
     box = box_at(center, half)
     covered = sum(overlap(box, other) for other in taken)

@@ -112,7 +112,7 @@ def price_cell(scene, error):
 
 
 def prices(scenes):
-    """What an error costs: the fastest setting within it."""
+    """Makes the table of the fastest setting within each error."""
     head = "".join(f"<th>RMSE &le; {100 * error:g} %</th>" for error in ERRORS)
     body = "".join(f"<tr><td>{html.escape(scene['scene'])}</td>"
                    + "".join(price_cell(scene, error) for error in ERRORS) + "</tr>"
@@ -128,8 +128,9 @@ def section(scene, folder):
         f"<p>{scene['triangles']} triangles, {settings['width']} x {settings['height']} pixels, "
         f"rays up to level {settings['max_level']}. The reference has {reference['samples']} "
         f"samples a pixel in fp64; two independent halves of it put its own RMSE at "
-        f"{100 * reference['own_error']:.4f} %. Of {len(scene['rows'])} settings {beaten} are "
-        "beaten by one that is as fast and less wrong; they stand in gray.</p>"
+        f"{100 * reference['own_error']:.4f} %. {beaten} of the "
+        f"{len(scene['rows'])} settings are shown in gray, because another is as fast and less "
+        "wrong.</p>"
         f'<div class="wide">{plot.svg([scene])}</div>{table(scene["rows"])}'
         f"{goal_tables.of_scene(scene)}"
         "<h3>Pictures, and where they differ from the reference</h3>"
@@ -144,8 +145,8 @@ def goal_section(scenes):
         "<h2>What goals hold and cost</h2><p>Each error E that is asked for by "
         "<code>--error</code>: the true RMSE against the reference, in parts of E; under it the "
         "time, as a multiple of that of the fastest fixed setting that holds E, and of that of the "
-        "fewest N x N samples everywhere that do. Who uses a fixed setting must know it "
-        "beforehand; who asks for an error need not.</p>"
+        "fewest N x N samples everywhere that do. A fixed setting must be known "
+        "beforehand; an error goal finds it.</p>"
         f"{goal_tables.of_all(scenes)}")
 
 
@@ -158,11 +159,11 @@ def method(scenes):
         f"<p>clrt {html.escape(scenes[0]['version'])} on {html.escape(device['name'])} "
         f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
         f"threads; {packages}; {datetime.date.today()}.</p>"
-        f'<p class="note">Times are medians of {runs} rounds in which all settings draw by turns; '
+        f'<p class="note">Times are medians of {runs} rounds in which the settings alternate; '
         "a round's figure is the faster of two frames after a first that is not counted, tracing "
         "alone. RMSE is of the values as stored, over all three colors. SSIM and FLIP (mean, 67 "
-        "pixels a degree) tell what an eye makes of it. What is faster than the base "
-        f"({html.escape(grid.BASE)}, the course's) has a factor below 1.</p>")
+        "pixels a degree) estimate the visible difference. A factor below 1 means faster than the "
+        f"base ({html.escape(grid.BASE)}, the course's).</p>")
 
 
 def write(path, scenes, folder):

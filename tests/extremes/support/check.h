@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all tests of the extremes share: cmocka, and failing with the reason of a world fault.
+// Shared by all tests of the extremes: cmocka, and failing with an Error's reason.
 #pragma once
 
 #include "base/error.h"

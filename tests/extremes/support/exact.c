@@ -63,7 +63,7 @@ static long double edge_function(const Sheared *s, int a, int b)
     return s->x[a] * s->y[b] - s->y[a] * s->x[b];
 }
 
-// What a triangle says about the ray.
+// The result of one triangle for the ray.
 typedef struct {
     bool met, doubtful;
     long double t, error; // of t

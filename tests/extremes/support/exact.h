@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a ray meets, by testing every triangle in fp64 and, near outlines, in 64 bits of precision;
-// and whether that is clear: float arithmetic, which rounds the corners relative to the origin,
-// cannot be held to an outline nearer than its rounding.
+// Finds a ray's hit by testing every triangle in fp64 and, near outlines, in 64 bits of precision.
+// Also returns whether the hit is clear: float arithmetic rounds the corners relative to the
+// origin, so it cannot resolve an outline closer than its rounding.
 #pragma once
 
 #include "ray_batch.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scene -> Framebuffer on one device that stays open for a group of tests.
-// What goes wrong in here ends the test.
+// Any failure ends the test.
 #pragma once
 
 #include "render/renderer.h"

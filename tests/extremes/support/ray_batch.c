@@ -12,7 +12,7 @@
 
 #define BATCH_RAYS 65536
 
-// Of kernels whose number of lanes nobody chose: the host has to know it.
+// Lanes of kernels with the default lane count, which the host must know.
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",

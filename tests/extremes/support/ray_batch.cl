@@ -102,7 +102,7 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth 
                 (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
-// What the rays meet or, of shadow rays, whether they are blocked, as 1 in place of the id.
+// Finds the rays' hits or, for shadow rays, whether they are blocked, as 1 in place of the id.
 static inline void trace_rays(const SceneView *scene, const FrameData *frame, const TestRays *rays,
                               bool are_shadows, global TestHit *hits)
 {
@@ -144,9 +144,9 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
     trace_rays(&scene, &frame, &all, true, hits);
 }
 
-// What a ray meets that leaves the surface its own ray meets, in the direction of outward or the
-// one opposite, whichever leaves the face; LEAVE_SHADOWED where it meets nothing, yet the point at
-// its end does not light the surface.  t is 0 where there is no surface.
+// Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or
+// the opposite one, whichever leaves the face. The id is LEAVE_SHADOWED if the ray hits nothing but
+// the point at its end does not light the surface. t is 0 without a surface.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
@@ -221,7 +221,7 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
     return ((const float *)&distances)[place];
 }
 
-// What the first ray makes of each triangle of count blocks alone, in file order.
+// Tests the first ray against each triangle of count blocks alone, in file order.
 kernel void batch_each(const FrameData frame, global const SphereData *spheres,
                        global const Node *nodes, global const Triangles *triangles,
                        global const TestRay *rays, uint count, global TestHit *hits)
@@ -286,7 +286,7 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     }
 }
 #else
-// What the first ray makes of each of count triangles alone, in file order.
+// Tests the first ray against each of count triangles alone, in file order.
 kernel void batch_each(const FrameData frame, global const SphereData *spheres,
                        global const Node *nodes, global const Triangles *triangles,
                        global const TestRay *rays, uint count, global TestHit *hits)

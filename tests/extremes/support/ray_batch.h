@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces arrays of rays on the device with the functions of the real kernels (ray_batch.cl).
-// What goes wrong in here ends the test.
+// Any failure ends the test.
 #pragma once
 
 #include "accel/flat.h"
@@ -69,8 +69,8 @@ void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
 // The id of hits of ray_batch_leave that meet nothing but are shadowed.
 #define LEAVE_SHADOWED 0xfffffffeu
 
-// What a ray meets that leaves the surface rays[i] meets along outward[i], turned to the side that
-// the ray came from.  t is 0 where there is no surface.
+// Finds the hit of a ray that leaves the surface hit by rays[i] along outward[i], turned to the
+// side that the ray came from. t is 0 without a surface.
 void ray_batch_leave(const RayBatch *batch, const TestRay *rays, const float (*outward)[3],
                      size_t count, TestHit *hits);
 

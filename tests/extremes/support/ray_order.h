@@ -7,5 +7,5 @@
 // Fills places with the numbers 0 to count - 1, in such an order of the rays.
 void ray_order(const TestRay *rays, size_t count, uint32_t *places);
 
-// What a packet's rays share: the signs of their directions and the longest axis.
+// Returns the class that a packet's rays share: direction signs and longest axis.
 uint32_t ray_order_class(const TestRay *ray);

@@ -29,6 +29,6 @@ size_t report_case(const char *test, const char *details, size_t rays, size_t fa
 
 void report_passed_over(const char *test, const char *reason)
 {
-    printf("%s form=%s passed over: %s\n", test, form_name(), reason);
+    printf("%s form=%s skipped: %s\n", test, form_name(), reason);
     fflush(stdout);
 }

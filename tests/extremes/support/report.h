@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One machine-readable line for each case of a test:
 // T-03 form=packet k=10 rays=100000 fail=0 limit=0 embree_default=33859 embree_robust=1245
-// gather.py makes a table of them.  `rays` counts whatever the case judges: rays, pixels or boxes.
+// gather.py makes a table of them.  `rays` counts the items of the case: rays, pixels or boxes.
 #pragma once
 
 #include "peers.h"

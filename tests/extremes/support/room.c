@@ -40,7 +40,7 @@ double triangle_distance_to(const float corners[3][3], Vec3 point)
     return inside ? fabs(vec3_dot(normal, a)) / length_of(normal) : outline;
 }
 
-// Of the triangle seen from point, signed, as a part of the whole sphere.
+// Returns the signed solid angle of the triangle from point, as a fraction of the sphere.
 static double solid_angle(const float corners[3][3], Vec3 point)
 {
     const Vec3 a = vec3_normalize(vec3_sub(corner_of(corners[0]), point));

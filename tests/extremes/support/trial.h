@@ -31,6 +31,6 @@ size_t trial_judge(const Trial *trial, const char *details, const TestRay *rays,
 size_t trial_misses(const Trial *trial, const char *details, const TestRay *rays, size_t count);
 extern const Judgment judgment_misses;
 
-// What these would report, to be added up over several scenes.
+// Returns the counts that these would report, to be added up over several scenes.
 Fails trial_fails(const Trial *trial, const TestRay *rays, size_t count, const Judgment *judgment);
 size_t report_fails(const char *test, const char *details, size_t rays, const Fails *fails);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a camera ray meets, found on the host in fp64 by testing every primitive of the device's own
-// arrays, and whether that is clear: rounding may decide what happens at an outline.
+// Finds a camera ray's hit on the host, in fp64, by testing every primitive of the device's own
+// arrays. Also returns whether the hit is clear, because rounding may decide at an outline.
 #pragma once
 
 #include "accel/flat.h"
