@@ -125,11 +125,12 @@ static inline Sides OVERLOAD sides_exchanged(Truth exchange, Sides sides)
 }
 
 // Returns whether a ray that leaves its own triangle stops on another that its line hits within
-// rounding of the ray's start. The relative position of the triangles decides, seen from both. The
-// other triangle is ahead if it lies on the side of the own plane that the ray leaves to, and not
-// ahead if it lies behind. It is also ahead if the own triangle, where the ray starts, lies on the
-// side of the other's plane that the ray comes from, and not ahead if the own one lies behind. A
-// ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
+// rounding of the ray's start. The relative position of the triangles decides, seen from both:
+//  - The other triangle is ahead if it is on the side of the own plane that the ray leaves to. It
+//    is not ahead if it is on the opposite side.
+//  - The ray starts on the own triangle. The other is ahead if the own one is on the side of the
+//    other's plane that the ray comes from. It is not ahead if the own one is on the opposite side.
+// A ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
 // that stops then does not leave a closed shape.
 static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *other,
                                             Real3 direction, Truth from_back)

@@ -11,8 +11,8 @@
 // are floats. reader->index and reader->next end after the last vertex read.
 void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh);
 
-// Returns the bytes of a triangle in the file if the only list of its faces holds the corners,
-// with a byte for the length and four for each corner. Returns 0 for other layouts.
+// Returns the size of a triangle in the file, in bytes, or 0 for unusual layouts. In the usual
+// layout, the only list of a face holds its corners, with a length of one byte and indices of four.
 size_t ply_bulk_triangle_size(const PlyReader *reader, PlyProperties properties);
 
 // Reads these faces from reader->index on, while they have three corners below vertex_count, at

@@ -41,8 +41,8 @@ typedef struct {
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Refines until no cell's contrast exceeds the threshold, as a fraction and weighted by the cell's
-// part of a pixel, or until the observer stops it.
+// Refines until no cell's contrast exceeds the threshold, or until the observer stops it. The
+// contrast is a fraction, weighted by the cell's part of a pixel.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 

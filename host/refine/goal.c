@@ -9,8 +9,8 @@
 // After this many rounds the error goal is abandoned.
 #define ROUNDS_MOST 300
 
-// Parts of the time budget: the part of the remaining time for a round, the part of the total
-// below which one round takes the rest, and the part that is too small for another round.
+// Parts of the time budget. A round takes PART_OF_ROUND of the remaining time. Below PART_OF_LAST
+// of the total, one round takes the rest. Less than PART_UNSPENT is not worth another round.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03

@@ -35,8 +35,8 @@
 // aim.
 #define FORCED_PART 0.02
 
-// Parameters of a round's plan: the part of the excess to cover, the lowest acceptable score
-// relative to the best, the reliable part of a gain, and the smallest part of a step.
+// The plan of a round. It covers COVERED_PART of the excess and relies on GAIN_PART of each gain.
+// Steps score at least SCORE_PART of the best, and at least STEP_PART of a step is taken.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
