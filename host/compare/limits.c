@@ -35,7 +35,7 @@ static bool parse_limit(Limits *limits, const char *start, const char *end, Erro
     }
     if (stop != end || !isfinite(value) || value < 0)
         return error_set(cause,
-                         "wants limits like rmse=0.01,max=0.1,psnr=40,share1=1%%,share4=0,hits=0, "
+                         "needs limits like rmse=0.01,max=0.1,psnr=40,share1=1%%,share4=0,hits=0, "
                          "not '%.*s'",
                          (int)(end - start), start);
     limits->given[kind] = true;

@@ -46,9 +46,9 @@ static bool find_candidates(Candidates *candidates, Error *error)
     if (candidates->count == 0)
         return error_set(error,
                          "no OpenCL device was found: install pocl-opencl-icd (any CPU) or the "
-                         "OpenCL driver of your GPU; PoCL shows none where it can write no cache, "
-                         "for which POCL_CACHE_DIR names a folder with 16 MB of room; clinfo lists "
-                         "what the system sees");
+                         "OpenCL driver of your GPU; PoCL shows none if it cannot write its "
+                         "cache: set POCL_CACHE_DIR to a folder with 16 MB of free space; clinfo "
+                         "lists the devices");
     return true;
 }
 

@@ -39,10 +39,10 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
         return error_set(error, "--precision fp64 traces rays one by one: leave out --kernel "
                                 "packet");
     if (is_fp64 && wants_nodes(request, NODES_WIDE))
-        return error_set(error, "--precision fp64 walks nodes of two children: leave out --nodes "
+        return error_set(error, "--precision fp64 uses binary nodes: leave out --nodes "
                                 "wide");
     if (wants_packets && wants_nodes(request, NODES_PAIR))
-        return error_set(error, "--kernel packet walks wide nodes: leave out --nodes pair");
+        return error_set(error, "--kernel packet uses wide nodes: leave out --nodes pair");
     return true;
 }
 

@@ -62,8 +62,7 @@ static bool fail(Error *error)
 {
     const char *reason = aiGetErrorString();
     if (strstr(reason, "bad_alloc") != NULL)
-        return error_set(error, "Assimp wants more memory to read it than a file of its size may "
-                                "take");
+        return error_set(error, "Assimp needs more memory than the limit for a file of its size");
     return error_set(error, "Assimp cannot read it: %s",
                      reason[0] != '\0' ? reason : "no reason is given");
 }

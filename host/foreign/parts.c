@@ -153,7 +153,7 @@ static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mir
             continue;
         }
         if (!is_within(face, mesh->mNumVertices))
-            return error_set(sender->error, "a face of it names a vertex that is not there");
+            return error_set(sender->error, "one of its faces refers to a missing vertex");
         if (!array_reserve(&sender->triangles.memory, &sender->triangles.capacity,
                            sender->triangles.count + 1, sizeof(Triangle), sender->error))
             return false;
@@ -177,7 +177,8 @@ static bool send_part_so_far(Sender *sender)
     sender->triangles.memory = NULL;
     sender->triangles.count = sender->triangles.capacity = 0;
     sender->vertex_capacity = sender->normal_capacity = 0;
-    return ferror(sender->stream) == 0 || error_set(sender->error, "nobody receives it");
+    return ferror(sender->stream) == 0 ||
+           error_set(sender->error, "the receiver has closed the stream");
 }
 
 static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
@@ -243,7 +244,7 @@ static bool add_node(Sender *sender, const struct aiNode *node, const Placement 
     const Placement placement = placement_below(above, &node->mTransformation);
     for (size_t i = 0; i < node->mNumMeshes; i++) {
         if (node->mMeshes[i] >= sender->scene->mNumMeshes)
-            return error_set(sender->error, "a node of it names a mesh that is not there");
+            return error_set(sender->error, "one of its nodes refers to a missing mesh");
         if (!add_mesh(sender, sender->scene->mMeshes[node->mMeshes[i]], &placement))
             return false;
     }

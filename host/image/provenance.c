@@ -23,7 +23,7 @@ bool provenance_check_date(Error *error)
     int64_t seconds;
     const char *text = getenv("SOURCE_DATE_EPOCH");
     return text == NULL || read_date(text, &seconds) ||
-           error_set(error, "SOURCE_DATE_EPOCH wants seconds since 1970, not '%s'", text);
+           error_set(error, "SOURCE_DATE_EPOCH must be seconds since 1970, not '%s'", text);
 }
 
 // Writes the date as EXIF, TIFF and EXR do, in UTC.

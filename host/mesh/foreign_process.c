@@ -55,7 +55,7 @@ static bool find_program(char *path, size_t size, const char *model, Error *erro
 static bool find_program(char *path, size_t size, const char *model, Error *error)
 {
     (void)path, (void)size;
-    return error_set(error, "%s: this build reads no meshes but PLY: it is without Assimp", model);
+    return error_set(error, "%s: this build reads only PLY meshes, because it lacks Assimp", model);
 }
 #endif
 
@@ -144,10 +144,10 @@ static bool judge(int status, StreamFate fate, const char *model, Error *error)
     if (fate == STREAM_LATE || signal == SIGALRM || signal == SIGXCPU)
         return error_set(error, "%s: Assimp took too long to read it and was stopped", model);
     if (fate == STREAM_LONG)
-        return error_set(error, "%s: Assimp makes more of it than can be drawn, and was stopped",
+        return error_set(error, "%s: Assimp exceeded the limit of its output and was stopped",
                          model);
     if (fate == STREAM_LOST)
-        return error_set(error, "%s: what Assimp reads of it cannot be received", model);
+        return error_set(error, "%s: the output of Assimp cannot be read", model);
     if (signal != 0)
         return error_set(error, "%s: Assimp crashed while reading it (signal %d)", model, signal);
     return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||

@@ -22,7 +22,7 @@ typedef struct {
 
 static bool fail_damaged(const Parser *parser)
 {
-    return error_set(parser->error, "%s: what the program that reads it has written is damaged",
+    return error_set(parser->error, "%s: the output of the program that reads it is damaged",
                      parser->name);
 }
 

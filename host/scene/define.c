@@ -69,7 +69,7 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
     const char *nearest = word_nearest(property.text, property.length, properties, 6);
     return nearest == NULL
                ? tokens_fail(tokens, property, "expected a property of a material")
-               : tokens_fail(tokens, property, "unknown property, perhaps '%s'", nearest);
+               : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 
 static bool read_shader(Tokens *tokens, Shader *shader)
@@ -140,7 +140,7 @@ static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
     if (nearest == NULL)
         tokens_fail(tokens, token, "expected an integer or a defined name");
     else
-        tokens_fail(tokens, token, "undefined material, perhaps '%s'", nearest);
+        tokens_fail(tokens, token, "undefined material (did you mean '%s'?)", nearest);
     free(names);
     return false;
 }

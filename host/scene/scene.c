@@ -69,9 +69,9 @@ const char *viewpoint_fault(const Viewpoint *viewpoint)
     const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
     const Vec3 right = vec3_cross(forward, vec3_normalize(viewpoint->up));
     if (!(vec3_extent(forward) > 0))
-        return "the camera looks at its own place";
+        return "the camera looks at its own position";
     if (!(vec3_extent(right) > 1e-9))
-        return "the camera looks along its 'up', which must point elsewhere";
+        return "the camera must not look along its 'up' vector";
     return NULL;
 }
 

@@ -190,7 +190,7 @@ static bool unknown_statement(const Tokens *tokens, Token token)
     const char *nearest = word_nearest(token.text, token.length, keywords, STATEMENT_COUNT);
     if (nearest == NULL)
         return tokens_fail(tokens, token, "expected a statement");
-    return tokens_fail(tokens, token, "unknown statement, perhaps '%s'", nearest);
+    return tokens_fail(tokens, token, "unknown statement (did you mean '%s'?)", nearest);
 }
 
 static bool read_statement(Parser *parser, Token keyword)

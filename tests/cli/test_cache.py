@@ -141,7 +141,7 @@ class Disks(CacheWork):
     def test_no_room_anywhere_is_told(self):
         for mode in ("rw", "ro"):
             done = self.on_disk(mode, TMPDIR=str(self.work / "disk"))
-            self.assert_told(done, "no OpenCL device was found: .* 16 MB of room")
+            self.assert_told(done, "no OpenCL device was found: .* 16 MB of free space")
 
 
 if __name__ == "__main__":

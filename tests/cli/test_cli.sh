@@ -58,7 +58,7 @@ check "a missing scene is exit 3" \
 check "a folder is no scene" refuses 3 "$source: cannot be read: it is not a file" "$source" -o a.pfm
 echo 'spheer 0 0 0 1' >bad.scn
 check "a fault in a scene is exit 3 with its place" \
-  refuses 3 "bad.scn:1:1: unknown statement, perhaps 'sphere': found 'spheer'" bad.scn -o a.pfm
+  refuses 3 "bad.scn:1:1: unknown statement (did you mean 'sphere'?): found 'spheer'" bad.scn -o a.pfm
 printf 'ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n' >lie.ply
 check "a lying mesh is exit 3" run 3 lie.ply -o a.pfm
 check "a view that is not there is named" \
@@ -208,7 +208,7 @@ check "packets have no fp64" \
   refuses 2 "--precision fp64 traces rays one by one: leave out --kernel packet" \
   --kernel packet --precision fp64 "$scene" -o b.pfm
 check "wide nodes have no fp64" \
-  refuses 2 "--precision fp64 walks nodes of two children: leave out --nodes wide" \
+  refuses 2 "--precision fp64 uses binary nodes: leave out --nodes wide" \
   --precision fp64 --nodes wide "$scene" -o b.pfm
 export ASAN_OPTIONS=verify_asan_link_order=0:${ASAN_OPTIONS:-}
 LD_PRELOAD=$NO_FP64 check "a device without fp64 draws in fp32" run 0 "$scene" -s 48x32 -o b.pfm

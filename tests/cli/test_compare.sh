@@ -69,7 +69,7 @@ check "three are, too" refuses 2 "clrt compare wants the names of two pictures" 
 check "clrt compare rejects options of pictures" refuses 2 "clrt compare takes no --aa" compare a.pfm b.pfm --aa
 check "--fail is for compare" refuses 2 "--fail is for clrt compare" "$source/scenes/simple.scn" -o a.png --fail rmse=1
 check "limits are checked" refuses 2 \
-  "--fail wants limits like rmse=0.01,max=0.1,psnr=40,share1=1%,share4=0,hits=0, not 'mse=1'" compare a.pfm b.pfm --fail mse=1
+  "--fail needs limits like rmse=0.01,max=0.1,psnr=40,share1=1%,share4=0,hits=0, not 'mse=1'" compare a.pfm b.pfm --fail mse=1
 check "map and report share no stream" refuses 2 \
   "the picture and the report cannot both go to standard output" compare a.pfm b.pfm -o -
 check "other sizes are exit 3" refuses 3 "a.pfm has 4 x 1 pixels and long.pfm has 5 x 1" compare a.pfm long.pfm

@@ -35,7 +35,7 @@ COLORED = models.obj(
 class WithoutAssimp(Work):
     def test_a_format_that_needs_it_is_refused_in_one_sentence(self):
         self.write(a_obj="", a_scn="mesh a.obj\n")
-        sentence = "a.obj: this build reads no meshes but PLY: it is without Assimp"
+        sentence = "a.obj: this build reads only PLY meshes, because it lacks Assimp"
         self.fails(sentence, "a.obj")
         self.fails("a.scn:1:6: " + sentence, "a.scn")
 
@@ -240,7 +240,7 @@ class Hostile(Work):
             document["nodes"] = [{"children": [i + 1] * 2} for i in range(40)] + [{"mesh": 0}]
 
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
-        self.assert_small_failure("Assimp wants more memory to read it than a file of its size may take")
+        self.assert_small_failure("Assimp needs more memory than the limit for a file of its size")
 
     # Memory takes the time: a gigabyte more takes seconds.
     def assert_small_failure(self, sentence, before=""):
@@ -346,7 +346,7 @@ class Hostile(Work):
     def test_a_face_that_names_a_vertex_that_is_not_there_is_told(self):
         for corner in (3, 2**32 - 1):
             self.write(a_3mf=models.three_mf(models.THREE_MF_TRIANGLE % corner))
-            self.fails("a.3mf: a face of it names a vertex that is not there", "a.3mf")
+            self.fails("a.3mf: one of its faces refers to a missing vertex", "a.3mf")
 
 
 if __name__ == "__main__":

@@ -129,7 +129,7 @@ class Provenance(Work):
             self.assertIn("2000:02:29 00:00:00", exr_texts(self.work / "a.exr")["capDate"])
         for wrong in "soon", "-1", "":
             talk = self.clrt(*SMALL, "-o", "b.png", code=2, SOURCE_DATE_EPOCH=wrong)
-            self.assertEqual(talk, f"clrt: SOURCE_DATE_EPOCH wants seconds since 1970, not '{wrong}'\n")
+            self.assertEqual(talk, f"clrt: SOURCE_DATE_EPOCH must be seconds since 1970, not '{wrong}'\n")
 
     def test_without_metadata_nothing_of_it_is_told(self):
         environment = {"SOURCE_DATE_EPOCH": "0"}

@@ -107,7 +107,7 @@ class StandardInput(Run):
     def test_its_faults_are_told_by_name_and_line(self):
         told = self.feed(b"light 0 0 5 1\nspheer 0 0 0 1\n", "-o", "a.pfm")
         self.assertEqual(told.returncode, 3)
-        self.assertEqual(told.stderr, b"clrt: standard input:2:1: unknown statement, perhaps 'sphere': "
+        self.assertEqual(told.stderr, b"clrt: standard input:2:1: unknown statement (did you mean 'sphere'?): "
                                       b"found 'spheer'\n")
 
     def test_the_window_does_not_take_it(self):

@@ -177,7 +177,7 @@ static void impossible_cameras_are_refused(void **state)
     const ClrtCamera good = filled_cameras[0];
     ClrtCamera bad = good;
     memcpy(bad.look_at, bad.eye, sizeof bad.eye);
-    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "looks at its own place");
+    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "looks at its own position");
     for (int axis = 0; axis < 3; axis++)
         bad.look_at[axis] = bad.eye[axis] + (axis == 2);
     ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "along its 'up'");

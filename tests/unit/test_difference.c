@@ -174,7 +174,7 @@ static void limits_that_are_not_understood_are_refused(void **state)
         Limits limits = {0};
         Error error = {0};
         assert_false(limits_parse(&limits, wrong[i], &error));
-        assert_non_null(strstr(error.text, "wants limits like rmse=0.01"));
+        assert_non_null(strstr(error.text, "needs limits like rmse=0.01"));
     }
 }
 

@@ -89,7 +89,7 @@ static void a_limit_of_time_is_told(void **state)
 static void a_stream_without_an_end_is_stopped(void **state)
 {
     (void)state;
-    expect_failure("exec yes", "m.obj: Assimp makes more of it than can be drawn, and was stopped");
+    expect_failure("exec yes", "m.obj: Assimp exceeded the limit of its output and was stopped");
 }
 
 static void a_program_that_stays_when_its_stream_has_ended_is_ended(void **state)

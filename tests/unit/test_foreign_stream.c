@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define DAMAGED "m.obj: what the program that reads it has written is damaged"
+#define DAMAGED "m.obj: the output of the program that reads it is damaged"
 
 static Builder whole_stream(void)
 {

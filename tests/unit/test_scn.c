@@ -214,14 +214,17 @@ static void faults_name_line_column_and_the_statement(void **state)
 static void unknown_words_get_the_nearest_one(void **state)
 {
     (void)state;
-    expect_error("spheer 0 0 0 1", "1:1: unknown statement, perhaps 'sphere': found 'spheer'");
+    expect_error("spheer 0 0 0 1",
+                 "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'");
     expect_error("??", "1:1: expected a statement: found '\?\?'");
-    expect_error("define gold matte\nmaterial gild", "2:10: undefined material, perhaps 'gold': "
-                                                     "found 'gild'; the statement is 'material "
-                                                     "NUMBER|NAME|own'");
-    expect_error("define a matte difuse 1 1 1",
-                 "1:16: unknown property, perhaps 'diffuse': found 'difuse'; the statement is "
-                 "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
+    expect_error("define gold matte\nmaterial gild",
+                 "2:10: undefined material (did you mean 'gold'?): "
+                 "found 'gild'; the statement is 'material "
+                 "NUMBER|NAME|own'");
+    expect_error(
+        "define a matte difuse 1 1 1",
+        "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'; the statement is "
+        "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
 }
 
 static void values_out_of_range_are_refused(void **state)
@@ -229,11 +232,12 @@ static void values_out_of_range_are_refused(void **state)
     (void)state;
     expect_error("size 0 5", "1:6: expected an integer between 1 and 65536: found '0'; the "
                              "statement is 'size WIDTH HEIGHT'");
-    expect_error("camera 0 0 0 0 0 0 45", "1:1: the camera looks at its own place: found 'camera'; "
-                                          "the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y "
-                                          "AT_Z FOV_DEGREES'");
+    expect_error("camera 0 0 0 0 0 0 45",
+                 "1:1: the camera looks at its own position: found 'camera'; "
+                 "the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y "
+                 "AT_Z FOV_DEGREES'");
     expect_error("camera 0 0 5 0 0 0 45",
-                 "1:1: the camera looks along its 'up', which must point elsewhere: found "
+                 "1:1: the camera must not look along its 'up' vector: found "
                  "'camera'; the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z "
                  "FOV_DEGREES'");
     expect_error("up 0 1 0", "1:1: no camera follows this 'up': found 'up'; the statement is 'up X "

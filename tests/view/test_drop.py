@@ -44,7 +44,7 @@ def a_dropped_file_that_is_no_scene_is_told_over_the_last_picture(screen):
         other = pathlib.Path(name) / "notes.scn"
         other.write_text("spheer 0 0 0 1\n")
         drop(screen, other)
-        window.wait("notes.scn:1:1: unknown statement, perhaps 'sphere'")
+        window.wait("notes.scn:1:1: unknown statement (did you mean 'sphere'?)")
         assert window.read() == before, "the last picture is gone"
         other.write_text("light 9 -4 10 0.7\nsphere 0 0 0 1\n")
         expect(window, other, "shows it once it is a scene")

@@ -88,7 +88,7 @@ def a_fault_is_told_over_the_last_good_picture(screen, folder):
     window.press("t", "text on")
     line = window.read()
     scene.write_text("spheer 0 0 0 1\n" + text)
-    window.wait("one.scn:1:1: unknown statement, perhaps 'sphere'")
+    window.wait("one.scn:1:1: unknown statement (did you mean 'sphere'?)")
     told = window.until(lambda shown: shown != line, "tells of the fault")
     below = 4 * 320 * 100
     assert told[below:] == before[below:], "the picture is gone"
