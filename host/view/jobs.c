@@ -15,14 +15,14 @@ typedef struct {
 } Tracing;
 
 // News are written between these two.
-static WorkerNews *begin_news(Worker *worker)
+static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);
-    worker->news.number++;
-    return &worker->news;
+    worker->status.number++;
+    return &worker->status;
 }
 
-static void end_news(Worker *worker)
+static void end_update(Worker *worker)
 {
     pthread_mutex_unlock(&worker->mutex);
     worker->woken = clock_seconds();
@@ -31,21 +31,22 @@ static void end_news(Worker *worker)
 
 static void tell_busy(Worker *worker, const char *busy)
 {
-    begin_news(worker)->busy = busy;
-    end_news(worker);
+    begin_update(worker)->busy = busy;
+    end_update(worker);
 }
 
 // Whether the pass is still of use.
 static bool is_current(Worker *worker, const Job *job)
 {
     pthread_mutex_lock(&worker->mutex);
-    const WorkerWish *wish = &worker->wish;
-    bool current = !worker->stops && wish->loads == job->wish.loads &&
-                   wish->renewals == job->wish.renewals && wish->uses_bvh == job->wish.uses_bvh &&
-                   wish->width == job->wish.width && wish->height == job->wish.height;
+    const WorkerRequest *request = &worker->request;
+    bool current = !worker->stops && request->loads == job->request.loads &&
+                   request->renewals == job->request.renewals &&
+                   request->uses_bvh == job->request.uses_bvh &&
+                   request->width == job->request.width && request->height == job->request.height;
     if (job->pass.kind != PASS_MOVING)
-        current = current && wish->is_traced && wish->subject == job->wish.subject &&
-                  (job->pass.samples == 1 || wish->samples == job->pass.samples);
+        current = current && request->is_traced && request->subject == job->request.subject &&
+                  (job->pass.samples == 1 || request->samples == job->pass.samples);
     pthread_mutex_unlock(&worker->mutex);
     return current;
 }
@@ -57,10 +58,10 @@ static bool tile_done(void *context, const RenderProgress *progress)
     const Job *job = tracing->job;
     if (job->pass.kind != PASS_COUNT)
         canvas_add_tiles(worker->setup.canvas, tracing->layer, progress->tiles_done,
-                         job->wish.gain);
+                         job->request.gain);
     if (job->pass.kind == PASS_FULL && clock_seconds() - worker->woken > WAKE_STEP) {
-        begin_news(worker)->progress = (double)progress->tiles_done / (double)progress->tiles;
-        end_news(worker);
+        begin_update(worker)->progress = (double)progress->tiles_done / (double)progress->tiles;
+        end_update(worker);
     }
     return is_current(worker, job);
 }
@@ -79,18 +80,18 @@ static void learn(Worker *worker, const Pass *pass, double seconds, double part)
 }
 
 // A whole picture is news; under the lock.
-static void tell_picture(WorkerNews *news, const Job *job)
+static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
-    news->reached = (PlanReached){job->wish.subject, pass->divisor, pass->samples, false};
-    news->done.subject = job->wish.subject;
-    news->done.camera = job->wish.camera;
-    news->done.gain = job->wish.gain;
-    news->done.samples = pass->samples;
-    news->done.width = job->wish.width;
-    news->done.height = job->wish.height;
-    news->moving_frames += pass->kind == PASS_MOVING;
-    news->moving_coarse += pass->kind == PASS_MOVING && pass->divisor > 1;
+    status->reached = (PlanReached){job->request.subject, pass->divisor, pass->samples, false};
+    status->done.subject = job->request.subject;
+    status->done.camera = job->request.camera;
+    status->done.gain = job->request.gain;
+    status->done.samples = pass->samples;
+    status->done.width = job->request.width;
+    status->done.height = job->request.height;
+    status->moving_frames += pass->kind == PASS_MOVING;
+    status->moving_coarse += pass->kind == PASS_MOVING && pass->divisor > 1;
 }
 
 static void finish_pass(Worker *worker, const Job *job, Layer *layer, double seconds)
@@ -100,26 +101,26 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     learn(worker, &job->pass, seconds, (double)progress->tiles_done / (double)progress->tiles);
     const bool shows = whole && job->pass.kind != PASS_COUNT;
     (shows ? canvas_finish : canvas_drop)(worker->setup.canvas, layer);
-    WorkerNews *news = begin_news(worker);
-    news->progress = 0;
+    WorkerStatus *status = begin_update(worker);
+    status->progress = 0;
     if (shows) {
-        tell_picture(news, job);
-        news->frame_seconds = seconds;
+        record_picture(status, job);
+        status->frame_seconds = seconds;
     } else if (whole) {
-        news->reached.is_counted = true;
+        status->reached.is_counted = true;
         for (int kind = 0; kind < TALLY_KINDS; kind++)
-            news->tallies[kind] = progress->tallies[kind];
+            status->tallies[kind] = progress->tallies[kind];
     }
-    end_news(worker);
+    end_update(worker);
 }
 
 // What cannot be traced is given up until something else is wished.
 static void give_up(Worker *worker, const Job *job, const Error *error)
 {
-    WorkerNews *news = begin_news(worker);
-    news->reached = (PlanReached){job->wish.subject, 1, job->wish.samples, true};
-    news->failure = *error;
-    end_news(worker);
+    WorkerStatus *status = begin_update(worker);
+    status->reached = (PlanReached){job->request.subject, 1, job->request.samples, true};
+    status->failure = *error;
+    end_update(worker);
 }
 
 void jobs_trace(Worker *worker, const Job *job)
@@ -130,7 +131,7 @@ void jobs_trace(Worker *worker, const Job *job)
     Layer *layer = canvas_begin(worker->setup.canvas, &settings, hidden, &error);
     Tracing tracing = {worker, job, layer};
     const RenderObserver observer = {tile_done, &tracing};
-    const Shot shot = {&job->wish.camera, &job->pass};
+    const Shot shot = {&job->request.camera, &job->pass};
     const double start = clock_seconds();
     if (layer != NULL &&
         tracer_draw(&worker->tracer, &shot, &observer, &layer->framebuffer, &error)) {
@@ -145,33 +146,33 @@ void jobs_trace(Worker *worker, const Job *job)
 // The renderer is made for what was wished, or cannot be; error is empty where it is.
 static void tell_taken(Worker *worker, const Job *job, const Error *error)
 {
-    WorkerNews *news = begin_news(worker);
-    news->done.uses_bvh = job->wish.uses_bvh;
-    news->done.renewals = job->wish.renewals;
-    news->failure = *error;
-    news->busy = "";
+    WorkerStatus *status = begin_update(worker);
+    status->done.uses_bvh = job->request.uses_bvh;
+    status->done.renewals = job->request.renewals;
+    status->failure = *error;
+    status->busy = "";
     if (error->text[0] == '\0')
-        news->reached = (PlanReached){0};
-    end_news(worker);
+        status->reached = (PlanReached){0};
+    end_update(worker);
 }
 
 // The same of the scene.
 static void tell_loaded(Worker *worker, const Job *job, const Error *error)
 {
-    WorkerNews *news = begin_news(worker);
-    news->done.loads = job->wish.loads;
-    news->scene_failure = *error;
-    news->busy = "";
-    end_news(worker);
+    WorkerStatus *status = begin_update(worker);
+    status->done.loads = job->request.loads;
+    status->scene_failure = *error;
+    status->busy = "";
+    end_update(worker);
 }
 
 static bool take(Worker *worker, const Job *job, Model *model, Error *error)
 {
     tell_busy(worker, "compiling the kernels");
-    const bool ok = tracer_take(&worker->tracer, model, job->wish.uses_bvh, error);
+    const bool ok = tracer_take(&worker->tracer, model, job->request.uses_bvh, error);
     if (ok) {
         worker->sample_seconds =
-            plan_first_guess((uint32_t)model->triangles.count, job->wish.uses_bvh);
+            plan_first_guess((uint32_t)model->triangles.count, job->request.uses_bvh);
         worker->has_measured = false;
     }
     return ok;
@@ -180,12 +181,12 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
 // Puts the model, whose tree may still be missing, where the window finds it.
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
-    WorkerNews *news = begin_news(worker);
+    WorkerStatus *status = begin_update(worker);
     Model *before = worker->model;
     worker->model = model_hold(model);
-    news->models += before != model;
-    news->has_tree = has_tree;
-    end_news(worker);
+    status->models += before != model;
+    status->has_tree = has_tree;
+    end_update(worker);
     model_release(before);
 }
 
@@ -193,7 +194,7 @@ void jobs_load(Worker *worker, const Job *job)
 {
     Error error = {0};
     tell_busy(worker, "reading the scene");
-    Model *model = model_load(job->wish.path, worker->setup.options->threads, &error);
+    Model *model = model_load(job->request.path, worker->setup.options->threads, &error);
     const BvhSettings tree = tracer_tree(&worker->tracer);
     if (model != NULL && model_build_tree(model, &tree, worker->setup.options->threads, &error)) {
         Error cause = {0};
@@ -207,11 +208,11 @@ void jobs_load(Worker *worker, const Job *job)
 
 static void tell_fault(Worker *worker, WorkerFault fault, const Error *error)
 {
-    WorkerNews *news = begin_news(worker);
-    news->fault = fault;
-    news->failure = *error;
-    news->busy = "";
-    end_news(worker);
+    WorkerStatus *status = begin_update(worker);
+    status->fault = fault;
+    status->failure = *error;
+    status->busy = "";
+    end_update(worker);
 }
 
 // The first scene is shown before the device is open and the tree built.
@@ -219,9 +220,9 @@ bool jobs_begin(Worker *worker)
 {
     Error error = {0};
     pthread_mutex_lock(&worker->mutex);
-    const Job job = {.kind = JOB_LOAD, .wish = worker->wish};
+    const Job job = {.kind = JOB_LOAD, .request = worker->request};
     pthread_mutex_unlock(&worker->mutex);
-    Model *model = model_load(job.wish.path, worker->setup.options->threads, &error);
+    Model *model = model_load(job.request.path, worker->setup.options->threads, &error);
     if (model == NULL) {
         tell_fault(worker, FAULT_SCENE, &error);
         return false;
@@ -253,7 +254,7 @@ void jobs_take(Worker *worker, const Job *job)
 
 void jobs_encode(Worker *worker, const Job *job)
 {
-    canvas_encode_again(worker->setup.canvas, job->wish.gain);
-    begin_news(worker)->done.gain = job->wish.gain;
-    end_news(worker);
+    canvas_encode_again(worker->setup.canvas, job->request.gain);
+    begin_update(worker)->done.gain = job->request.gain;
+    end_update(worker);
 }

@@ -17,19 +17,19 @@ static uint32_t divided(uint32_t length, uint32_t divisor)
     return (length + divisor - 1) / divisor;
 }
 
-static double pixel_count(const PlanWish *wish, uint32_t divisor)
+static double pixel_count(const PlanRequest *request, uint32_t divisor)
 {
-    return (double)divided(wish->width, divisor) * divided(wish->height, divisor);
+    return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
 // The least divisor that keeps to the time.
-static uint32_t moving_divisor(const PlanWish *wish)
+static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};
     const int count = sizeof divisors / sizeof divisors[0];
     int place = 0;
     while (place < count - 1 &&
-           pixel_count(wish, divisors[place]) * wish->sample_seconds > TRACE_SECONDS)
+           pixel_count(request, divisors[place]) * request->sample_seconds > TRACE_SECONDS)
         place++;
     return divisors[place];
 }
@@ -42,28 +42,28 @@ static uint32_t tile_side(double pixel_seconds)
     return side;
 }
 
-static Pass make_pass(const PlanWish *wish, PassKind kind, uint32_t divisor, uint32_t samples)
+static Pass make_pass(const PlanRequest *request, PassKind kind, uint32_t divisor, uint32_t samples)
 {
     return (Pass){.kind = kind,
                   .divisor = divisor,
                   .samples = samples,
-                  .width = divided(wish->width, divisor),
-                  .height = divided(wish->height, divisor),
-                  .tile = tile_side(wish->sample_seconds * samples * samples)};
+                  .width = divided(request->width, divisor),
+                  .height = divided(request->height, divisor),
+                  .tile = tile_side(request->sample_seconds * samples * samples)};
 }
 
-Pass plan_pass(const PlanWish *wish, const PlanReached *reached)
+Pass plan_pass(const PlanRequest *request, const PlanReached *reached)
 {
-    if (!wish->is_wanted || wish->width == 0 || wish->height == 0)
+    if (!request->is_wanted || request->width == 0 || request->height == 0)
         return (Pass){0};
-    if (reached->subject != wish->subject)
-        return make_pass(wish, PASS_MOVING, moving_divisor(wish), 1);
+    if (reached->subject != request->subject)
+        return make_pass(request, PASS_MOVING, moving_divisor(request), 1);
     if (reached->divisor > 1)
-        return make_pass(wish, PASS_FULL, 1, 1);
-    if (reached->samples != wish->samples)
-        return make_pass(wish, PASS_FULL, 1, wish->samples);
+        return make_pass(request, PASS_FULL, 1, 1);
+    if (reached->samples != request->samples)
+        return make_pass(request, PASS_FULL, 1, request->samples);
     if (!reached->is_counted)
-        return make_pass(wish, PASS_COUNT, 1, wish->samples);
+        return make_pass(request, PASS_COUNT, 1, request->samples);
     return (Pass){0};
 }
 

@@ -16,7 +16,7 @@ typedef struct {
     uint32_t width, height;
     uint32_t samples;      // per pixel and axis
     double sample_seconds; // that tracing one takes, as measured
-} PlanWish;
+} PlanRequest;
 
 // The best picture there is.
 typedef struct {
@@ -40,7 +40,7 @@ typedef struct {
     uint32_t tile;          // side, so small that stopping takes no time
 } Pass;
 
-Pass plan_pass(const PlanWish *wish, const PlanReached *reached);
+Pass plan_pass(const PlanRequest *request, const PlanReached *reached);
 
 // What a sample may be expected to take before any was traced.
 double plan_first_guess(uint32_t triangles, bool uses_bvh);

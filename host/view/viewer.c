@@ -66,7 +66,7 @@ static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
     const bool is_behind =
-        viewer->state.traced && viewer->news.reached.subject != viewer->wish.subject;
+        viewer->state.traced && viewer->status.reached.subject != viewer->request.subject;
     if (viewer->state.turning && !viewer->wants_save && !is_behind) {
         state_advance(&viewer->state, now - viewer->advanced);
         viewer->is_dirty = true;
@@ -80,24 +80,24 @@ static bool same_camera(const Viewpoint *one, const Viewpoint *other)
     return memcmp(one, other, sizeof *one) == 0;
 }
 
-static void make_wish(Viewer *viewer)
+static void post_request(Viewer *viewer)
 {
-    WorkerWish *wish = &viewer->wish;
+    WorkerRequest *request = &viewer->request;
     uint32_t width, height;
     window_measure(&viewer->window, &width, &height);
-    if (width != wish->width || height != wish->height ||
-        !same_camera(&wish->camera, &viewer->state.camera)) {
-        wish->subject++;
+    if (width != request->width || height != request->height ||
+        !same_camera(&request->camera, &viewer->state.camera)) {
+        request->subject++;
         viewer->is_dirty = true;
     }
-    wish->camera = viewer->state.camera;
-    wish->width = width;
-    wish->height = height;
-    wish->samples = samples_of(viewer);
-    wish->is_traced = viewer->state.traced;
-    wish->uses_bvh = viewer->state.uses_bvh;
-    wish->gain = state_gain(&viewer->state);
-    worker_wish(viewer->worker, wish);
+    request->camera = viewer->state.camera;
+    request->width = width;
+    request->height = height;
+    request->samples = samples_of(viewer);
+    request->is_traced = viewer->state.traced;
+    request->uses_bvh = viewer->state.uses_bvh;
+    request->gain = state_gain(&viewer->state);
+    worker_request(viewer->worker, request);
 }
 
 // How long the loop may sleep.
@@ -117,7 +117,7 @@ static bool step(Viewer *viewer, Error *error)
     viewer_follow_saver(viewer);
     viewer_follow_files(viewer);
     advance(viewer);
-    make_wish(viewer);
+    post_request(viewer);
     if ((viewer->is_dirty || viewer->window.is_touched) && !viewer_draw(viewer, error))
         return false;
     viewer_save(viewer);
@@ -130,9 +130,9 @@ static bool await_scene(Viewer *viewer)
 {
     do {
         window_wait(&viewer->window, REST_SECONDS);
-        worker_look(viewer->worker, &viewer->news);
-    } while (viewer->news.models == 0 && viewer->news.fault == FAULT_NONE);
-    return viewer->news.fault == FAULT_NONE;
+        worker_poll(viewer->worker, &viewer->status);
+    } while (viewer->status.models == 0 && viewer->status.fault == FAULT_NONE);
+    return viewer->status.fault == FAULT_NONE;
 }
 
 static bool open_window(Viewer *viewer, Error *error)
@@ -148,8 +148,8 @@ static bool open_window(Viewer *viewer, Error *error)
 
 static ViewerEnd end_of_fault(const Viewer *viewer, Error *error)
 {
-    error_set(error, "%s", viewer->news.failure.text);
-    return viewer->news.fault == FAULT_SCENE ? VIEWER_NO_SCENE : VIEWER_NO_DEVICE;
+    error_set(error, "%s", viewer->status.failure.text);
+    return viewer->status.fault == FAULT_SCENE ? VIEWER_NO_SCENE : VIEWER_NO_DEVICE;
 }
 
 static ViewerEnd show(Viewer *viewer, Error *error)
@@ -163,7 +163,7 @@ static ViewerEnd show(Viewer *viewer, Error *error)
     while (!viewer->quits) {
         if (!step(viewer, error))
             return VIEWER_NO_WINDOW;
-        if (viewer->news.fault != FAULT_NONE)
+        if (viewer->status.fault != FAULT_NONE)
             return end_of_fault(viewer, error);
     }
     return VIEWER_CLOSED;
@@ -177,7 +177,8 @@ static void close_viewer(Viewer *viewer)
         window_hide(&viewer->window);
     saver_finish(&viewer->saver);
     if (viewer->settings.statistics)
-        pace_write(&viewer->pace, viewer->news.moving_coarse, viewer->news.moving_frames, stderr);
+        pace_write(&viewer->pace, viewer->status.moving_coarse, viewer->status.moving_frames,
+                   stderr);
     pace_free(&viewer->pace);
     reload_free(&viewer->reload);
     model_release(viewer->model);
@@ -205,16 +206,16 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
     viewer->script = (Script){settings->keys, settings->quit_after};
-    viewer->wish = (WorkerWish){
+    viewer->request = (WorkerRequest){
         .path = settings->scene_path, .loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
-    viewer->news.busy = "";
+    viewer->status.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
     ViewerEnd end = VIEWER_NO_DEVICE;
     // What changes while it is read the first time has changed.
     if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&
         reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
-        viewer->worker = worker_start(&setup, &viewer->wish, error);
+        viewer->worker = worker_start(&setup, &viewer->request, error);
     if (viewer->worker != NULL)
         end = show(viewer, error);
     close_viewer(viewer);

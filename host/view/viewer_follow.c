@@ -13,12 +13,12 @@ static void describe_scene(Viewer *viewer)
         (StateScene){.viewpoints = scene->viewpoints.data,
                      .viewpoint_count = scene->viewpoints.count,
                      .is_course = scene->has_course_views,
-                     .levels = viewer->news.has_tree ? boxes_levels(&viewer->model->bvh) : 0};
+                     .levels = viewer->status.has_tree ? boxes_levels(&viewer->model->bvh) : 0};
 }
 
 static bool follow_files(Viewer *viewer, Error *error)
 {
-    const bool failed = viewer->news.scene_failure.text[0] != '\0';
+    const bool failed = viewer->status.scene_failure.text[0] != '\0';
     viewer->is_failure_followed = failed;
     return reload_follow(&viewer->reload, &viewer->model->scene, viewer->settings.scene_path,
                          failed, error);
@@ -40,19 +40,19 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
             state_begin(&viewer->scene, settings->view, settings->smooth, settings->uses_bvh);
     else
         (viewer->model->path == before ? state_adopt : state_open)(&viewer->state, &viewer->scene);
-    viewer->wish.subject++;
+    viewer->request.subject++;
     return views_load(&viewer->views, viewer->model, error) && follow_files(viewer, error);
 }
 
 bool viewer_follow_worker(Viewer *viewer, Error *error)
 {
-    WorkerNews news;
-    worker_look(viewer->worker, &news);
-    if (news.number == viewer->news.number)
+    WorkerStatus status;
+    worker_poll(viewer->worker, &status);
+    if (status.number == viewer->status.number)
         return true;
-    const bool has_model = news.models != viewer->news.models;
-    const bool has_tree = news.has_tree != viewer->news.has_tree;
-    viewer->news = news;
+    const bool has_model = status.models != viewer->status.models;
+    const bool has_tree = status.has_tree != viewer->status.has_tree;
+    viewer->status = status;
     viewer->is_dirty = true;
     if (has_model && !viewer_adopt_model(viewer, error))
         return false;
@@ -60,7 +60,7 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
         describe_scene(viewer);
         viewer->views.has_boxes = false;
     }
-    const bool failed = news.scene_failure.text[0] != '\0';
+    const bool failed = status.scene_failure.text[0] != '\0';
     return viewer->model == NULL || failed == viewer->is_failure_followed ||
            follow_files(viewer, error);
 }
@@ -74,8 +74,8 @@ bool viewer_take_drop(Viewer *viewer, Error *error)
         free(path);
         return false;
     }
-    viewer->settings.scene_path = viewer->wish.path = path;
-    viewer->wish.loads++;
+    viewer->settings.scene_path = viewer->request.path = path;
+    viewer->request.loads++;
     viewer->notice[0] = '\0';
     viewer->is_dirty = true;
     return follow_files(viewer, error);
@@ -85,15 +85,15 @@ void viewer_follow_files(Viewer *viewer)
 {
     const unsigned changed = reload_look(&viewer->reload, clock_seconds());
     if (changed & RELOAD_SCENE)
-        viewer->wish.loads++;
+        viewer->request.loads++;
     if (changed & RELOAD_KERNELS)
-        viewer->wish.renewals++;
+        viewer->request.renewals++;
 }
 
 bool viewer_renew(Viewer *viewer, Error *error)
 {
-    viewer->wish.loads++;
-    viewer->wish.renewals++;
+    viewer->request.loads++;
+    viewer->request.renewals++;
     views_close(&viewer->views);
     return views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
 }
@@ -105,6 +105,7 @@ bool viewer_recover(Viewer *viewer, Error *error)
     views_close(&viewer->views);
     window_close(&viewer->window);
     viewer->title[0] = '\0';
-    return window_open(&viewer->window, "clrt", viewer->wish.width, viewer->wish.height, error) &&
+    return window_open(&viewer->window, "clrt", viewer->request.width, viewer->request.height,
+                       error) &&
            views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
 }

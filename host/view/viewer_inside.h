@@ -22,8 +22,8 @@ typedef struct {
     Views views;
     Canvas canvas;
     Worker *worker;
-    WorkerWish wish;
-    WorkerNews news;
+    WorkerRequest request;
+    WorkerStatus status;
     Model *model; // held; NULL until the first is read
     StateScene scene;
     State state;

@@ -8,28 +8,28 @@
 
 static Figures figures_of(const Viewer *viewer)
 {
-    const WorkerNews *news = &viewer->news;
-    const uint64_t *tallies = news->tallies;
+    const WorkerStatus *status = &viewer->status;
+    const uint64_t *tallies = status->tallies;
     const char *slash = strrchr(viewer->settings.scene_path, '/');
     Figures figures = {.scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
-                       .width = viewer->wish.width,
-                       .height = viewer->wish.height,
+                       .width = viewer->request.width,
+                       .height = viewer->request.height,
                        .samples = viewer->settings.samples,
-                       .divisor = news->reached.divisor,
-                       .is_finished = worker_is_finished(news, &viewer->wish),
-                       .progress = news->progress,
-                       .frame_seconds = news->frame_seconds,
-                       .has_counts = news->reached.is_counted,
+                       .divisor = status->reached.divisor,
+                       .is_finished = worker_is_finished(status, &viewer->request),
+                       .progress = status->progress,
+                       .frame_seconds = status->frame_seconds,
+                       .has_counts = status->reached.is_counted,
                        .rays = tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] +
                                tallies[TALLY_REFLECTED_RAYS],
                        .box_count = viewer->views.boxes.count,
-                       .busy = news->busy,
+                       .busy = status->busy,
                        .notice = viewer->notice,
-                       .failure = news->scene_failure.text};
+                       .failure = status->scene_failure.text};
     if (figures.rays > 0)
         figures.tests_per_ray = (double)tallies[TALLY_TRIANGLE_TESTS] / (double)figures.rays;
     if (figures.failure[0] == '\0')
-        figures.failure = news->failure.text;
+        figures.failure = status->failure.text;
     if (figures.failure[0] == '\0')
         figures.failure = viewer->failure.text;
     return figures;
@@ -37,23 +37,23 @@ static Figures figures_of(const Viewer *viewer)
 
 bool viewer_is_settled(const Viewer *viewer)
 {
-    const WorkerNews *news = &viewer->news;
-    const bool still = worker_is_finished(news, &viewer->wish) &&
-                       (!viewer->state.traced || news->reached.is_counted);
-    return viewer->model != NULL && news->has_tree && news->busy[0] == '\0' &&
+    const WorkerStatus *status = &viewer->status;
+    const bool still = worker_is_finished(status, &viewer->request) &&
+                       (!viewer->state.traced || status->reached.is_counted);
+    return viewer->model != NULL && status->has_tree && status->busy[0] == '\0' &&
            !viewer->wants_save && !viewer->saver.is_running && (viewer->state.turning || still);
 }
 
 static Frame frame_of(Viewer *viewer)
 {
-    const bool lags = viewer->state.traced && viewer->news.reached.subject > 0;
+    const bool lags = viewer->state.traced && viewer->status.reached.subject > 0;
     return (Frame){.state = &viewer->state,
                    .model = viewer->model,
-                   .has_tree = viewer->news.has_tree,
+                   .has_tree = viewer->status.has_tree,
                    .canvas = &viewer->canvas,
-                   .camera = lags ? viewer->news.done.camera : viewer->state.camera,
-                   .width = viewer->wish.width,
-                   .height = viewer->wish.height,
+                   .camera = lags ? viewer->status.done.camera : viewer->state.camera,
+                   .width = viewer->request.width,
+                   .height = viewer->request.height,
                    .encoding = viewer->settings.encoding};
 }
 
@@ -63,7 +63,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     if (!viewer->state.text && !viewer->state.help)
         return;
     words_overlay(text, sizeof text, &viewer->state, figures);
-    text_view_draw(&viewer->views.text, text, viewer->wish.width, viewer->wish.height,
+    text_view_draw(&viewer->views.text, text, viewer->request.width, viewer->request.height,
                    window_text_scale(&viewer->window));
 }
 
@@ -106,13 +106,13 @@ static void tell_failure(Viewer *viewer, const Figures *figures)
 static bool is_new_frame(const Viewer *viewer)
 {
     return !viewer->state.turning || !viewer->state.traced ||
-           viewer->news.moving_frames != viewer->moving_shown;
+           viewer->status.moving_frames != viewer->moving_shown;
 }
 
 static void count_frame(Viewer *viewer, bool was_settled)
 {
     const bool is_new = is_new_frame(viewer);
-    viewer->moving_shown = viewer->news.moving_frames;
+    viewer->moving_shown = viewer->status.moving_frames;
     if (!viewer->state.turning)
         pace_pause(&viewer->pace);
     else if (is_new)
@@ -168,7 +168,7 @@ void viewer_save(Viewer *viewer)
     Saver *saver = &viewer->saver;
     Error *error = &viewer->failure;
     if (!viewer->wants_save || viewer->is_dirty || saver->is_running ||
-        !worker_is_finished(&viewer->news, &viewer->wish))
+        !worker_is_finished(&viewer->status, &viewer->request))
         return;
     const Figures figures = figures_of(viewer);
     viewer->wants_save = false;

@@ -9,35 +9,35 @@
 
 static Pass next_pass(const Worker *worker)
 {
-    const WorkerWish *wish = &worker->wish;
-    const PlanWish plan = {.is_wanted = wish->is_traced && worker->tracer.model != NULL,
-                           .subject = wish->subject,
-                           .width = wish->width,
-                           .height = wish->height,
-                           .samples = wish->samples,
-                           .sample_seconds = worker->sample_seconds};
-    return plan_pass(&plan, &worker->news.reached);
+    const WorkerRequest *request = &worker->request;
+    const PlanRequest plan = {.is_wanted = request->is_traced && worker->tracer.model != NULL,
+                              .subject = request->subject,
+                              .width = request->width,
+                              .height = request->height,
+                              .samples = request->samples,
+                              .sample_seconds = worker->sample_seconds};
+    return plan_pass(&plan, &worker->status.reached);
 }
 
 // Under the lock.  False where there is nothing to do.
 static bool choose_job(Worker *worker, Job *job)
 {
-    const WorkerWish *wish = &worker->wish, *done = &worker->news.done;
-    *job = (Job){.kind = JOB_STOP, .wish = *wish};
+    const WorkerRequest *request = &worker->request, *done = &worker->status.done;
+    *job = (Job){.kind = JOB_STOP, .request = *request};
     if (worker->stops)
         return true;
-    if (wish->loads != done->loads) {
+    if (request->loads != done->loads) {
         job->kind = JOB_LOAD;
         return true;
     }
-    if (wish->uses_bvh != done->uses_bvh || wish->renewals != done->renewals) {
+    if (request->uses_bvh != done->uses_bvh || request->renewals != done->renewals) {
         job->kind = JOB_TAKE;
         return true;
     }
     job->pass = next_pass(worker);
     job->kind = JOB_PASS;
     // A picture that has to be traced is encoded anew all the same.
-    if (wish->is_traced && wish->gain != done->gain && job->pass.kind != PASS_MOVING)
+    if (request->is_traced && request->gain != done->gain && job->pass.kind != PASS_MOVING)
         job->kind = JOB_ENCODE;
     return job->kind == JOB_ENCODE || job->pass.kind != PASS_NONE;
 }
@@ -98,12 +98,13 @@ static void free_worker(Worker *worker)
     free(worker);
 }
 
-Worker *worker_start(const WorkerSetup *setup, const WorkerWish *wish, Error *error)
+Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Error *error)
 {
     Worker *worker = memory_zeroed(1, sizeof *worker, error);
     if (worker == NULL)
         return NULL;
-    *worker = (Worker){.setup = *setup, .wish = *wish, .news = {.busy = "reading the scene"}};
+    *worker =
+        (Worker){.setup = *setup, .request = *request, .status = {.busy = "reading the scene"}};
     pthread_mutex_init(&worker->mutex, NULL);
     pthread_cond_init(&worker->changed, NULL);
     if (start_thread(worker))
@@ -113,18 +114,18 @@ Worker *worker_start(const WorkerSetup *setup, const WorkerWish *wish, Error *er
     return NULL;
 }
 
-void worker_wish(Worker *worker, const WorkerWish *wish)
+void worker_request(Worker *worker, const WorkerRequest *request)
 {
     pthread_mutex_lock(&worker->mutex);
-    worker->wish = *wish;
+    worker->request = *request;
     pthread_cond_signal(&worker->changed);
     pthread_mutex_unlock(&worker->mutex);
 }
 
-void worker_look(Worker *worker, WorkerNews *news)
+void worker_poll(Worker *worker, WorkerStatus *status)
 {
     pthread_mutex_lock(&worker->mutex);
-    *news = worker->news;
+    *status = worker->status;
     pthread_mutex_unlock(&worker->mutex);
 }
 
@@ -136,15 +137,15 @@ Model *worker_model(Worker *worker)
     return model;
 }
 
-bool worker_is_finished(const WorkerNews *news, const WorkerWish *wish)
+bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request)
 {
-    const WorkerWish *done = &news->done;
-    const bool is_read = done->loads == wish->loads && done->renewals == wish->renewals &&
-                         done->uses_bvh == wish->uses_bvh;
-    const PlanReached *reached = &news->reached;
-    const bool is_traced = reached->subject == wish->subject && reached->divisor == 1 &&
-                           reached->samples == wish->samples && done->gain == wish->gain;
-    return is_read && (!wish->is_traced || is_traced);
+    const WorkerRequest *done = &status->done;
+    const bool is_read = done->loads == request->loads && done->renewals == request->renewals &&
+                         done->uses_bvh == request->uses_bvh;
+    const PlanReached *reached = &status->reached;
+    const bool is_traced = reached->subject == request->subject && reached->divisor == 1 &&
+                           reached->samples == request->samples && done->gain == request->gain;
+    return is_read && (!request->is_traced || is_traced);
 }
 
 bool worker_stop(Worker *worker, double seconds)

@@ -18,7 +18,7 @@ typedef struct {
     double gain;
     uint64_t loads;    // how often the scene was to be read, the first time included
     uint64_t renewals; // how often the kernels were to be made again
-} WorkerWish;
+} WorkerRequest;
 
 typedef enum { FAULT_NONE, FAULT_SCENE, FAULT_DEVICE } WorkerFault;
 
@@ -31,13 +31,13 @@ typedef struct {
     uint64_t models;     // read so far
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // with what, empty where it is tracing or idle
-    WorkerWish done;     // the wish that the latest whole picture and its scene answer
+    WorkerRequest done;  // the wish that the latest whole picture and its scene answer
     PlanReached reached;
     double progress;                       // of the pass that is being traced
     double frame_seconds;                  // of the latest pass
     uint64_t moving_frames, moving_coarse; // pictures of moving cameras; those not of all pixels
     uint64_t tallies[TALLY_KINDS];         // where reached is counted
-} WorkerNews;
+} WorkerStatus;
 
 typedef struct Worker Worker;
 
@@ -49,16 +49,16 @@ typedef struct {
 } WorkerSetup;
 
 // Starts, with a first wish.  NULL with the reason where no thread can be had.
-Worker *worker_start(const WorkerSetup *setup, const WorkerWish *wish, Error *error);
+Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Error *error);
 
-void worker_wish(Worker *worker, const WorkerWish *wish);
-void worker_look(Worker *worker, WorkerNews *news);
+void worker_request(Worker *worker, const WorkerRequest *request);
+void worker_poll(Worker *worker, WorkerStatus *status);
 
 // The latest model, held for the caller; NULL while there is none.
 Model *worker_model(Worker *worker);
 
 // Whether nothing is left to read or to trace for the wish.
-bool worker_is_finished(const WorkerNews *news, const WorkerWish *wish);
+bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker.  Where it does not come to its end within so many seconds, nothing
 // is freed and it returns false: the process is to end then.

@@ -9,8 +9,8 @@ struct Worker {
     pthread_t thread;
     pthread_mutex_t mutex; // over the next five
     pthread_cond_t changed;
-    WorkerWish wish;
-    WorkerNews news;
+    WorkerRequest request;
+    WorkerStatus status;
     Model *model;
     bool stops;
     // The thread's own:
@@ -24,7 +24,7 @@ typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_ENCODE, JOB_PASS } JobKind;
 
 typedef struct {
     JobKind kind;
-    WorkerWish wish; // as it was when the job was chosen
+    WorkerRequest request; // as it was when the job was chosen
     Pass pass;
 } Job;
 

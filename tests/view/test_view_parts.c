@@ -15,44 +15,44 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const PlanWish plain = {.is_wanted = true,
-                               .subject = 7,
-                               .width = 500,
-                               .height = 300,
-                               .samples = 2,
-                               .sample_seconds = 1e-9};
+static const PlanRequest plain = {.is_wanted = true,
+                                  .subject = 7,
+                                  .width = 500,
+                                  .height = 300,
+                                  .samples = 2,
+                                  .sample_seconds = 1e-9};
 
 static void what_stands_still_sharpens_step_by_step(void **state)
 {
     (void)state;
-    PlanWish wish = plain;
-    wish.sample_seconds = 1e-6;
+    PlanRequest request = plain;
+    request.sample_seconds = 1e-6;
     PlanReached reached = {0};
-    Pass pass = plan_pass(&wish, &reached);
+    Pass pass = plan_pass(&request, &reached);
     assert_int_equal(pass.kind, PASS_MOVING);
     assert_true(pass.divisor > 1 && pass.samples == 1);
     assert_int_equal(pass.width, (500 + pass.divisor - 1) / pass.divisor);
     reached = (PlanReached){7, pass.divisor, 1, false};
-    pass = plan_pass(&wish, &reached);
+    pass = plan_pass(&request, &reached);
     assert_true(pass.kind == PASS_FULL && pass.divisor == 1 && pass.samples == 1);
     reached = (PlanReached){7, 1, 1, false};
-    pass = plan_pass(&wish, &reached);
+    pass = plan_pass(&request, &reached);
     assert_true(pass.kind == PASS_FULL && pass.samples == 2);
     reached = (PlanReached){7, 1, 2, false};
-    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_COUNT);
+    assert_int_equal(plan_pass(&request, &reached).kind, PASS_COUNT);
     reached.is_counted = true;
-    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
+    assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
 }
 
 static void moving_pictures_take_the_time_of_a_frame(void **state)
 {
     (void)state;
     const PlanReached reached = {6, 1, 2, true}; // of another camera
-    PlanWish wish = plain;
-    assert_int_equal(plan_pass(&wish, &reached).divisor, 1);
+    PlanRequest request = plain;
+    assert_int_equal(plan_pass(&request, &reached).divisor, 1);
     for (double cost = 1e-9; cost < 1e-5; cost *= 1.1) {
-        wish.sample_seconds = cost;
-        const Pass pass = plan_pass(&wish, &reached);
+        request.sample_seconds = cost;
+        const Pass pass = plan_pass(&request, &reached);
         assert_int_equal(pass.kind, PASS_MOVING);
         assert_true(pass.width * pass.height * cost < PLAN_FRAME_SECONDS || pass.divisor == 16);
     }
@@ -62,11 +62,11 @@ static void tiles_are_so_small_that_stopping_takes_no_time(void **state)
 {
     (void)state;
     const PlanReached reached = {7, 1, 1, false};
-    PlanWish wish = plain;
-    assert_int_equal(plan_pass(&wish, &reached).tile, 128);
+    PlanRequest request = plain;
+    assert_int_equal(plan_pass(&request, &reached).tile, 128);
     for (double cost = 1e-9; cost < 4e-5; cost *= 1.1) {
-        wish.sample_seconds = cost;
-        const Pass pass = plan_pass(&wish, &reached);
+        request.sample_seconds = cost;
+        const Pass pass = plan_pass(&request, &reached);
         const double seconds = pass.tile * pass.tile * cost * pass.samples * pass.samples;
         assert_true(seconds < 0.02 || pass.tile == 8);
     }
@@ -76,12 +76,12 @@ static void nothing_is_traced_unasked_or_for_no_window(void **state)
 {
     (void)state;
     const PlanReached reached = {0};
-    PlanWish wish = plain;
-    wish.width = 0;
-    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
-    wish = plain;
-    wish.is_wanted = false;
-    assert_int_equal(plan_pass(&wish, &reached).kind, PASS_NONE);
+    PlanRequest request = plain;
+    request.width = 0;
+    assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
+    request = plain;
+    request.is_wanted = false;
+    assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
 }
 
 static void brute_force_is_expected_to_be_dear(void **state)
