@@ -5,8 +5,8 @@
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
 #include "device/threads.h"
+#include "view/status_text.h"
 #include "view/viewer.h"
-#include "view/words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 void show_write_keys(FILE *stream)
 {
     fprintf(stream, "\nIn the window:\n");
-    for (const char *line = words_help(); line[0] != '\0';) {
+    for (const char *line = status_text_help(); line[0] != '\0';) {
         const int length = (int)strcspn(line, "\n");
         fprintf(stream, "  %.*s\n", length, line);
         line += length + (line[length] == '\n');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each key does; view/words.c tells of them.
+// What each key does; view/status_text.c tells of them.
 #include "view/state.h"
 
 #define ARROW_PIXELS      20

@@ -18,8 +18,8 @@ static uint32_t samples_of(const Viewer *viewer)
 
 static void print_camera(const Viewer *viewer)
 {
-    char text[WORDS_SIZE];
-    words_camera(text, sizeof text, &viewer->state);
+    char text[STATUS_TEXT_SIZE];
+    status_text_camera(text, sizeof text, &viewer->state);
     fputs(text, stdout);
     fflush(stdout);
 }

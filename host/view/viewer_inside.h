@@ -7,10 +7,10 @@
 #include "view/reload.h"
 #include "view/saver.h"
 #include "view/script.h"
+#include "view/status_text.h"
 #include "view/viewer.h"
 #include "view/views.h"
 #include "view/window.h"
-#include "view/words.h"
 #include "view/worker.h"
 
 #define STATE_SIZE 1024

@@ -59,10 +59,10 @@ static Frame frame_of(Viewer *viewer)
 
 static void draw_text(Viewer *viewer, const Figures *figures)
 {
-    char text[WORDS_SIZE];
+    char text[STATUS_TEXT_SIZE];
     if (!viewer->state.text && !viewer->state.help)
         return;
-    words_overlay(text, sizeof text, &viewer->state, figures);
+    status_text_overlay(text, sizeof text, &viewer->state, figures);
     text_view_draw(&viewer->views.text, text, viewer->request.width, viewer->request.height,
                    window_text_scale(&viewer->window));
 }
@@ -70,7 +70,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
 static void tell_title(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
-    words_title(text, sizeof text, &viewer->state, figures);
+    status_text_title(text, sizeof text, &viewer->state, figures);
     if (strcmp(text, viewer->title) == 0)
         return;
     window_set_title(&viewer->window, text);
@@ -83,7 +83,7 @@ static void tell_state(Viewer *viewer, const Figures *figures)
     char text[STATE_SIZE];
     if (!viewer->settings.verbose || viewer->state.turning || !viewer_is_settled(viewer))
         return;
-    words_state(text, sizeof text, &viewer->state, figures);
+    status_text_state(text, sizeof text, &viewer->state, figures);
     if (strcmp(text, viewer->told) == 0)
         return;
     fprintf(stderr, "%s\n", text);
@@ -173,7 +173,7 @@ void viewer_save(Viewer *viewer)
     const Figures figures = figures_of(viewer);
     viewer->wants_save = false;
     saver->scene_path = viewer->settings.scene_path;
-    words_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
+    status_text_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
     const bool ok = target_read(&viewer->views.target, &saver->shown, error) &&
                     (viewer->state.traced ? copy_traced(viewer, &saver->traced, error)
                                           : copy_shown(&saver->traced, &saver->shown, error));

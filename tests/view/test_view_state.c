@@ -3,7 +3,7 @@
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 #include "view/state.h"
-#include "view/words.h"
+#include "view/status_text.h"
 
 #include <math.h>
 #include <string.h>
@@ -274,10 +274,10 @@ static void another_scene_is_seen_through_its_first_camera(void **state)
 static void the_printed_camera_is_read_back_to_the_bit(void **state)
 {
     (void)state;
-    char text[WORDS_SIZE];
+    char text[STATUS_TEXT_SIZE];
     Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
     happen(&fixture, EVENT_TURN, 17, 31);
-    words_camera(text, sizeof text, &fixture.state);
+    status_text_camera(text, sizeof text, &fixture.state);
     assert_memory_equal(text, "azimuth ", 8);
     Fixture back = opened(strchr(text, '\n'));
     assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
@@ -291,14 +291,14 @@ static void the_title_tells_view_and_progress(void **state)
     char text[256];
     Fixture fixture = opened("");
     Figures figures = {.scene_name = "a.scn", .busy = "", .notice = "", .failure = ""};
-    words_title(text, sizeof text, &fixture.state, &figures);
+    status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - OpenGL - clrt");
     press(&fixture, "r");
     figures.progress = 0.375;
-    words_title(text, sizeof text, &fixture.state, &figures);
+    status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - ray traced - clrt - 38 %");
     figures.is_finished = true;
-    words_title(text, sizeof text, &fixture.state, &figures);
+    status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - ray traced - clrt");
     scene_free(&fixture.scene);
 }
@@ -306,7 +306,7 @@ static void the_title_tells_view_and_progress(void **state)
 static void the_overlay_tells_figures_failures_and_help(void **state)
 {
     (void)state;
-    char text[WORDS_SIZE];
+    char text[STATUS_TEXT_SIZE];
     Fixture fixture = opened("");
     Figures figures = {.samples = 2,
                        .divisor = 2,
@@ -318,13 +318,13 @@ static void the_overlay_tells_figures_failures_and_help(void **state)
                        .notice = "saved",
                        .failure = "a.scn:1: bad"};
     press(&fixture, "rah");
-    words_overlay(text, sizeof text, &fixture.state, &figures);
+    status_text_overlay(text, sizeof text, &fixture.state, &figures);
     assert_non_null(strstr(text, "ray traced, view 1, AA 2x2, BVH on, azimuth -40.00"));
     assert_non_null(strstr(text, "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests a ray"));
     assert_non_null(strstr(text, "\nsaved\na.scn:1: bad\n"));
-    assert_non_null(strstr(text, words_help()));
+    assert_non_null(strstr(text, status_text_help()));
     char small[16];
-    words_overlay(small, sizeof small, &fixture.state, &figures);
+    status_text_overlay(small, sizeof small, &fixture.state, &figures);
     assert_string_equal(small, "ray traced, vie"); // what does not fit is cut off
     scene_free(&fixture.scene);
 }

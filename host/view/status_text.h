@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#define WORDS_SIZE 8192
+#define STATUS_TEXT_SIZE 8192
 
 // What is known of the picture beside the state.
 typedef struct {
@@ -27,15 +27,15 @@ typedef struct {
 } Figures;
 
 // The state alone, on one line without a line end: what tests and -v tell effects by.
-void words_state(char *text, size_t size, const State *state, const Figures *figures);
+void status_text_state(char *text, size_t size, const State *state, const Figures *figures);
 
 // The overlay's line: state and figures.
-void words_overlay(char *text, size_t size, const State *state, const Figures *figures);
+void status_text_overlay(char *text, size_t size, const State *state, const Figures *figures);
 
-void words_title(char *text, size_t size, const State *state, const Figures *figures);
+void status_text_title(char *text, size_t size, const State *state, const Figures *figures);
 
 // The camera in the course's terms, and as statements of a scene file.
-void words_camera(char *text, size_t size, const State *state);
+void status_text_camera(char *text, size_t size, const State *state);
 
 // The keys and the mouse, a line each.
-const char *words_help(void);
+const char *status_text_help(void);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Nothing here asks the time or the system, so the same state always reads the same.
+#include "view/status_text.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+// A text that grows at its end; what does not fit is cut off.
+typedef struct {
+    char *text;
+    size_t size, length;
+} Buffer;
+
+static Buffer buffer_of(char *text, size_t size)
+{
+    text[0] = '\0';
+    return (Buffer){text, size, 0};
+}
+
+__attribute__((format(printf, 2, 3))) static void add(Buffer *buffer, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length =
+        vsnprintf(buffer->text + buffer->length, buffer->size - buffer->length, format, arguments);
+    va_end(arguments);
+    const size_t room = buffer->size - 1 - buffer->length;
+    buffer->length += length > 0 && (size_t)length < room ? (size_t)length : length > 0 ? room : 0;
+}
+
+static const char *view_name(const State *state)
+{
+    return state->traced ? "ray traced" : "OpenGL";
+}
+
+static const char *on_or_off(bool on)
+{
+    return on ? "on" : "off";
+}
+
+static void add_boxes(Buffer *buffer, const State *state, const Figures *figures)
+{
+    if (!state->boxes)
+        return;
+    if (state->level == 0)
+        add(buffer, ", boxes of leaves: %u", figures->box_count);
+    else
+        add(buffer, ", boxes at level %u: %u", state->level, figures->box_count);
+}
+
+static void add_state(Buffer *buffer, const State *state, const Figures *figures)
+{
+    add(buffer, "%s, view %u%s", view_name(state), state->view, state->moved ? " moved" : "");
+    if (state->smooth)
+        add(buffer, ", AA %ux%u", figures->samples, figures->samples);
+    else
+        add(buffer, ", AA off");
+    add(buffer, ", BVH %s", on_or_off(state->uses_bvh));
+    add_boxes(buffer, state, figures);
+    if (state->normals)
+        add(buffer, ", normals");
+    if (state->turning)
+        add(buffer, ", turning");
+    if (state->exposure != 0)
+        add(buffer, ", exposure %+.1f", state->exposure / 2.0);
+}
+
+static void add_orbit(Buffer *buffer, const Orbit *orbit)
+{
+    add(buffer, "azimuth %.2f, rotation %.2f, distance %.3g", orbit->azimuth, orbit->rotation,
+        orbit->distance);
+}
+
+void status_text_state(char *text, size_t size, const State *state, const Figures *figures)
+{
+    Buffer buffer = buffer_of(text, size);
+    add_state(&buffer, state, figures);
+    add(&buffer, ", help %s, text %s, ", on_or_off(state->help), on_or_off(state->text));
+    add_orbit(&buffer, &state->orbit);
+    add(&buffer, ", %ux%u", figures->width, figures->height);
+}
+
+void status_text_overlay(char *text, size_t size, const State *state, const Figures *figures)
+{
+    Buffer buffer = buffer_of(text, size);
+    add_state(&buffer, state, figures);
+    add(&buffer, ", ");
+    add_orbit(&buffer, &state->orbit);
+    if (figures->frame_seconds > 0)
+        add(&buffer, ", %.1f ms", 1e3 * figures->frame_seconds);
+    if (state->traced && figures->divisor > 1)
+        add(&buffer, " at 1/%u", figures->divisor);
+    if (state->traced && figures->has_counts)
+        add(&buffer, ", %" PRIu64 " rays, %.2f triangle tests a ray", figures->rays,
+            figures->tests_per_ray);
+    if (figures->busy[0] != '\0')
+        add(&buffer, "\n%s", figures->busy);
+    if (figures->notice[0] != '\0')
+        add(&buffer, "\n%s", figures->notice);
+    if (figures->failure[0] != '\0')
+        add(&buffer, "\n%s", figures->failure);
+    if (state->help)
+        add(&buffer, "\n\n%s", status_text_help());
+}
+
+void status_text_title(char *text, size_t size, const State *state, const Figures *figures)
+{
+    Buffer buffer = buffer_of(text, size);
+    add(&buffer, "%s - %s - clrt", figures->scene_name, view_name(state));
+    if (figures->busy[0] != '\0')
+        add(&buffer, " - %s", figures->busy);
+    else if (state->traced && !figures->is_finished)
+        add(&buffer, " - %.0f %%", 100 * figures->progress);
+}
+
+// The shortest form that is read back as the same number.
+static void add_number(Buffer *buffer, const char *before, double value)
+{
+    char text[32];
+    int digits = 6;
+    do
+        snprintf(text, sizeof text, "%.*g", digits++, value);
+    while (digits <= 17 && strtod(text, NULL) != value);
+    add(buffer, "%s%s", before, text);
+}
+
+static void add_vector(Buffer *buffer, const char *before, Vec3 v)
+{
+    add_number(buffer, before, v.x);
+    add_number(buffer, " ", v.y);
+    add_number(buffer, " ", v.z);
+}
+
+void status_text_camera(char *text, size_t size, const State *state)
+{
+    const Viewpoint *camera = &state->camera;
+    Buffer buffer = buffer_of(text, size);
+    add_orbit(&buffer, &state->orbit);
+    if (camera->up.x != 0 || camera->up.y != 0 || camera->up.z != 1)
+        add_vector(&buffer, "\nup ", camera->up);
+    add_vector(&buffer, "\ncamera ", camera->eye);
+    add_vector(&buffer, "  ", camera->look_at);
+    add_number(&buffer, "  ", camera->fov_degrees);
+    add(&buffer, "\n");
+}
+
+const char *status_text_help(void)
+{
+    return "r  OpenGL or ray traced\n"
+           "1-9  the scene's cameras\n"
+           "left drag, arrows  turn\n"
+           "right drag, wheel  come nearer\n"
+           "middle or Shift drag  move sideways\n"
+           "o  turn by itself\n"
+           "a  anti-aliasing\n"
+           "b  tree or brute force\n"
+           "B  boxes of the tree's leaves\n"
+           "] [  boxes of inner nodes, deeper and back\n"
+           "n  normals\n"
+           "+ -  exposure\n"
+           "a file dropped here  the scene shown instead\n"
+           "c  print the camera\n"
+           "s  save the picture\n"
+           "R  read everything again\n"
+           "t  text on and off\n"
+           "h  this help\n"
+           "q, Esc  quit";
+}
