@@ -177,9 +177,9 @@ static void close_viewer(Viewer *viewer)
         window_hide(&viewer->window);
     saver_finish(&viewer->saver);
     if (viewer->settings.statistics)
-        pace_write(&viewer->pace, viewer->status.moving_coarse, viewer->status.moving_frames,
-                   stderr);
-    pace_free(&viewer->pace);
+        frame_times_write(&viewer->frame_times, viewer->status.moving_coarse,
+                          viewer->status.moving_frames, stderr);
+    frame_times_free(&viewer->frame_times);
     reload_free(&viewer->reload);
     model_release(viewer->model);
     if (viewer->window.handle != NULL)

@@ -3,7 +3,7 @@
 // what the worker and the file system did, viewer_show.c draws, tells and saves.
 #pragma once
 
-#include "view/pace.h"
+#include "view/frame_times.h"
 #include "view/reload.h"
 #include "view/saver.h"
 #include "view/script.h"
@@ -33,7 +33,7 @@ typedef struct {
     Script script;
     Saver saver;
     bool wants_save;
-    Pace pace;
+    FrameTimes frame_times;
     double advanced;       // moment until which the camera has turned by itself
     uint64_t moving_shown; // pictures of a moving camera that were traced when one was shown
     Error failure;         // of the window's own doings

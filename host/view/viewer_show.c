@@ -114,9 +114,9 @@ static void count_frame(Viewer *viewer, bool was_settled)
     const bool is_new = is_new_frame(viewer);
     viewer->moving_shown = viewer->status.moving_frames;
     if (!viewer->state.turning)
-        pace_pause(&viewer->pace);
+        frame_times_pause(&viewer->frame_times);
     else if (is_new)
-        pace_add(&viewer->pace, clock_seconds(), &viewer->failure);
+        frame_times_add(&viewer->frame_times, clock_seconds(), &viewer->failure);
     if (was_settled && is_new && script_count_frame(&viewer->script))
         viewer->quits = true;
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Sorted times tell the median and the slow ones.
-#include "view/pace.h"
+#include "view/frame_times.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool pace_add(Pace *pace, double moment, Error *error)
+bool frame_times_add(FrameTimes *times, double moment, Error *error)
 {
-    const double before = pace->latest;
-    pace->latest = moment;
-    return before == 0 || array_push(&pace->seconds, moment - before, error);
+    const double before = times->latest;
+    times->latest = moment;
+    return before == 0 || array_push(&times->seconds, moment - before, error);
 }
 
-void pace_pause(Pace *pace)
+void frame_times_pause(FrameTimes *times)
 {
-    pace->latest = 0;
+    times->latest = 0;
 }
 
 static int compare(const void *first, const void *second)
@@ -24,13 +24,13 @@ static int compare(const void *first, const void *second)
     return (*a > *b) - (*a < *b);
 }
 
-void pace_write(const Pace *pace, uint64_t coarse, uint64_t frames, FILE *stream)
+void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream)
 {
     Error error = {0};
-    const size_t count = pace->seconds.count;
+    const size_t count = times->seconds.count;
     double *sorted = memory_raw(count, sizeof *sorted, &error);
     if (sorted != NULL && count > 0) {
-        memcpy(sorted, pace->seconds.data, count * sizeof *sorted);
+        memcpy(sorted, times->seconds.data, count * sizeof *sorted);
         qsort(sorted, count, sizeof *sorted, compare);
         fprintf(stream,
                 "%zu moving frames: median %.1f ms, 95 %% within %.1f ms, slowest %.1f ms\n", count,
@@ -42,8 +42,8 @@ void pace_write(const Pace *pace, uint64_t coarse, uint64_t frames, FILE *stream
                 frames, frames - coarse);
 }
 
-void pace_free(Pace *pace)
+void frame_times_free(FrameTimes *times)
 {
-    free(pace->seconds.memory);
-    *pace = (Pace){0};
+    free(times->seconds.memory);
+    *times = (FrameTimes){0};
 }
