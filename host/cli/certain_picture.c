@@ -28,7 +28,7 @@ static bool flatten(const Run *run, FlatScene *flat, Error *error)
 static bool certify(Run *run, const CameraData *camera, const FlatScene *flat, Error *error)
 {
     Certifier certifier;
-    RendererSetup setup = run->starter.setup;
+    RendererSetup setup = run->async_device.setup;
     setup.source.choice = certifier_choice();
     if (!certifier_open(&certifier, &setup, flat, &run->settings, error))
         return false;

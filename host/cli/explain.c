@@ -80,7 +80,7 @@ ExitCode explain_pixel(Run *run, Error *error)
     if (!command_files_check(run->options, &run->scene, error))
         return EXIT_OUTPUT;
     if (!has_pixel(run, error)) {
-        starter_decide(&run->starter, false);
+        async_device_decide(&run->async_device, false);
         return EXIT_USAGE;
     }
     run->settings.specialization = SPECIALIZE_NEVER; // for one pixel
@@ -88,7 +88,7 @@ ExitCode explain_pixel(Run *run, Error *error)
     if (prepared != EXIT_DONE)
         return prepared;
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    const ExplainerSource source = {.setup = &run->starter.setup,
+    const ExplainerSource source = {.setup = &run->async_device.setup,
                                     .renderer = &run->renderer,
                                     .scene = &run->scene,
                                     .normalization = &run->normalization,

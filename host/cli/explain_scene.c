@@ -12,8 +12,8 @@
 
 static void write_kernels(const Run *run)
 {
-    const KernelChoice *choice = &run->starter.setup.source.choice;
-    printf("%s on %s\n", run->options->scene_path, run->starter.device.name);
+    const KernelChoice *choice = &run->async_device.setup.source.choice;
+    printf("%s on %s\n", run->options->scene_path, run->async_device.device.name);
     printf("  %-11s %s over %s nodes in %s: %s\n", "kernels", kernel_family_name(choice->family),
            kernel_nodes_name(choice->nodes), kernel_precision_name(choice->precision),
            scene_family_reason(run));
@@ -98,12 +98,12 @@ static json_t *arrays_json(const Run *run)
 
 static json_t *whole_json(const Run *run)
 {
-    const KernelChoice *choice = &run->starter.setup.source.choice;
+    const KernelChoice *choice = &run->async_device.setup.source.choice;
     return json_pack(
         "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
         SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
-        "device", run->starter.device.name, "kernels", "family", kernel_family_name(choice->family),
-        "nodes", kernel_nodes_name(choice->nodes), "precision",
+        "device", run->async_device.device.name, "kernels", "family",
+        kernel_family_name(choice->family), "nodes", kernel_nodes_name(choice->nodes), "precision",
         kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
         "special", run->renderer.is_special, "reason", scene_program_reason(run), "parts",
         parts_json(run), "uploaded_bytes", arrays_json(run));

@@ -127,7 +127,7 @@ static bool draw_layers(Run *run, Error *error)
     AovPass pass;
     const AovSet aovs = run->options->aovs;
     const RenderSettings *settings = &run->settings;
-    const AovSource source = {.setup = &run->starter.setup,
+    const AovSource source = {.setup = &run->async_device.setup,
                               .renderer = &run->renderer,
                               .camera = camera_of(run, settings->samples),
                               .center = camera_of(run, 1),
@@ -208,7 +208,7 @@ static void describe(const Run *run)
             (unsigned long long)report->dropped_triangles);
     fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
             report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
-    const Device *device = &run->starter.device;
+    const Device *device = &run->async_device.device;
     fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
             device->compute_units);
     fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",

@@ -92,26 +92,26 @@ bool run_load_scene(Run *run, Error *error)
     ok = ok && crop_apply(&options->crop, &run->settings, error);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
     if (!ok)
-        starter_decide(&run->starter, false);
+        async_device_decide(&run->async_device, false);
     return ok;
 }
 
 bool run_await_device(Run *run, Error *error)
 {
-    Starter *starter = &run->starter;
+    AsyncDevice *async = &run->async_device;
     const uint64_t triangles = scene_triangle_count(&run->scene);
     if (triangles < MANY_TRIANGLES)
-        starter_decide(starter, false);
-    if (!starter_wait_device(starter, error))
+        async_device_decide(async, false);
+    if (!async_device_wait_device(async, error))
         return false;
-    starter_choose(starter, &run->settings, triangles);
-    starter_decide(starter, true);
-    run->report.device = starter->device_seconds;
-    run->report.device_name = starter->device.name;
-    run->report.device_version = starter->device.version;
-    run->report.choice = &starter->setup.source.choice;
-    run->settings.group_width = starter->group[0];
-    run->settings.group_height = starter->group[1];
+    async_device_choose(async, &run->settings, triangles);
+    async_device_decide(async, true);
+    run->report.device = async->device_seconds;
+    run->report.device_name = async->device.name;
+    run->report.device_version = async->device.version;
+    run->report.choice = &async->setup.source.choice;
+    run->settings.group_width = async->group[0];
+    run->settings.group_height = async->group[1];
     return true;
 }
 
@@ -128,7 +128,7 @@ bool run_build_scene(Run *run, Error *error)
     Bvh bvh = {0};
     double moment = clock_seconds();
     const Options *options = run->options;
-    const NodeLayout layout = run->starter.setup.source.choice.nodes;
+    const NodeLayout layout = run->async_device.setup.source.choice.nodes;
     const bool has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene));
     Crew *crew = crew_open(threads_allowed(options->threads));
     const BvhSettings settings = {options->builder, flat_leaves(layout)};
@@ -148,9 +148,9 @@ bool run_build_scene(Run *run, Error *error)
 // Arrays and kernels to the renderer.
 static bool open_renderer(Run *run, Error *error)
 {
-    Starter *starter = &run->starter;
-    starter_wait_kernel(starter);
-    if (!renderer_open(&run->renderer, &starter->setup, &run->flat, &run->settings, error))
+    AsyncDevice *async = &run->async_device;
+    async_device_wait_kernel(async);
+    if (!renderer_open(&run->renderer, &async->setup, &run->flat, &run->settings, error))
         return false;
     run->report.upload = run->renderer.upload_seconds;
     run->report.upload_size = run->renderer.upload_size;
@@ -168,7 +168,7 @@ void run_begin(Run *run)
     const RendererSetup setup = {
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
-    starter_begin(&run->starter, run->options, setup);
+    async_device_begin(&run->async_device, run->options, setup);
 }
 
 ExitCode run_prepare(Run *run, Error *error)
@@ -188,10 +188,10 @@ void run_free(Run *run)
     free(run->samples);
     certainty_map_free(&run->certainty);
     resume_close(&run->resume, false);
-    starter_wait_kernel(&run->starter);
+    async_device_wait_kernel(&run->async_device);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);
-        starter_free(&run->starter);
+        async_device_free(&run->async_device);
     }
     flat_free(&run->flat);
     scene_free(&run->scene);

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "accel/flat.h"
+#include "cli/async_device.h"
 #include "cli/progress.h"
 #include "cli/report.h"
-#include "cli/starter.h"
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
@@ -17,7 +17,7 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     FlatScene flat;
-    Starter starter;
+    AsyncDevice async_device;
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;

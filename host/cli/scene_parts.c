@@ -81,11 +81,12 @@ const char *scene_family_reason(const Run *run)
         return "--kernel asks for it";
     if (request->nodes == 1 + NODES_PAIR)
         return "--nodes pair has no other";
-    if (run->starter.is_quick)
+    if (run->async_device.is_quick)
         return "packets are not compiled and a picture of this size does not repay that";
-    if (kernel_suits_packets(&run->starter.device))
+    if (kernel_suits_packets(&run->async_device.device))
         return "it suits CPUs";
-    return run->starter.device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
+    return run->async_device.device.is_cpu ? "it suits this OpenCL implementation"
+                                           : "it suits GPUs";
 }
 
 const char *scene_program_reason(const Run *run)

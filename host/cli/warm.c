@@ -8,9 +8,9 @@
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
     ReadyKernel ready;
-    const Starter *starter = &run->starter;
-    const KernelChoice *choice = &starter->setup.source.choice;
-    if (!ready_kernel_make(&ready, &starter->setup, traits, starter->group, error))
+    const AsyncDevice *async = &run->async_device;
+    const KernelChoice *choice = &async->setup.source.choice;
+    if (!ready_kernel_make(&ready, &async->setup, traits, async->group, error))
         return false;
     if (!run->options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
@@ -26,14 +26,14 @@ ExitCode warm_kernels(Run *run, Error *error)
     const Options *options = run->options;
     const bool has_scene = options->scene_path != NULL;
     run_begin(run);
-    starter_decide(&run->starter, false);
+    async_device_decide(&run->async_device, false);
     if (has_scene && !run_load_scene(run, error))
         return EXIT_SCENE;
     if (!run_await_device(run, error))
         return EXIT_DEVICE;
     if (has_scene && !run_build_scene(run, error))
         return EXIT_SCENE;
-    starter_wait_kernel(&run->starter);
+    async_device_wait_kernel(&run->async_device);
     const SceneTraits general = traits_general(options->statistics);
     if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
         !warm_kernel(run, &general, "general", error))

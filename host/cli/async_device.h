@@ -24,26 +24,26 @@ typedef struct {
     bool is_done, is_open;      // with the device; and it went well
     bool is_decided, is_wanted; // the kernel
     bool is_running, exists;    // the caller's: the thread; the mutex and the condition
-} Starter;
+} AsyncDevice;
 
 // Starts; setup holds the cache and where the kernels' source is.
-void starter_begin(Starter *starter, const Options *options, RendererSetup setup);
+void async_device_begin(AsyncDevice *async, const Options *options, RendererSetup setup);
 
 // Says whether a kernel is wanted ahead.  Until then one is made that is compiled already, but no
 // other.  The first word counts.
-void starter_decide(Starter *starter, bool wanted);
+void async_device_decide(AsyncDevice *async, bool wanted);
 
 // Waits for the device; false with the reason where there is none.
-bool starter_wait_device(Starter *starter, Error *error);
+bool async_device_wait_device(AsyncDevice *async, Error *error);
 
 // Takes kernels that are compiled sooner where that pays and the options leave them open.  Once the
 // device is open and before a kernel is wanted: one that is made ahead nevertheless is compiled,
 // and then this changes nothing.
-void starter_choose(Starter *starter, const RenderSettings *settings, uint64_t triangles);
+void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uint64_t triangles);
 
 // Waits for the kernel, which stands in setup.ready then.  Where it could not be made it is empty,
 // and the renderer will find the reason.
-void starter_wait_kernel(Starter *starter);
+void async_device_wait_kernel(AsyncDevice *async);
 
 // Frees what is left.
-void starter_free(Starter *starter);
+void async_device_free(AsyncDevice *async);

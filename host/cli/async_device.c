@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The kernel made ahead is the general one: which special one a scene wants, nobody knows before
+// it is read.
+#include "cli/async_device.h"
+
+#include "base/clock.h"
+#include "render/quick_kernel.h"
+
+// Compilers recurse deeply, and a thread's stack may be smaller than the process's.
+#define STACK_SIZE ((size_t)16 << 20)
+
+static void take_choice(AsyncDevice *async, KernelChoice choice)
+{
+    const Options *options = async->options;
+    const uint32_t side = kernel_group_side(&choice);
+    async->setup.source.choice = choice;
+    async->group[0] = options->group_width > 0 ? options->group_width : side;
+    async->group[1] = options->group_height > 0 ? options->group_height : side;
+}
+
+static bool open_device(AsyncDevice *async)
+{
+    const Options *options = async->options;
+    const double start = clock_seconds();
+    bool ok = device_open(&async->device, options->device, &async->error);
+    async->device_seconds = clock_seconds() - start;
+    const KernelChoice choice = kernel_choose(&options->kernel, &async->device);
+    take_choice(async, choice);
+    ok = ok && kernel_check_device(&choice, &async->device, &async->error);
+    return ok;
+}
+
+// Returns whether the kernel is to be made here: one that is compiled unless it is known not to be
+// wanted, and another when it is known to be.
+static bool publish_device(AsyncDevice *async, bool is_open, bool is_compiled)
+{
+    pthread_mutex_lock(&async->mutex);
+    async->is_done = true;
+    async->is_open = is_open;
+    pthread_cond_broadcast(&async->changed);
+    while (is_open && !is_compiled && !async->is_decided)
+        pthread_cond_wait(&async->changed, &async->mutex);
+    const bool wanted = is_open && (async->is_wanted || !async->is_decided);
+    pthread_mutex_unlock(&async->mutex);
+    return wanted;
+}
+
+static void *start(void *context)
+{
+    AsyncDevice *async = context;
+    const Options *options = async->options;
+    Error unused = {0};
+    const SceneTraits traits = traits_general(options->statistics);
+    const bool is_open = open_device(async);
+    const bool is_compiled = is_open && ready_kernel_is_compiled(&async->setup, &traits);
+    if (publish_device(async, is_open, is_compiled) && options->specialization != SPECIALIZE_ALWAYS)
+        ready_kernel_make(&async->ready, &async->setup, &traits, async->group, &unused);
+    return NULL;
+}
+
+void async_device_begin(AsyncDevice *async, const Options *options, RendererSetup setup)
+{
+    pthread_attr_t attributes;
+    *async = (AsyncDevice){.setup = setup, .options = options};
+    async->setup.device = &async->device;
+    async->setup.ready = &async->ready;
+    pthread_mutex_init(&async->mutex, NULL);
+    pthread_cond_init(&async->changed, NULL);
+    async->exists = true;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    async->is_running = pthread_create(&async->thread, &attributes, start, async) == 0;
+    pthread_attr_destroy(&attributes);
+    if (!async->is_running) // then one after the other
+        publish_device(async, open_device(async), true);
+}
+
+void async_device_decide(AsyncDevice *async, bool wanted)
+{
+    pthread_mutex_lock(&async->mutex);
+    if (!async->is_decided)
+        async->is_wanted = wanted;
+    async->is_decided = true;
+    pthread_cond_broadcast(&async->changed);
+    pthread_mutex_unlock(&async->mutex);
+}
+
+// Whoever asks for certain kernels gets them, and whoever counts gets the same counts every time.
+static bool leaves_kernels_open(const Options *options)
+{
+    const KernelRequest *request = &options->kernel;
+    return options->action == ACTION_RENDER && request->family == 0 && request->nodes == 0 &&
+           request->lanes == 0 && request->precision == PRECISION_FP32 && options->uses_bvh &&
+           !options->statistics && options->specialization != SPECIALIZE_ALWAYS;
+}
+
+void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uint64_t triangles)
+{
+    KernelChoice choice;
+    const double pixels = (double)settings->width * settings->height * async->options->repeat *
+                          frames_count(&async->options->frames);
+    const QuickKernelRun run = {pixels * settings->samples * settings->samples, triangles};
+    async->is_quick =
+        leaves_kernels_open(async->options) && quick_kernel_choose(&async->setup, &run, &choice);
+    if (async->is_quick)
+        take_choice(async, choice);
+}
+
+bool async_device_wait_device(AsyncDevice *async, Error *error)
+{
+    pthread_mutex_lock(&async->mutex);
+    while (!async->is_done)
+        pthread_cond_wait(&async->changed, &async->mutex);
+    pthread_mutex_unlock(&async->mutex);
+    return async->is_open || error_set(error, "%s", async->error.text);
+}
+
+void async_device_wait_kernel(AsyncDevice *async)
+{
+    if (!async->is_running)
+        return;
+    async_device_decide(async, false);
+    pthread_join(async->thread, NULL);
+    async->is_running = false;
+}
+
+void async_device_free(AsyncDevice *async)
+{
+    if (!async->exists)
+        return;
+    async_device_wait_kernel(async);
+    ready_kernel_free(&async->ready);
+    device_close(&async->device);
+    pthread_cond_destroy(&async->changed);
+    pthread_mutex_destroy(&async->mutex);
+    *async = (AsyncDevice){0};
+}
