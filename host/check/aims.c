@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray that comes from within the cone that all triangles around its aim face must end on one of
-// them, unless its rounding carries it past them all.  Bounds of that rounding are generous: what
-// is too sharp or too small for them is not aimed at.
+// A ray from within the cone that all triangles around its aim face must end on one of them.  Only
+// rounding may carry it past.  The rounding bounds are generous: aims too sharp or too small for
+// them are skipped.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -13,23 +13,24 @@
 #define EYES         32
 #define EYE_DISTANCE 3.0 // radii from the center
 
-// The least cosine between a ray from afar, or from close by, and the normals it comes to.
+// The smallest cosine between a ray and the normals at its aim, per kind of eye.
 #define FACING_FROM_AFAR  0.1
 #define FACING_FROM_CLOSE 0.01
 
-// A ray passes its aim within these parts of its length and of the aim's coordinates: what
-// triangle.cl accepts lies within 22 units of rounding (2^-24) of the ray, and directions and aims
-// are rounded themselves.
+// A ray passes its aim within these fractions of its length and of the aim's coordinates.
+// triangle.cl accepts hits within 22 units of rounding (2^-24) of the ray; directions and aims are
+// rounded as well.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
-// Where along an edge, from its lower point, its aim lies: where coordinates have to be rounded.
+// The aim's position on an edge, as a fraction from its lower point.  A fraction makes coordinates
+// round.
 #define EDGE_PART 0.4
 
-// How far beyond an open edge a ray is aimed, in radii: well past the rounding.
+// The distance of an aim beyond an open edge, in radii: well past the rounding.
 #define BEYOND 0x1p-14
 
-// The part of an aim that is gathered from one triangle after the other.
+// The part of an aim that is accumulated over its triangles.
 typedef struct {
     Vec3 outward;
     double facing, size;
@@ -40,7 +41,7 @@ typedef struct {
     const AimSource *source;
     Aims *aims;
     Star *stars; // by point
-    size_t step; // every so many of the aims are kept
+    size_t step; // only every step-th aim is kept
     size_t seen;
 } Maker;
 
@@ -80,8 +81,8 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
-// The angle of a triangle at a corner: normals weighed by it do not depend on how faces are cut
-// into triangles.
+// Returns the triangle's angle at a corner.  Normals weighted by angle do not depend on how faces
+// are cut into triangles.
 static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);
@@ -90,7 +91,7 @@ static double angle_at(const Triangles *triangles, uint32_t triangle, int corner
     return atan2(length_of(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
-// Whether the next aim is one of those that are kept.
+// Returns whether the next aim is kept.
 static bool is_chosen(Maker *maker)
 {
     return maker->seen++ % maker->step == 0;
@@ -147,7 +148,7 @@ static void aim_at_points(Maker *maker)
             keep(maker, point_of(source->triangles, point), &maker->stars[point]);
 }
 
-// The triangles at an edge.
+// Returns the star of the triangles at an edge.
 static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t count)
 {
     Star star = {.facing = 1, .size = INFINITY, .triangle = sides[0].triangle};
@@ -248,7 +249,8 @@ void aims_free(Aims *aims)
     *aims = (Aims){0};
 }
 
-// Directions spread over the sphere: equal heights, each turned by the golden angle.
+// Returns one of EYES directions over the sphere: equal height steps, each turned by the golden
+// angle.
 static Vec3 eye_at(const Aims *aims, int eye)
 {
     const double height = 1 - (2 * eye + 1) / (double)EYES;
@@ -262,7 +264,7 @@ static Vec3 rounded(Vec3 v)
     return vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
 }
 
-// The cosine between a direction and the normal around the aim that is farthest from it, at least.
+// Returns a lower bound on the cosine between a direction and the normals around the aim.
 static double facing_from(const Aim *aim, Vec3 direction)
 {
     const double off = vec3_dot(aim->outward, direction);
@@ -275,7 +277,7 @@ static double error_at(const Aim *aim, double distance)
     return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
 }
 
-// Aims from the origin where that leaves no doubt.
+// Makes a ray from the origin to the aim.  Returns false where rounding leaves its target in doubt.
 static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);
@@ -291,7 +293,7 @@ static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
     return true;
 }
 
-// The eye that sees the aim most squarely.
+// Returns the eye that sees the aim most squarely.
 static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
 {
     uint32_t best = 0;
@@ -308,7 +310,7 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     return best;
 }
 
-// Finds every aim's eye, and how many rays those before each eye have.
+// Finds each aim's eye, and in starts how many rays precede each eye's.
 static void choose_eyes(Aims *aims, const Vec3 eyes[EYES], size_t starts[EYES + 2])
 {
     AimRay unused;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first object with an offender speaks for all.
+// Only the first object with an offender is reported.
 #include "check/bad_geometry.h"
 
 #include "check/features.h"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Scene -> a sentence about triangles of no area, for those who want to know or to refuse them.
+// Scene -> an error message about triangles without area.
 #pragma once
 
 #include "base/error.h"
 #include "scene/scene.h"
 
-// False, with the file, the first offender and their number, where the reader left a triangle out.
+// Fails if the reader dropped a triangle.  The message names the file, the first offender and the
+// count.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);
 
-// The same where any triangle has no area, left out or not.
+// Fails if any triangle has no area, dropped or not.
 bool bad_geometry_none(const Scene *scene, Error *error);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Duplicates of any kind are found by sorting: equal ones then follow each other.
+// Sorting brings duplicates of any kind together.
 #include "check/census.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
-// What makes two things the same.
+// Equal identities mean duplicates.
 typedef struct {
     double numbers[4];
 } Identity;
@@ -25,7 +25,7 @@ static size_t count_duplicates(Identity *identities, size_t count)
     return duplicates;
 }
 
-// Zeros of both signs are one number.
+// Adding 0.0 maps both zeros to one number.
 static Identity identity_of(Vec3 position, double radius)
 {
     return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Goes through the edges once.  Corners that edges join at a point form its fans (a union-find
-// over the corners); a point with more than one fan is pinched.
+// Visits the edges once.  A union-find joins the corners that share an edge at a point into fans; a
+// point with more than one fan is pinched.
 #include "check/closedness.h"
 
 #include "base/array.h"
@@ -23,7 +23,7 @@ static uint32_t fan_of(const Fans *fans, uint32_t corner)
     return corner;
 }
 
-// The triangle's corner at a point that it has.
+// Returns the triangle's corner at one of its points.
 static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
 {
     const uint32_t *corners = fans->mesh->triangles[triangle];
@@ -37,7 +37,7 @@ static void join_fans(Fans *fans, uint32_t point, uint32_t triangle, uint32_t ot
 {
     const uint32_t a = fan_of(fans, corner_at(fans, triangle, point));
     const uint32_t b = fan_of(fans, corner_at(fans, other, point));
-    // The lower corner leads, so that every fan's first triangle names it.
+    // The lower corner becomes the root, so every fan is named by its first triangle.
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 
@@ -46,7 +46,7 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // Counted at the edge of their two lower points alone.
+        // A duplicate counts only at the edge of its two lower points.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
             mesh_fault_add(&closedness->duplicates, sides[side].triangle);
@@ -104,8 +104,8 @@ static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
     return vec3(position[0], position[1], position[2]);
 }
 
-// Six times the volume around the first corner, which counts what is enclosed from behind as
-// positive.  Scaled, so that nothing overflows.
+// Returns six times the volume around the first corner, positive if triangles show their back to
+// the inside.  Scaling prevents overflow.
 static double signed_volume(const Mesh *mesh)
 {
     double volume = 0;

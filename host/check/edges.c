@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Sides are counted into a bucket for each lower point; the buckets, of some six sides each, are
-// then sorted.
+// Counts sides into a bucket per lower point, then sorts the buckets, of about six sides each.
 #include "check/edges.h"
 
 #include "base/array.h"
 
 #include <stdlib.h>
 
-// Buckets of more sides are for qsort: its calls cost more than few moves.
+// Longer buckets use qsort, whose calls cost more than a few moves.
 #define FEW_SIDES 24
 
 typedef struct {
@@ -53,7 +52,7 @@ static void sort_sides(EdgeSide *sides, size_t count)
     }
 }
 
-// Leaves in first[point] where the sides of the points below it end.
+// first[point] becomes the end of the sides of all points below it.
 static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
@@ -66,7 +65,7 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
     }
 }
 
-// Fills buckets from their ends, which leaves first where they begin.
+// Fills each bucket from its end, so that first becomes its start.
 static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)

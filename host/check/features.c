@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Lengths are compared as squares: one root a feature, not one an edge.
+// Compares squared lengths: one square root per feature instead of one per edge.
 #include "check/features.h"
 
-#define FLOAT_DIGITS 23 // of a float's fraction
+#define FLOAT_DIGITS 23 // in a float's fraction
 
 typedef struct {
     Vec3 corners[3];
@@ -24,7 +24,7 @@ static Vec3 doubled_area(const Shape *shape)
                       vec3_sub(shape->corners[2], shape->corners[0]));
 }
 
-// Scaled by a power of two first: squares of what a file may hold leave the range of fp64.
+// Scales by a power of two, because squares of a file's values may leave the range of fp64.
 static Shape scaled_shape(const Shape *shape, double scale)
 {
     return (Shape){{vec3_scale(shape->corners[0], scale), vec3_scale(shape->corners[1], scale),
@@ -42,7 +42,7 @@ bool features_is_flat(const Mesh *mesh, size_t triangle)
     return is_flat(&shape);
 }
 
-// The distance between the floats nearest to the shape's largest coordinate.
+// Returns the spacing of floats at the shape's largest coordinate.
 static double step_at(const Shape *shape)
 {
     double largest = 0x1p-126;
@@ -51,7 +51,7 @@ static double step_at(const Shape *shape)
     return scalbn(1, ilogb(largest) - FLOAT_DIGITS);
 }
 
-// Squares of the shortest and the longest edge.
+// The squared lengths of the shortest and the longest edge.
 typedef struct {
     double shortest, longest;
 } EdgeSquares;

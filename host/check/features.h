@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> how fine it is against the steps of the float coordinates that it is written and traced
-// with.
+// Mesh -> its finest details, in units of float spacing, as written and as traced.
 #pragma once
 
 #include "scene/normalize.h"
 
-// A length of a triangle that is the shortest, in steps of float at the triangle's farthest
+// The shortest of some length over all triangles, in float steps at the triangle's farthest
 // coordinate.
 typedef struct {
     double steps; // INFINITY without triangles
@@ -14,16 +13,16 @@ typedef struct {
 } Feature;
 
 typedef struct {
-    Feature edge;         // in the frame that is traced
-    Feature height;       // the same of triangles' heights, of those with an area
-    Feature written_edge; // with the coordinates as they are, before they are centered
+    Feature edge;         // in the traced frame
+    Feature height;       // the lowest height in that frame, of triangles with an area
+    Feature written_edge; // in the file's coordinates, before centering
     bool holds_floats;    // every coordinate is a float
-    MeshFault flat;       // triangles of no area: three corners on a line
-    double extent;        // largest side of its bounds
-    double offset;        // largest coordinate of their center
+    MeshFault flat;       // triangles without area: three corners on a line
+    double extent;        // largest side of the bounds
+    double offset;        // largest coordinate of the bounds' center
 } Features;
 
-// Whether the triangle's corners lie on one line, as far as fp64 tells.
+// Returns whether the triangle's corners lie on one line, up to the rounding of fp64.
 bool features_is_flat(const Mesh *mesh, size_t triangle);
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);

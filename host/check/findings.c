@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults that make a picture lack or leak something fail the check: what is not finite, has no
-// area or comes twice, and leaks of closed meshes.  Everything else may be meant.
+// The check fails on faults that can leave holes or wrong pixels: values that are not finite, no
+// area, duplicates, and leaks of closed meshes.  Everything else may be intended.
 #include "check/findings.h"
 
 #include "scene/missing.h"
@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Fewer steps of float than this show: an edge is off by a thirtieth of its length.
+// Below this many float steps an edge is visibly off, by a thirtieth of its length.
 #define FEW_STEPS 16.0
 
-// How much larger than a mesh its distance from the origin, or the scene, has to be to blame.
+// Advice blames the offset or the scene's size if it exceeds the mesh's by this factor.
 #define MUCH 4.0
 
 typedef enum {
@@ -32,7 +32,7 @@ typedef enum {
 
 static const struct {
     const char *kind, *text;
-    const char *place; // what the number of the first counts
+    const char *place; // the unit that the first fault's number counts
     bool fails;
 } faults[FAULT_KINDS] = {
     [FAULT_BAD_POSITIONS] = {"not_finite_positions",
@@ -114,7 +114,7 @@ static bool add_shape(Findings *findings, const CheckResult *result, size_t obje
            add(findings, unused, "%zu vertices that no triangle uses", census->unused_vertices);
 }
 
-// The steps are those of floats.  What is written too coarsely cannot be mended by tracing it.
+// Steps are float steps.  Tracing cannot restore details lost when the file was written.
 static bool add_advice(Findings *findings, const CheckResult *result, size_t object)
 {
     const Features *features = &result->census->meshes[object].features;

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT
-// What a check measured -> what there is to say about it, each with whether it fails the check.
+// Measurements of a check -> findings, each with whether it fails the check.
 #pragma once
 
 #include "check/census.h"
 #include "check/leaks.h"
 
-#define FINDING_SCENE SIZE_MAX // in place of an object: the scene as a whole
+#define FINDING_SCENE SIZE_MAX // replaces the object index: the whole scene
 
-// Everything a check has measured.
+// All measurements of a check.
 typedef struct {
     const Scene *scene;
     const Census *census;
     const Normalization *normalization;
     const LeakCount *leaks;   // by object; NULL without a device
-    const char *frame_fault;  // why the scene cannot be drawn, empty where it can
-    const char *device_name;  // that traced the rays; NULL without one
-    const char *device_fault; // why there is none
+    const char *frame_fault;  // why the scene cannot be drawn; empty if it can
+    const char *device_name;  // of the device that traced the rays; NULL without one
+    const char *device_fault; // why there is no device
     double seconds;
 } CheckResult;
 
 typedef struct {
-    const char *kind; // a name for programs
+    const char *kind; // for programs
     size_t object;
     bool fails;
-    size_t count; // of things found; 1 for advice
+    size_t count; // of occurrences; 1 for advice
     char text[320];
 } Finding;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The mesh goes through every stage that a scene goes through.
+// The mesh passes through every stage that a scene passes through.
 #include "check/leaks.h"
 
 #include <stdlib.h>
 
-// What a mesh becomes on its way to the device, and where it is aimed at.
+// A mesh's form in every stage up to the device, and its aims.
 typedef struct {
     Scene scene; // borrows the mesh
     Triangles triangles;
@@ -109,7 +109,7 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const Le
     bvh_free(&staged.bvh);
     triangles_free(&staged.triangles);
     if (staged.scene.objects.count > 0)
-        staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller's
+        staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller owns it
     scene_free(&staged.scene);
     return ok;
 }

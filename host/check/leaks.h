@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A mesh, alone and two-sided in its scene's frame -> how many rays aimed at its edges and points
-// pass through it.
+// A mesh, alone and two-sided in its scene's frame -> the number of rays aimed at its edges and
+// points that pass through it.
 #pragma once
 
 #include "check/closedness.h"
 #include "check/ray_caster.h"
 
-// Of each mesh, so many edges and points at most are aimed at.
+// The largest number of edges and points to aim at per mesh.
 #define LEAKS_AIMS 1048576
 
 typedef struct {
-    size_t total;    // edges and points, and places beyond open edges
-    size_t aimed;    // of these, as many as have had a ray
-    size_t rays;     // some were aimed at twice
-    size_t hidden;   // of those aimed at: behind other parts of the mesh
-    MeshFault leaks; // rays that went on behind the aim; the first's triangle
+    size_t total;    // edges, points and places beyond open edges
+    size_t aimed;    // those that got a ray
+    size_t rays;     // some aims get two
+    size_t hidden;   // aims behind other parts of the mesh
+    MeshFault leaks; // rays that continued behind their aim; first is a triangle there
 } LeakCount;
 
 typedef struct {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// All launches have one size, the first, over no rays, among them: PoCL compiles a kernel again
-// for each local size and kind of grid, and that has to happen under the cache's lock.
+// All launches have the same size, including the first one, which has no rays.  PoCL compiles a
+// kernel again for each local size and grid kind, and that must happen under the cache's lock.
 #include "check/ray_caster.h"
 
 #include "device/upload.h"
 
 #define LAUNCH_RAYS 65536
 
-// The fewest lanes of wide kernels, whose number the host may not know.
+// The smallest lane count of wide kernels; the host may not know the actual one.
 #define FEWEST_LANES 4
 
-// kernels/rays.cl, made at build time.
+// kernels/rays.cl, embedded at build time.
 extern const char rays_source[];
 
 void ray_caster_unload(RayCaster *caster)

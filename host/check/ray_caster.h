@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FlatScene and rays -> how far each ray comes, by the search that draws pictures.
+// FlatScene and rays -> hit distances, by the same traversal that renders pictures.
 #pragma once
 
 #include "check/aims.h"
@@ -10,20 +10,20 @@ typedef struct {
     NodeLayout nodes;
     Program program;
     cl_kernel kernel;
-    cl_mem rays, distances;             // room for one launch
-    cl_mem spheres, nodes_array, faces; // of the scene that is loaded
+    cl_mem rays, distances;             // buffers for one launch
+    cl_mem spheres, nodes_array, faces; // of the loaded scene
     FrameData frame;
 } RayCaster;
 
-// Compiles the kernel; a scene is to be loaded before rays are cast.
+// Compiles the kernel.  Casting rays requires a loaded scene.
 bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// Takes another scene, laid out for the nodes of the choice, in place of the one before.  It is
-// unloaded before it is freed, and in either case.
+// Replaces the loaded scene by one in the choice's node layout.  Callers unload a scene before they
+// free it, also after a failed load.
 bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error);
 void ray_caster_unload(RayCaster *caster);
 
-// Fills distances: t of each ray, INFINITY where it meets nothing.
+// Fills distances with t of each ray, INFINITY for a miss.
 bool ray_caster_cast(const RayCaster *caster, const AimRay *rays, size_t count, float *distances,
                      Error *error);

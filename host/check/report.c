@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The text tells of each mesh what it is, then what was found; JSON has every count, zeros too.
+// The text lists each mesh with its findings.  JSON has every count, zeros included.
 #include "check/report.h"
 
 #include "image/json_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a check measured and found, as text and as JSON.
+// Measurements and findings of a check -> text and JSON.
 #pragma once
 
 #include "check/findings.h"
@@ -14,5 +14,5 @@ typedef struct {
 
 void check_report_write_text(const CheckReport *report, FILE *stream);
 
-// Versioned JSON with sorted keys, at path ("-": standard output).
+// Writes versioned JSON with sorted keys to path ("-": standard output).
 bool check_report_write_json(const CheckReport *report, const char *path, Error *error);

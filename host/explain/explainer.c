@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Runs the kernel for one sample and puts its notes into words of the scene.
+// Runs the kernel for one sample and decodes its notes into the scene's terms.
 #include "explain/explainer.h"
 
 #include <stdlib.h>
 
-// kernels/explain.cl, made at build time.
+// kernels/explain.cl, embedded at build time.
 extern const char explain_source[];
 
 static uint32_t level_room(const Explainer *explainer)
@@ -77,7 +77,7 @@ static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_ui
     return cl_succeeded(status, "run the kernel explain_sample", error);
 }
 
-// The first run, which follows no ray, is when drivers finish compiling.
+// Drivers finish compiling in the first run, which traces no ray.
 static bool make_kernel(Explainer *explainer, const Device *device, Error *error)
 {
     cl_int status;
@@ -144,7 +144,7 @@ static double scalar_at(const Explainer *explainer, const void *values, size_t p
 // The notes of one ray.
 typedef struct {
     const Explainer *explainer;
-    size_t value, word; // places where they begin
+    size_t value, word; // offsets of their first entries
 } Notes;
 
 static Notes notes_of(const Explainer *explainer, uint32_t level)
@@ -198,11 +198,11 @@ static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *
     ray->point = denormalize_point(explainer->normalization, noted_vector(notes, LEVEL_POINT));
     ray->normal = noted_vector(notes, LEVEL_NORMAL);
     ray->material = noted_word(notes, LEVEL_MATERIAL);
-    ray->asks_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
+    ray->uses_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
     ray->share = noted(notes, LEVEL_SHARE);
     ray->shaded = noted_vector(notes, LEVEL_SHADED);
     ray->lights = lights;
-    for (uint32_t i = 0; ray->asks_lights && i < explainer->frame.light_count; i++)
+    for (uint32_t i = 0; ray->uses_lights && i < explainer->frame.light_count; i++)
         take_light(&lights[i], notes, i, ray->point);
 }
 
@@ -259,7 +259,7 @@ bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, Explai
     return true;
 }
 
-// As mean_color of kernels/render.cl does.
+// Same as mean_color of kernels/render.cl.
 void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3])
 {
     const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;

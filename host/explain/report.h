@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The samples of a pixel -> text for people, or JSON.
+// The samples of a pixel -> text or JSON.
 #pragma once
 
 #include "cli/options/options.h"
@@ -14,10 +14,10 @@ typedef struct {
     const RenderSettings *settings;
 } ExplainReport;
 
-// What stands above the samples.
+// Writes the lines above the samples.
 void explain_write_head(const ExplainReport *report, FILE *stream);
 
-// A sample, the number-th of the pixel.
+// Writes a sample; number is its index in the pixel.
 void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
                           uint32_t number, FILE *stream);
 
@@ -25,5 +25,5 @@ void explain_write_color(const ExplainReport *report, const float color[3], FILE
 
 json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample);
 
-// The whole, of which samples are the list; it is given up.
+// Returns the whole report.  Takes ownership of samples, a list.
 json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An explanation as JSON.  Ids count as the channel primitive of --aov does, from 0.
+// Ids are those of the --aov channel "primitive", from 0.
 #include "explain/report.h"
 
 #include "image/json_file.h"
@@ -38,7 +38,7 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
 {
     json_t *list = json_array();
     const Scene *scene = report->scene;
-    for (size_t i = 0; ray->asks_lights && i < scene->lights.count; i++)
+    for (size_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
         json_array_append_new(
             list, light_json(report, &ray->lights[i], &scene->materials.data[ray->material]));
     return list;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An explanation as text: a paragraph a ray, its facts under each other.
+// Writes a paragraph per ray, with one fact a line.
 #include "explain/report.h"
 
 #include "image/encode.h"
@@ -62,7 +62,7 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
     fprintf(stream, ", normal ");
     write_vector(ray->normal, stream);
     fprintf(stream, "\n");
-    for (uint32_t i = 0; ray->asks_lights && i < scene->lights.count; i++)
+    for (uint32_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
         write_light(report, &ray->lights[i], i + 1, material, stream);
     fprintf(stream, "    color      ");
     write_vector(ray->shaded, stream);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nothing is synchronized with the disk: what the system has been given outlives the process, and
-// what a loss of power tears is found by its checksum.
+// The journal is not synced to disk.  Written data outlives the process, and checksums detect
+// records torn by a loss of power.
 #include "jobs/journal.h"
 
 #include <errno.h>
@@ -33,7 +33,7 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// A file too short for a head is one whose writer was ended at once.
+// A file shorter than a head comes from a writer that was killed at its start.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;
@@ -55,7 +55,7 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
                      journal->path);
 }
 
-// A pipe would never tell that it holds no journal.
+// Reading from a pipe would block instead of failing.
 static bool is_regular(const Journal *journal)
 {
     struct stat status;

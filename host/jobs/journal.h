@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file that records are added to while a long job runs, so that it can go on after whatever ended
-// it.  Records are told whole from torn by a checksum: a torn one ends the file, and is cut off.
+// A file of checksummed records that a long job appends to, so that a later run can resume it.  A
+// torn record ends the file and is cut off.
 #pragma once
 
 #include "base/error.h"
@@ -10,26 +10,25 @@
 #include <stdio.h>
 
 typedef struct {
-    FILE *stream;     // NULL where none is open
+    FILE *stream;     // NULL if closed
     const char *path; // borrowed
-    uint64_t records; // read and added
+    uint64_t records; // read and written
 } Journal;
 
-// Whether path holds the beginning of a journal.
+// Returns whether path holds at least a journal's head.
 bool journal_exists(const char *path);
 
-// Opens the journal at path, which must be of the same key, or begins one.  No two processes have
-// it open at once.
+// Opens the journal at path, or creates one.  Fails if its key differs or another process holds it.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);
 
-// Reads the next record, which is of that size; false where none follows.  To be called until then,
-// before any is added.
+// Reads the next record, of exactly size bytes; returns false at the end.  All records must be read
+// before one is added.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Cuts off what follows the last record that was read.
+// Cuts off everything after the last record read.
 bool journal_cut(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);
 
-// Closes the journal, and removes it where the job is done.
+// Closes the journal, and removes it if the job is done.
 void journal_close(Journal *journal, bool is_done);

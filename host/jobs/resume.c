@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles are finished in the order of their numbers, so that what is there is told by a count alone.
+// Tiles finish in the order of their numbers, so a count describes the finished ones.
 #include "jobs/resume.h"
 
 #include "image/image_read.h"
@@ -26,7 +26,7 @@ bool resume_look(Resume *resume, const Options *options, Error *error)
     const char *path = options->output_path;
     const bool exists = lstat(path, &status) == 0;
     if (exists && !S_ISREG(status.st_mode))
-        return error_set(error, "%s: is no file that can be gone on with", path);
+        return error_set(error, "%s: cannot be resumed: not a regular file", path);
     resume->path = resume_journal_name(path, error);
     if (resume->path == NULL)
         return false;
@@ -35,7 +35,7 @@ bool resume_look(Resume *resume, const Options *options, Error *error)
            image_read(&resume->stored, path, error);
 }
 
-// Names all that the picture depends on, and the tiles.
+// Hashes everything that determines the picture and its tiles.
 static void make_key(const Provenance *own, const RenderSettings *settings, uint64_t key[2])
 {
     char text[STORED_TEXTS * STORED_TEXT_SIZE];
@@ -106,7 +106,7 @@ static bool go_on(Resume *resume, const Provenance *own, RenderSettings *setting
     uint64_t key[2];
     make_key(own, settings, key);
     const bool is_stored = resume->stored.values != NULL;
-    // Before there is a journal: where this fails, the stored picture stays the one to go on with.
+    // Runs before the journal exists: after a failure here the stored picture can still be resumed.
     if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
         return false;
     if (!journal_open(&resume->journal, resume->path, key, error))

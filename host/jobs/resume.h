@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --resume: the tiles that an earlier run has left, in the journal FILE.part or in an EXR file that
-// was stopped -> the tiles that need not be drawn again; and the journal of this one.
+// --resume: the finished tiles of an earlier run, from the journal FILE.part or an incomplete EXR
+// file -> the tiles to skip, and the journal of this run.
 #pragma once
 
 #include "cli/options/options.h"
@@ -9,30 +9,28 @@
 
 typedef struct {
     char *path;         // of the journal; NULL without --resume; owned
-    StoredImage stored; // the earlier picture, empty where there is none or a journal is better
+    StoredImage stored; // the earlier picture; empty if missing or if a journal replaces it
     const char *stored_path;
     Journal journal;
     bool is_broken; // the journal cannot be written
     float *tile;    // a tile's colors, row by row; owned
 } Resume;
 
-// Returns the name of the journal that --resume keeps beside a picture.  The caller frees it; NULL
-// when memory ran out.
+// Returns the name of the journal beside a picture, which the caller frees; NULL without memory.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Looks for what is left of an earlier run.  For main alone, while no other thread runs, as
-// pictures are read by a process of their own.
+// Looks for the files of an earlier run.  Only main may call it, before other threads start,
+// because a child process reads pictures.
 bool resume_look(Resume *resume, const Options *options, Error *error);
 
-// Fills framebuffer with the tiles that are there, whose number is left in settings->ready_tiles,
-// and opens the journal.  The scene and the settings among own's texts must be those of the earlier
-// run.
+// Copies the finished tiles into framebuffer, stores their number in settings->ready_tiles and
+// opens the journal.  Scene and settings in own must match the earlier run's.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);
 
-// Keeps a tile of the framebuffer in the journal, in the order of their numbers.
+// Adds a tile of the framebuffer to the journal.  Tiles must come in the order of their numbers.
 bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,
                  uint64_t number, Error *error);
 
-// Ends with the journal, which is removed where the picture is written whole.
+// Closes the journal, and removes it if the picture is complete.
 void resume_close(Resume *resume, bool is_done);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tells the tiles is taken out of the settings: what is left of them names the whole picture.
+// Settings without the tile entries identify the whole picture.
 #include "jobs/stored_tiles.h"
 
 #include "cli/options/options.h"
@@ -28,7 +28,7 @@ static bool read_part(RenderSettings *settings, json_t *json)
     return true;
 }
 
-// A crop must have the image's size, and all of it lie in the whole picture.
+// A crop must have the image's size and lie inside the whole picture.
 static bool read_place(RenderSettings *settings, json_t *json)
 {
     int width, height, edges[4] = {0};
@@ -68,14 +68,14 @@ bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image)
     return true;
 }
 
-// Takes what tells the tiles out of the settings.
+// Removes the tile entries from the settings.
 static void strip(json_t *json)
 {
     json_object_del(json, "tile");
     json_object_del(json, "tiles_done");
 }
 
-// A picture that is whole has all its tiles, whatever they were; the others' must be the same.
+// A complete picture has all tiles of any tile size; otherwise the tile sizes must match.
 static bool count_done(const StoredImage *image, json_t *json, const RenderSettings *settings,
                        uint64_t *tiles)
 {
@@ -158,7 +158,8 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers)
     return has;
 }
 
-// Where each of the image's channels goes in a pixel: 0 to 2 are colors, others layers, or nowhere.
+// Maps each channel of the image to a place in the pixel: 0 to 2 are colors, then layers, or
+// NOWHERE.
 static void find_places(const StoredImage *image, const Layers *layers, uint32_t *places)
 {
     for (uint32_t channel = 0; channel < image->channel_count; channel++)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture file that clrt wrote some tiles of -> which those are, and the tiles in their place.
+// A picture file with some tiles finished -> their numbers and their values.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -15,26 +15,26 @@ typedef struct {
     json_t *whole; // the settings of the whole picture; owned
 } StoredTiles;
 
-// Reads what the image's texts say of its tiles; false where they say nothing that fits it.  They
-// come from a file and are believed no further.
+// Reads the tile entries from the image's texts, which come from a file and are untrusted.  Returns
+// false if they are missing or do not fit the image.
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Whether settings are those of the image's, but for the tiles that are done of it, which are left
-// in *tiles.
+// Returns whether the settings match the image's, apart from the finished tiles.  Stores their
+// number in *tiles.
 bool stored_tiles_done(const StoredImage *image, const char *settings_text,
                        const RenderSettings *settings, uint64_t *tiles);
 
-// Names the image's channels beside its colors; false where it has no colors, or a channel that
-// --aov does not draw.
+// Names the image's channels beside its colors.  Returns false if the image lacks colors or has a
+// channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
 
 bool stored_tiles_has_colors(const StoredImage *image);
 
-// Whether the image has three colors, those layers and nothing else.
+// Returns whether the image has exactly three colors and those layers.
 bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 
-// Copies the first count tiles of those settings: colors, which the image has, into framebuffer and
-// the channels of layers, which it has too, into those.
+// Copies the first count tiles: the colors into framebuffer, and the channels named by layers into
+// layers.  The image must have all of them.
 void stored_tiles_copy(const RenderSettings *settings, uint64_t count, const StoredImage *image,
                        Framebuffer *framebuffer, Layers *layers);

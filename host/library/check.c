@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// NaN fails every check: it is within no bounds.
+// NaN fails every range check.
 #include "library/check.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-// No later version's struct is larger: what claims to be was never filled in.
+// No version of the library has a larger struct; larger sizes come from uninitialized memory.
 #define LARGEST_STRUCT 4096
 
 bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
@@ -57,7 +57,7 @@ bool check_color(ClrtError *error, const char *what, const double color[3])
     return check_given(error, what, color) && check_three(error, what, color, 0, 1);
 }
 
-// Members behind those that are known must ask for nothing.
+// Members that this version does not know must be zero, their default.
 static bool is_zero(const unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Renderer, scene and what the caller wants to see -> the caller's floats, written tile by tile.
+// Renderer, scene and the caller's settings -> the caller's floats, written tile by tile.
 #include "library/check.h"
 #include "library/renderer_handle.h"
 #include "scene/camera.h"
 
-// Of tiles; the picture does not depend on it.
+// The side of a tile, in pixels; the picture does not depend on it.
 #define TILE 128
 
-// Leaves in wanted what the picture is to be, with its defaults filled in.
-static bool take_wishes(ClrtPicture *wanted, const ClrtPicture *picture, const Scene *scene,
-                        ClrtError *error)
+// Copies the caller's settings into wanted and fills in defaults.
+static bool take_settings(ClrtPicture *wanted, const ClrtPicture *picture, const Scene *scene,
+                          ClrtError *error)
 {
     if (!check_struct(error, "the picture", picture, wanted, sizeof *wanted))
         return false;
@@ -38,7 +38,7 @@ static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, cons
     return true;
 }
 
-// The scene's own cameras were looked at with it.
+// Checks the caller's camera; the scene's own cameras have been checked.
 static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, ClrtError *error)
 {
     Error cause = {0};
@@ -47,7 +47,7 @@ static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, C
            check_fail_for(error, CLRT_ARGUMENT, &cause);
 }
 
-static bool tell_progress(void *context, const RenderProgress *progress)
+static bool report_progress(void *context, const RenderProgress *progress)
 {
     const ClrtPicture *wanted = context;
     return wanted->progress == NULL ||
@@ -70,7 +70,7 @@ static bool draw(ClrtRenderer *renderer, const Viewpoint *viewpoint, ClrtPicture
 {
     Error cause = {0};
     Framebuffer framebuffer = {(float(*)[3])rgb, wanted->width, wanted->height};
-    const RenderObserver observer = {tell_progress, wanted};
+    const RenderObserver observer = {report_progress, wanted};
     const CameraData camera =
         camera_make(viewpoint, &renderer->normalization, wanted->height, wanted->samples);
     resize(&renderer->renderer, wanted);
@@ -87,7 +87,7 @@ static bool render(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPic
 {
     ClrtPicture wanted;
     Viewpoint viewpoint;
-    return take_wishes(&wanted, picture, &scene->scene, error) &&
+    return take_settings(&wanted, picture, &scene->scene, error) &&
            take_viewpoint(&viewpoint, &wanted, &scene->scene, error) &&
            renderer_handle_take(renderer, scene, error) &&
            check_distance(renderer, &viewpoint, error) &&

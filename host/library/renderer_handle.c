@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The general kernels are taken for every scene: they are compiled once, when a renderer is made.
+// Every scene uses the general kernels, which are compiled once per renderer.
 #include "library/renderer_handle.h"
 
 #include "base/processors.h"
@@ -27,8 +27,8 @@ static bool make_kernel(ClrtRenderer *renderer, Error *cause)
     return ready_kernel_make(&renderer->kernel, &renderer->setup, &traits, group, cause);
 }
 
-// One thread at a time: loader and drivers of OpenCL set themselves up at the first calls, and PoCL
-// 3.1 crashes where these come from two threads.
+// Only one thread at a time may run this.  The OpenCL loader and drivers initialize themselves at
+// the first calls, and PoCL 3.1 crashes if two threads make them.
 static bool open_renderer(ClrtRenderer *renderer, const char *device, Error *cause)
 {
     static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
@@ -88,7 +88,7 @@ static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
     return ok;
 }
 
-// Pictures bring their own sizes.
+// Each picture sets its own size.
 static bool open_scene(ClrtRenderer *renderer, Error *cause)
 {
     ReadyKernel lent = renderer->kernel;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a ClrtRenderer is to the rest of the library: a device with compiled kernels, and the scene
-// that it drew last, as the device reads it.
+// The inside of a ClrtRenderer: a device with compiled kernels, and the latest scene in the
+// device's layout.
 #pragma once
 
 #include "library/scene_handle.h"
@@ -12,14 +12,14 @@ struct ClrtRenderer {
     Device device;
     Cache cache;
     RendererSetup setup;
-    ReadyKernel kernel; // lent to each scene's renderer
+    ReadyKernel kernel; // lent to the renderer of each scene
     uint32_t threads;
-    atomic_bool is_busy; // with a picture
-    uint64_t state;      // of the scene that follows; 0 for none
+    atomic_bool is_busy; // drawing a picture
+    uint64_t state;      // of the scene below; 0 for none
     Normalization normalization;
     FlatScene flat;
     Renderer renderer;
 };
 
-// Makes scene the one that is drawn, unless it is already.
+// Loads the scene, unless it is the current one.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

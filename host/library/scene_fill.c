@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the caller's -> the elements of a scene that are no mesh.
+// The caller's numbers -> the elements of a scene other than meshes.
 #include "base/limits.h"
 #include "library/check.h"
 #include "library/scene_handle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ClrtScene: a Scene and its state, which every change moves on.
+// ClrtScene: a Scene and its state, which every change increases.
 #include "library/scene_handle.h"
 
 #include "library/check.h"
@@ -25,13 +25,14 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
                                         "material %u is not among the scene's %zu", number, count);
 }
 
-// Fills a new scene from the file at path, or where that is NULL with what each begins with.
+// Returns a new scene read from path, or an empty one for NULL.
 static ClrtScene *make(const char *path, ClrtError *error)
 {
     Error cause = {0};
     ClrtScene *scene = memory_zeroed(1, sizeof *scene, &cause);
-    const bool ok = scene != NULL && (path != NULL ? scn_load(&scene->scene, path, ply_parse, &cause)
-                                                   : scene_init(&scene->scene, &cause));
+    const bool ok =
+        scene != NULL && (path != NULL ? scn_load(&scene->scene, path, ply_parse, &cause)
+                                       : scene_init(&scene->scene, &cause));
     if (scene_handle_changed(scene, ok, &cause, error))
         return scene;
     clrt_scene_free(scene);

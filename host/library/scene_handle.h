@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ClrtScene is to the rest of the library.
+// The inside of a ClrtScene.
 #pragma once
 
 #include "library/clrt.h"
@@ -7,14 +7,14 @@
 
 struct ClrtScene {
     Scene scene;
-    uint64_t state; // a number that it shares with no other scene, nor with itself before a change
+    uint64_t state; // a number unique to the scene and its latest change
 };
 
-// Ends a change: renderers will see it, or where it went wrong, error tells why.
+// Ends a change.  If it went well, renderers will notice it; otherwise error receives the cause.
 bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtError *error);
 
-// Fails with CLRT_ARGUMENT where the scene has no such material.
+// Fails with CLRT_ARGUMENT if the scene has no such material.
 bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtError *error);
 
-// Fails with CLRT_ARGUMENT where no such camera can be.
+// Fails with CLRT_ARGUMENT if the camera is invalid.
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Arrays of the caller's -> a mesh of a scene.
+// The caller's arrays -> a mesh of a scene.
 #include "base/limits.h"
 #include "library/check.h"
 #include "library/scene_handle.h"
 
 #include <string.h>
 
-// An array of no elements may be NULL.
+// An array without elements may be NULL.
 static bool check_array(const char *what, const void *array, size_t count, ClrtError *error)
 {
     if (count > MESH_COUNT_MOST)
@@ -72,7 +72,7 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
            scene_handle_check_material(scene, mesh->material, error);
 }
 
-// The copy is looked at, which nobody changes meanwhile.
+// Checks the copy, because another thread cannot change it.
 static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
 {
     Error cause = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The version, as CMakeLists.txt gives it.
+// CMakeLists.txt defines the version.
 #include "library/clrt.h"
 
 const char *clrt_version(void)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The table, and how a pixel's values are made.  Names are those that compositors expect: Z, N and
-// P.  Names of primitives and materials are integers, exact however many there are; counts are
-// floats, which every program shows as they are.
+// The table of channels, and how they get their values.  Compositors expect the names Z, N and P.
+// Primitives and materials are integers, which are exact for any number of them.  Counts are
+// floats, which every program displays unchanged.
 #include "render/aov.h"
 
 #include "base/word.h"

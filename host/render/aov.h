@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The channels that --aov adds to a picture (arbitrary output variables, as film renderers call
-// them): one table that says what each is called and where its values come from.
+// The channels that --aov adds to a picture (arbitrary output variables in film rendering): one
+// table with each channel's name and the source of its values.
 #pragma once
 
 #include "image/layers.h"
 #include "scene/normalize.h"
 
-// What channels are made of, for one pixel.
+// The input for one pixel's channels.
 typedef struct {
-    const PathData *path;  // of the ray through its center
-    const uint32_t *tests; // TALLY_KINDS counts over all its samples; NULL where none is asked for
+    const PathData *path;  // of the ray through the pixel's center
+    const uint32_t *tests; // TALLY_KINDS counts over all samples; NULL if no channel needs them
     uint32_t samples;
-    uint32_t certainty; // of all its samples, a Certainty
+    uint32_t certainty; // a Certainty, over all samples
 } AovPixel;
 
-// The same for all pixels.
+// The input shared by all pixels.
 typedef struct {
     const Normalization *normalization;
     uint32_t light_count;
@@ -22,42 +22,41 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
-// The last in the table: each pixel's error against the reference.
+// The last channel in the table: each pixel's error against the reference.
 #define ERROR_CHANNEL "error"
 
-// What a channel takes beside the path of the ray through a pixel's center.
+// The input of a channel besides the path of the ray through the pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,
-    AOV_NEEDS_TESTS,     // every sample is traced again, alone
-    AOV_NEEDS_CERTAINTY, // every sample is certified
-    AOV_NEEDS_REFERENCE  // filled in by whoever draws that
+    AOV_NEEDS_TESTS,     // tracing every sample again, alone
+    AOV_NEEDS_CERTAINTY, // certifying every sample
+    AOV_NEEDS_REFERENCE  // drawing the reference, whose caller fills the channel
 } AovNeed;
 
 typedef struct {
     const char *name;                     // in --aov
-    const char *channels[AOV_COMPONENTS]; // in the file; NULL behind the last
-    bool is_integer;                      // unsigned; else float
+    const char *channels[AOV_COMPONENTS]; // in the file; NULL after the last
+    bool is_integer;                      // unsigned; otherwise float
     AovNeed need;
     const char *help;
-    // Fills values, which are floats by their bits where they are no integers.
+    // Fills values.  Floats are stored as their bits.
     void (*take)(uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 } Aov;
 
 extern const Aov aov_table[];
 extern const size_t aov_count; // at most 32
 
-// Sets of channels have a bit for each place in the table.
+// A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds the channels that a list names, with commas between, to set.  False and a message where a
-// name is unknown or comes twice.
+// Adds to set the channels of a comma-separated list.  Fails on an unknown or repeated name.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
-// Whether some channel of the set has that need.
+// Returns whether a channel of the set has that need.
 bool aov_needs(AovSet set, AovNeed need);
 
-// Names the channels of set, in the table's order.
+// Appends the names of the set's channels to layers, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);
 
-// Fills the values that layers have for a pixel.
+// Fills one pixel's values for all channels of the set.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);

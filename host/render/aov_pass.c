@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tile by tile, one after the other: a path costs about what a picture's sample does.
+// Traces tiles one after the other, because a path costs about as much as a sample of the picture.
 #include "render/aov_pass.h"
 
 #include "render/tile.h"
 
 #include <stdlib.h>
 
-// kernels/aov.cl, made at build time.
+// kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 
 static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *frame, cl_mem output,
@@ -28,7 +28,7 @@ static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *f
     return cl_succeeded(status, "run a kernel for channels", error);
 }
 
-// The first run, over a tile of no pixels, is when drivers finish compiling.
+// Drivers finish compiling in the first run, over a tile without pixels.
 static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, cl_mem output,
                         Error *error)
 {

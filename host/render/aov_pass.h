@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene of a renderer -> the channels of a picture, by kernels of their own behind the
-// picture's, so that a picture without them pays nothing.
+// The scene of a renderer -> the channels of a picture.  Separate kernels compute them, so pictures
+// without channels pay nothing.
 #pragma once
 
 #include "render/aov.h"
@@ -8,12 +8,12 @@
 
 typedef struct {
     const RendererSetup *setup;
-    const Renderer *renderer; // that has drawn the picture
+    const Renderer *renderer; // the renderer of the picture
     CameraData camera;        // of the picture
-    CameraData center;        // the same with one sample a pixel
-    const uint32_t *samples;  // of each pixel, row by row; NULL where all have as many
+    CameraData center;        // the same camera with one sample a pixel
+    const uint32_t *samples;  // of each pixel, row by row; NULL if all have the same number
     AovScene scene;
-    const CertaintyMap *certainty; // of the picture; NULL where no channel needs it
+    const CertaintyMap *certainty; // of the picture; NULL if no channel needs it
 } AovSource;
 
 typedef struct {
@@ -27,10 +27,11 @@ typedef struct {
     uint32_t (*host_tests)[TALLY_KINDS];
 } AovPass;
 
-// Compiles what the channels of set take; source must outlive the pass.
+// Compiles the kernels for the channels of set; source must outlive the pass.
 bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error);
 void aov_pass_close(AovPass *pass);
 
-// Fills layers, which have the names of the set and the picture's size, as far as observer lets it.
+// Fills layers until the observer stops it.  layers must have the names of the set and the
+// picture's size.
 bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
                    Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The program is the reference renderer's with one more kernel behind it, so that scene, settings
-// and frame are those of any other renderer.  Tiles come one after the other: certifying a pixel
-// takes long beside reading it back.
+// The program is the reference renderer's with one more kernel, so scene, settings and frame are
+// those of any renderer.  Tiles run one after the other: reading a pixel back is cheap beside
+// certifying it.
 #include "render/certifier.h"
 
 #include "render/tile.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// kernels/certify.cl, made at build time.
+// kernels/certify.cl, embedded at build time.
 extern const char certify_source[];
 
 KernelChoice certifier_choice(void)
@@ -67,7 +67,7 @@ static bool make_room(Certifier *certifier, Error *error)
     return cl_succeeded(status, "allocate a tile's marks", error);
 }
 
-// The first run, over a tile of no pixels, is when drivers finish compiling.
+// Drivers finish compiling in the first run, over a tile without pixels.
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT
-// FlatScene and camera -> how certain each pixel's decisions are, and the pixels that fp64 repairs
+// FlatScene and camera -> the certainty of each pixel's decisions, and the pixels repaired in fp64
 // (kernels/certify.cl).
 #pragma once
 
 #include "render/renderer.h"
 
 typedef struct {
-    Renderer reference; // in fp64, from whose program the kernel is
+    Renderer reference; // in fp64; its program contains the kernel
     cl_kernel kernel;
     cl_mem colors, marks; // of a tile, on the device
     float (*host_colors)[3];
     CertaintyMark *host_marks;
 } Certifier;
 
-// What is certified is a picture of the same scene and settings in fp32.  Setup's choice is
-// certifier_choice and the scene flattened for its nodes; it outlives the certifier.  Fails where
-// the device has no double arithmetic, or divides floats too coarsely for the bounds to hold.
+// Prepares to certify an fp32 picture of the same scene and settings.  setup's choice must be
+// certifier_choice, and flat must have its node layout and outlive the certifier.  Fails if the
+// device has no double arithmetic or does not round float divisions correctly, which the bounds
+// require.
 bool certifier_open(Certifier *certifier, const RendererSetup *setup, const FlatScene *flat,
                     const RenderSettings *settings, Error *error);
 void certifier_close(Certifier *certifier);
 
 KernelChoice certifier_choice(void);
 
-// A mark for each pixel, rows from the top.
+// A mark per pixel, rows from the top.
 typedef struct {
     uint32_t width, height;
     CertaintyMark *marks;             // owned
@@ -38,8 +39,8 @@ typedef struct {
     CertaintyMap *map;
 } CertifiedPicture;
 
-// Fills the map and gives the repaired pixels their colors, tile by tile, as far as the observer
-// lets it.
+// Fills the map and replaces the colors of repaired pixels, tile by tile, until the observer stops
+// it.
 bool certifier_certify(const Certifier *certifier, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error);

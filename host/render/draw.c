@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keeps two tiles in flight, each in a queue of its own: while one is read back into its place in
-// the picture, or waits for the last of its work-groups, the other is traced.  Every tile uses the
-// same padded grid with offset 0, since PoCL compiles a kernel again for each local size and each
-// new kind of grid.
+// Keeps two tiles in flight, each in its own queue.  One is traced while the other is read back or
+// waits for its last work-groups.  All tiles use the same padded grid with offset 0, because PoCL
+// compiles a kernel again for each local size and grid kind.
 #include "render/draw.h"
 
 #include "render/tile.h"
@@ -11,9 +10,9 @@
 
 #define SLOTS 2
 
-// One tile in flight.
+// A tile in flight.
 typedef struct {
-    cl_command_queue queue; // its own, so that tiles overlap
+    cl_command_queue queue; // one per slot, so that tiles overlap
     cl_mem pixels, tallies; // on the device
     uint (*host_tallies)[TALLY_KINDS];
     cl_event done;
@@ -49,7 +48,7 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     return slot->host_tallies != NULL;
 }
 
-// Nothing may still write into the slot when it goes.
+// The device must have finished writing before the slot is freed.
 static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
@@ -129,7 +128,7 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// Waits for a tile and adds up what it cost.
+// Waits for a tile and adds its tallies.
 static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
 {
     Renderer *renderer = drawing->renderer;

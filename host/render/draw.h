@@ -4,6 +4,5 @@
 
 #include "render/renderer.h"
 
-// Runs the kernel once over an empty tile, so that drivers which finish compiling at the first run
-// do it now.
+// Runs the kernel once over an empty tile, because some drivers finish compiling at the first run.
 bool draw_warm_up(Renderer *renderer, Error *error);

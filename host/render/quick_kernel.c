@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A run compiles packets if it would lose as much time without them.
+// Packets are compiled once a run would lose more time without them than compiling takes.
 #include "render/quick_kernel.h"
 
-// Measured: the time to compile; and what packets save of a core's time for each sample, on scenes
-// of fewer triangles than these.
+// Measured compile times, and the core time that packets save per sample in scenes with fewer
+// triangles than FEW_TRIANGLES.
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
-// Kernels made as setup says, but others.
+// Returns setup with another kernel choice.
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 {
     RendererSetup other = *setup;
@@ -28,7 +28,7 @@ bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
     const SceneTraits traits = traits_general(false);
     const RendererSetup quick =
         setup_with(setup, (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32});
-    // Kernels under development are never known to be compiled.
+    // Kernels under development never count as compiled.
     if (setup->source.choice.family != FAMILY_PACKET || setup->source.kernel_folder != NULL ||
         run->triangles >= FEW_TRIANGLES || ready_kernel_is_compiled(setup, &traits))
         return false;

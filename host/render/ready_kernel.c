@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lock on the cache is held over the build and the first run alike: PoCL 3.1 loses builds when
-// cold processes share one.
+// One cache lock covers both the build and the first run, because PoCL 3.1 loses builds when cold
+// processes share a cache.
 #include "render/ready_kernel.h"
 
 #include "base/clock.h"
@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-// Runs the kernel over a tile of no pixels: one work-group of a stand-in for a renderer whose
-// buffers hold nothing.
+// Runs the kernel over a tile without pixels: one work-group, on a dummy renderer with empty
+// buffers.
 static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error *error)
 {
     cl_int status;
@@ -51,7 +51,7 @@ bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *tra
 {
     char key[PROGRAM_KEY_SIZE];
     program_key(setup->device, &setup->source, traits, key);
-    // Kernels under development change too often for manifests to mean anything.
+    // Manifests of kernels under development would go stale at every edit.
     return setup->source.kernel_folder == NULL && cache_has_program(setup->cache, key);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets a renderer up: buffers, program and kernel.  Drawing itself is draw.c.
+// Prepares a renderer: buffers, program and kernel.  draw.c draws.
 #include "render/renderer.h"
 
 #include "base/clock.h"
@@ -8,9 +8,8 @@
 #include <assert.h>
 #include <string.h>
 
-// What compiling a program that is not yet cached costs, and what a specialized one saves of the
-// tracing time: 0 to 7 % measured with packets; the rate is of one core on a scene of middling
-// size.
+// The cost of compiling an uncached program, and the fraction of tracing time that specialization
+// saves.  Measured with packets: 0 to 7 %.  The ray rate is one core's on a medium scene.
 #define COMPILE_SECONDS   1.5
 #define SPECIALIZED_SAVES 0.03
 #define RAYS_PER_SECOND   3e6
@@ -85,7 +84,7 @@ static bool specialization_pays(const RendererSetup *setup, const SceneTraits *s
             expected_saving(setup->device, settings) > COMPILE_SECONDS);
 }
 
-// Takes the kernel that stands ready, or makes one.
+// Takes the ready kernel if it fits, else makes one.
 static bool take_kernel(Renderer *renderer, const RendererSetup *setup, const SceneTraits *traits,
                         Error *error)
 {

@@ -5,28 +5,29 @@
 #include "image/framebuffer.h"
 #include "render/ready_kernel.h"
 
-// Which program draws the scene; the picture is the same.
+// Which program draws the scene.  The picture is the same.
 typedef enum {
-    SPECIALIZE_AUTO, // specialized where it is compiled already or saves more than compiling costs
+    SPECIALIZE_AUTO, // specialized if already compiled, or if it saves more time than compiling
+                     // costs
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;
 
 typedef struct {
-    uint32_t width, height;             // of what is drawn
-    uint32_t left, top;                 // where that lies in the whole picture,
-    uint32_t whole_width, whole_height; // whose size this is; 0 where all of it is drawn
+    uint32_t width, height;             // of the crop
+    uint32_t left, top;                 // of the crop in the whole picture
+    uint32_t whole_width, whole_height; // of the whole picture; 0 without a crop
     uint32_t samples;                   // per pixel and axis
     uint32_t max_level;                 // rays of this level return the background
     uint32_t tile_width, tile_height;
-    uint64_t ready_tiles; // that many of the first are there already and are not drawn
-    uint32_t part, parts; // of every so many tiles the one of that place is drawn; 0, 0: all are
-    uint32_t group_width, group_height; // of work-groups, in work-items
+    uint64_t ready_tiles; // the first tiles that exist already and are skipped
+    uint32_t part, parts; // draws tile number part of every parts tiles; 0, 0 draws all
+    uint32_t group_width, group_height; // of a work-group, in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
 
-// The size of the whole picture.
+// Return the size of the whole picture.
 static inline uint32_t render_whole_width(const RenderSettings *settings)
 {
     return settings->whole_width > 0 ? settings->whole_width : settings->width;
@@ -43,19 +44,19 @@ static inline bool render_is_part(const RenderSettings *settings)
            settings->height < render_whole_height(settings);
 }
 
-// Buffers of the scene, among the kernel's arguments.
+// The scene's buffers among the kernel's arguments.
 #define RENDERER_ARRAYS 7
 
-// The limit keeps sample coordinates exact in float.
+// This limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
 
 typedef struct {
     uint64_t tiles_done, tiles;
-    uint64_t tiles_ready;          // of those done, that were there before
-    uint64_t tallies[TALLY_KINDS]; // zeros unless statistics were asked for
+    uint64_t tiles_ready;          // of tiles_done, those that existed before
+    uint64_t tallies[TALLY_KINDS]; // zeros without statistics
 } RenderProgress;
 
-// Told of every finished tile; returning false stops the picture where it is.
+// tile_done is called for every finished tile; returning false stops the picture.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
@@ -69,24 +70,24 @@ typedef struct {
     FrameData frame;
     Program program;
     cl_kernel kernel;
-    bool is_special;                // the program is specialized for the scene
+    bool is_special;                // whether the program is specialized for the scene
     cl_mem arrays[RENDERER_ARRAYS]; // in the order of the kernel's arguments
     size_t upload_size;             // bytes
     double upload_seconds, build_seconds;
     RenderProgress progress; // of the latest picture
 } Renderer;
 
-// Uploads the scene, or lets the device read it where it is, and builds the program.  The scene is
-// flattened for the nodes of the choice and outlives the renderer.
+// Uploads the scene, or shares it with the device, and builds the program.  flat must have the
+// choice's node layout and outlive the renderer.
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Takes another size of pictures, which are drawn whole, other samples, levels and tiles from
-// settings; the rest stays.
+// Sets the size, samples, level and tiles of the following pictures from settings.  Pictures are
+// whole, and all other settings remain.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture seen by camera into framebuffer, which has the settings' size, and leaves how
-// far it came in renderer->progress: the observer may have stopped it.
+// Draws the picture seen by camera into framebuffer, which has the settings' size.  Stores the
+// progress in renderer->progress; the observer may have stopped the picture.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A list is cut into launches, of which two wait in the queue, so that the device always has the
-// next.  Launches are small enough to count as one kind of grid for PoCL, which compiles a kernel
-// again for another.
+// Splits a list into launches and keeps two in the queue, so that the device never waits.  All
+// launches stay small enough to be one kind of grid for PoCL, which compiles a kernel again for
+// each kind.
 #include "render/sampler.h"
 
 #include <stdlib.h>
@@ -24,10 +24,10 @@ typedef struct {
     const SampleList *list;
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
-    cl_event done[2]; // of alternate launches
+    cl_event done[2]; // of alternating launches
 } Sampling;
 
-// Memory of the host that the device uses in place.
+// Host memory that the device uses in place.
 typedef struct {
     cl_mem_flags access;
     const void *data;
@@ -72,7 +72,8 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// A launch that a fault left running may still write into memory of the host, which goes.
+// Waits first: after a fault a running launch may still write to the host memory that is freed
+// here.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->device->queue);
@@ -159,7 +160,7 @@ static bool run_launches(Sampling *sampling, const RenderObserver *observer, Err
     return true;
 }
 
-// Makes what the device wrote visible to the host.
+// Makes the device's results visible to the host.
 static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Error *error)
 {
     cl_command_queue queue = sampling->renderer->device->queue;

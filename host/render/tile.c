@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles at the right and lower edge are cut off.
+// Tiles at the right and bottom edges are clipped.
 #include "render/tile.h"
 
 static uint32_t smaller(uint32_t a, uint32_t b)

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// How a picture is cut into tiles, row after row from its upper left corner, and
-// which of the tiles are drawn.
+// Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
+// draw.
 #pragma once
 
 #include "render/renderer.h"
 
 typedef struct {
-    uint32_t x, y, width, height; // in pixels of what is drawn
+    uint32_t x, y, width, height; // in pixels of the crop
 } Tile;
 
-// Those that are drawn.
+// Number and position of the tiles to draw.
 uint64_t tile_count(const RenderSettings *settings);
 Tile tile_at(const RenderSettings *settings, uint64_t number);
 
-// As large as any.
+// Returns a tile of the largest size.
 Tile tile_largest(const RenderSettings *settings);
 
-// Of all tiles that are drawn.
+// Returns the number of pixels in all tiles to draw.
 uint64_t tile_pixels(const RenderSettings *settings);
 
-// Has the kernels draw that tile.
+// Sets the frame to draw that tile.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
 
-// Work-items along the sides of a tile, padded to whole work-groups: the same for all tiles, those
-// that the picture's edge cuts off among them.
+// Returns in grid the work-items along both sides of a tile, padded to whole work-groups.  All
+// tiles, clipped ones included, have the same grid.
 void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);

@@ -298,7 +298,7 @@ class Refusals(Resume):
             self.assertEqual(self.clrt(*SMALL, "--resume", *words, code=2), f"clrt: {sentence}\n")
         os.mkfifo(self.work / "pipe.pfm")
         self.assertEqual(self.clrt(*SMALL, "--resume", "-o", "pipe.pfm", code=3),
-                         "clrt: pipe.pfm: is no file that can be gone on with\n")
+                         "clrt: pipe.pfm: cannot be resumed: not a regular file\n")
 
 
 if __name__ == "__main__":

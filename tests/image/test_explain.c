@@ -56,7 +56,7 @@ static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
     const Scene *scene = explainer->scene;
     const Material *material = &scene->materials.data[ray->material];
     double diffuse = scene->ambient, specular = 0;
-    for (size_t i = 0; ray->asks_lights && i < scene->lights.count; i++) {
+    for (size_t i = 0; ray->uses_lights && i < scene->lights.count; i++) {
         diffuse += (double)material->kd * ray->lights[i].diffuse;
         specular += (double)material->ks * ray->lights[i].specular;
         assert_true((ray->lights[i].blocker != NOTHING) == (ray->lights[i].state == LIGHT_BLOCKED));
