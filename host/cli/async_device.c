@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel made ahead is the general one: which special one a scene wants, nobody knows before
-// it is read.
+// The thread makes the general kernel, because nobody knows the scene's specialized one before the
+// scene is read.
 #include "cli/async_device.h"
 
 #include "base/clock.h"
@@ -30,8 +30,8 @@ static bool open_device(AsyncDevice *async)
     return ok;
 }
 
-// Returns whether the kernel is to be made here: one that is compiled unless it is known not to be
-// wanted, and another when it is known to be.
+// Publishes the device and returns whether this thread should make the kernel: a compiled one
+// unless the caller has declined it, another one only if the caller wants it.
 static bool publish_device(AsyncDevice *async, bool is_open, bool is_compiled)
 {
     pthread_mutex_lock(&async->mutex);
@@ -71,7 +71,7 @@ void async_device_begin(AsyncDevice *async, const Options *options, RendererSetu
     pthread_attr_setstacksize(&attributes, STACK_SIZE);
     async->is_running = pthread_create(&async->thread, &attributes, start, async) == 0;
     pthread_attr_destroy(&attributes);
-    if (!async->is_running) // then one after the other
+    if (!async->is_running) // fall back to running sequentially
         publish_device(async, open_device(async), true);
 }
 
@@ -85,7 +85,8 @@ void async_device_decide(AsyncDevice *async, bool wanted)
     pthread_mutex_unlock(&async->mutex);
 }
 
-// Whoever asks for certain kernels gets them, and whoever counts gets the same counts every time.
+// Returns whether clrt may choose the kernels.  Explicit requests win, and statistics must not
+// depend on what is compiled.
 static bool leaves_kernels_open(const Options *options)
 {
     const KernelRequest *request = &options->kernel;

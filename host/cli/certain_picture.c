@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The certifier walks pairs, whatever the picture was drawn with: the scene is flattened again.
+// The certifier always needs pair nodes, so the scene is flattened again.
 #include "cli/certain_picture.h"
 
 #include "base/clock.h"

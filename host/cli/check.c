@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the scene, takes the census, traces the leak rays where there is a device, and reports.
+// Reads the scene, takes the census, traces rays to find leaks if there is a device, and reports.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -61,7 +61,7 @@ static bool trace_leaks(Check *check, const Cache *cache, Error *error)
     return ok;
 }
 
-// A machine without a device can still check everything else, unless one was asked for, or fp64.
+// Without a device all other checks still run, unless the options name a device or fp64.
 static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
 {
     if (scene_triangle_count(&check->scene) == 0)
@@ -109,8 +109,8 @@ static ExitCode report(const Check *check, double start, Error *error)
     return outcome;
 }
 
-// Nothing is left out in silence.
-static void tell_notes(const Options *options, const Scene *scene)
+// Prints what the readers dropped.
+static void print_notes(const Options *options, const Scene *scene)
 {
     for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)
         fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
@@ -127,7 +127,7 @@ static ExitCode run(Check *check, const Cache *cache, Error *error)
     normalization_check(&check->normalization, &check->scene, &check->frame_fault);
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
-    tell_notes(check->options, &check->scene);
+    print_notes(check->options, &check->scene);
     if (!look_for_leaks(check, cache, error))
         return EXIT_DEVICE;
     return report(check, start, error);
@@ -149,7 +149,7 @@ bool check_geometry(const Options *options, const Scene *scene, Error *error)
     Error note = {0};
     if (options->bad_geometry == BAD_GEOMETRY_FAIL)
         return bad_geometry_none(scene, error);
-    tell_notes(options, scene);
+    print_notes(options, scene);
     if (!options->quiet && !bad_geometry_none_dropped(scene, &note))
         fprintf(stderr, "clrt: %s\n", note.text);
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every option that writes a file stands in one of the two lists here.
+// The two lists here hold every option that writes a file.
 #include "cli/command_files.h"
 
 #include "jobs/resume.h"

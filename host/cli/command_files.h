@@ -6,9 +6,9 @@
 #include "cli/options/options.h"
 #include "scene/scene.h"
 
-// Adds every file that the options name, and those that scene was read from unless it is NULL.
+// Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
-// Returns false with a message where an output would replace an input or another output.  Programs
-// ask twice: before any work, and again once the scene names its meshes.
+// Fails if an output would replace an input or another output.  Programs call it twice: before any
+// work, and again once the scene names its meshes.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);

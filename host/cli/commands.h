@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program's commands.  Each returns the exit status and fills error unless that is EXIT_DONE.
+// The program's commands.  Each returns the exit status, and fills error unless it returns
+// EXIT_DONE.
 #pragma once
 
 #include "cli/run.h"
@@ -12,31 +13,31 @@ ExitCode picture_make(Run *run, Error *error);
 // clrt SCENE: shows the scene in a window until the user closes it.
 ExitCode show_scene(const Options *options, const Cache *cache, Error *error);
 
-// Prints the keys of the window; nothing in a build without one.
+// Prints the window's keys; prints nothing in a build without a window.
 void show_write_keys(FILE *stream);
 
-// clrt --warm: compiles kernels ahead.
+// clrt --warm: compiles kernels in advance.
 ExitCode warm_kernels(Run *run, Error *error);
 
-// clrt --explain: prints what of clrt a scene uses, what is left out, and why.
+// clrt --explain: prints the features and buffers that a scene uses, those it omits, and why.
 ExitCode explain_scene(Run *run, Error *error);
 
-// clrt --explain-pixel: prints how a pixel's color comes about.
+// clrt --explain-pixel: prints how clrt computes a pixel's color.
 ExitCode explain_pixel(Run *run, Error *error);
 
 // clrt --list-devices: prints the OpenCL devices as clinfo does, or as versioned JSON.
 ExitCode device_report_write(bool as_json, Error *error);
 
-// clrt check: reports on a scene's geometry.  A missing device is an error only where the options
-// name one.
+// clrt check: reports on a scene's geometry.  A missing device is an error only if the options name
+// one.
 ExitCode check_scene(const Options *options, const Cache *cache, Error *error);
 
-// For pictures: rejects a scene with triangles of no area where the options say so; otherwise
-// prints how many are left out.
+// For pictures: rejects triangles without area if the options say so; otherwise prints how many are
+// dropped.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
-// clrt compare: reports how much two pictures differ, and writes the map of the differences where
-// the options name one.
+// clrt compare: reports the difference of two pictures, and writes its map if the options name a
+// file.
 ExitCode compare_files(const Options *options, Error *error);
 
 // clrt merge: joins the parts of a picture.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads both files, measures, and reports; the limits decide about the exit status.
+// Reads both files, measures and reports.  The limits determine the exit status.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads everything before anything is written, and writes over nothing that was read.
+// Reads everything before it writes anything, and never overwrites a file that it read.
 #include "cli/commands.h"
 
 #include "base/file.h"
@@ -18,13 +18,13 @@
 typedef struct {
     const Options *options;
     Scene scene;
-    char **mesh_paths; // beside the scene text; NULL for a PLY mesh; owned
-    char **mesh_names; // the last parts of these; owned, but not its strings
+    char **mesh_paths; // of the PLY files beside the scene text; NULL for a PLY mesh; owned
+    char **mesh_names; // the file names in mesh_paths; owned, but not its strings
 } Conversion;
 
 typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
 
-// Writes to the file's place for the unfinished, whose stream is buffered: its end tells faults.
+// Writes to the temporary file.  Its stream is buffered, so fclose reports the errors.
 static bool write_stream(const Conversion *conversion, const OutputFile *file, WriteContent *write,
                          const void *content)
 {
@@ -71,8 +71,8 @@ static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const cha
     return true;
 }
 
-// What PLY has no place for is told.
-static void tell_losses(const Conversion *conversion)
+// Warns about the data that PLY cannot store.
+static void warn_of_losses(const Conversion *conversion)
 {
     const Scene *scene = &conversion->scene;
     bool has_materials = false;
@@ -99,13 +99,13 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
         error_set(error, "%s: %s", conversion->options->scene_path, cause.text);
         return EXIT_SCENE;
     }
-    tell_losses(conversion);
+    warn_of_losses(conversion);
     const bool ok = write_mesh(conversion, &mesh, conversion->options->other_path, error);
     mesh_free(&mesh);
     return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-// STEM-1.ply and so on, for a text called STEM.scn.
+// Names them STEM-1.ply and so on, for a text called STEM.scn.
 static bool name_meshes(Conversion *conversion, Error *error)
 {
     const char *path = conversion->options->other_path;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Whose crash it is follows from the program counter: clrt's own code is in the program's file, and
-// drivers, the kernels they compile and libraries are not.  OpenCL calls back none of it.
-// LLVM installs handlers during a build, from which all but those of abort() come back to ours.  So
-// the program's sigaction, which comes before the C library's, keeps SIGABRT.
+// The program counter shows whose crash it is: the program's file contains clrt's code, but no
+// drivers, libraries or kernels, and OpenCL never calls back into it.  LLVM installs handlers
+// during a build, and all of them except abort()'s return to ours.  So the program's own sigaction,
+// which precedes the C library's, keeps SIGABRT.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -33,7 +33,7 @@ typedef struct {
 static const Crash crashes[] = {CRASH(SIGSEGV), CRASH(SIGBUS), CRASH(SIGILL), CRASH(SIGFPE),
                                 CRASH(SIGABRT)};
 
-// The ends of the program's own code, which the linker defines.
+// The bounds of the program's own code, which the linker defines.
 extern const char __executable_start[], etext[];
 
 static pid_t watcher;
@@ -50,22 +50,22 @@ static bool is_own_code(const ucontext_t *context)
 #endif
 }
 
-static void tell(const char *message)
+static void print_message(const char *message)
 {
-    const ssize_t told = write(STDERR_FILENO, message, strlen(message));
-    (void)told; // a reader that has left changes nothing
+    const ssize_t written = write(STDERR_FILENO, message, strlen(message));
+    (void)written; // a closed standard error changes nothing
 }
 
-// Only the first thread to come here speaks.
+// Only the first thread prints; the others wait.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))
         pause();
-    tell(message);
+    print_message(message);
     _exit(EXIT_DEVICE);
 }
 
-// Processes that read or write pictures are forks of this one, and have nothing to say.
+// Processes that read or write pictures are forks of this one, and stay silent.
 static void handle(int number, siginfo_t *info, void *context)
 {
     const Crash *crash = crashes;
@@ -76,9 +76,9 @@ static void handle(int number, siginfo_t *info, void *context)
     if (getpid() == watcher && !is_sent && !is_own)
         end(crash->of_driver);
     if (getpid() == watcher && !is_sent)
-        tell(crash->of_clrt);
+        print_message(crash->of_clrt);
     signal(number, SIG_DFL);
-    raise(number); // once this function has returned
+    raise(number); // takes effect once this function has returned
 }
 
 static void handle_exit(void)
@@ -87,8 +87,8 @@ static void handle_exit(void)
         end("clrt: a driver ended the program, as LLVM does where a disk is full\n");
 }
 
-#if !CLRT_TIDY_EXIT // sanitizers have such a function themselves
-// The C library's own.
+#if !CLRT_TIDY_EXIT // sanitizers define this function themselves
+// The C library's own name for sigaction.
 extern int __sigaction(int number, const struct sigaction *action, struct sigaction *before);
 
 __attribute__((visibility("default"))) int sigaction(int number, const struct sigaction *action,

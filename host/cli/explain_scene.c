@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Goes as far as a picture does before it is drawn, and tells what stands there.
+// Prepares a picture without drawing it, and prints the compiled features and the uploaded buffers.
 #include "cli/commands.h"
 
 #include "cli/command_files.h"
@@ -21,7 +21,7 @@ static void write_kernels(const Run *run)
            scene_program_reason(run));
 }
 
-// The parts that are needed, or compiled though they are not.
+// Prints the compiled parts that are needed, or those that are not.
 static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed)
 {
     bool is_headed = false;

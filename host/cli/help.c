@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words what --help shows: names on the left, sentences broken into lines on the right.
+// Formats --help: names on the left, wrapped sentences on the right.
 #include "cli/help.h"
 
 #include "cli/commands.h"
@@ -11,7 +11,7 @@
 #define NAME_WIDTH 28
 #define TEXT_WIDTH 66
 
-// Length of what of the text fits a line, broken at a blank.
+// Returns the length of text's first line, broken at a space.
 static int line_length(const char *text)
 {
     const int length = (int)strlen(text);

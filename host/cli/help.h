@@ -4,5 +4,5 @@
 
 #include <stdio.h>
 
-// Writes what --help shows.
+// Writes the text of --help.
 void options_write_help(FILE *stream);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program: does what the command line asks for, and words what went wrong.
+// The program: runs the command and prints its error.
 #include "cli/command_files.h"
 #include "cli/commands.h"
 #include "cli/crash.h"
@@ -99,15 +99,14 @@ static void run(void *context)
 int main(int count, char **words)
 {
     Start start = {.count = count, .words = words};
-    // A reader that leaves early, or a file past the limit of its size, is a failed write, to be
-    // told and cleaned up after.
+    // A closed pipe or a file size limit then fails the write, which is reported and cleaned up.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    // Sanitizers have handlers of their own, and look for leaks at the end.
+    // Sanitizers install their own handlers and check for leaks at exit.
     if (!CLRT_TIDY_EXIT)
         crash_watch();
     stack_run(run, &start);
-    // The system takes down in no time what drivers and libraries take 0.1 s to.
+    // The kernel frees at once what drivers and libraries need 0.1 s to free.
     if (!CLRT_TIDY_EXIT)
         _exit((int)start.code);
     return (int)start.code;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One part is read after the other, and its tiles are copied into the whole.  The parts must be of
-// one picture: the same scene, version and settings, and every part once.
+// Reads the parts one after the other and copies their tiles into the whole.  The parts must have
+// the same scene, version and settings, and each part must occur once.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -16,9 +16,9 @@ typedef struct {
     const Options *options;
     Framebuffer framebuffer;
     Layers layers;
-    Provenance provenance; // of the first part, with every device
+    Provenance provenance; // of the first part, with the devices of all
     StoredTiles first;     // of the first part
-    const char **paths;    // of every part's number, NULL where it has not come; owned
+    const char **paths;    // by part number; NULL for a missing part; owned
 } Merging;
 
 static bool is_picture(const Merging *merging, const StoredTiles *tiles)
@@ -28,7 +28,7 @@ static bool is_picture(const Merging *merging, const StoredTiles *tiles)
            a->tile_width == b->tile_width && a->tile_height == b->tile_height;
 }
 
-// What the part is of another one of than the first; NULL where they fit.
+// Returns the property in which the part differs from the first one; NULL if they match.
 static const char *misfit_of(const Merging *merging, const StoredTiles *tiles,
                              const StoredImage *image)
 {
@@ -56,7 +56,7 @@ static bool note_part(Merging *merging, const StoredTiles *tiles, const char *pa
     return true;
 }
 
-// Names the device, unless another part has it too.
+// Adds the part's device unless another part has the same.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {

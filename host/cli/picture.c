@@ -22,10 +22,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The user may have meant percent where --error is larger.
+// Above this value of --error the user may have meant percent.
 #define LARGE_ERROR 0.1
 
-// What is told of every tile.
+// The observer's context.
 typedef struct {
     Run *run;
     Progress progress;
@@ -41,7 +41,7 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// One picture of as many as were asked for; they are the same.
+// Draws the picture once; --repeat draws it again.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 {
     double moment = clock_seconds();
@@ -65,7 +65,7 @@ static CameraData camera_of(const Run *run, uint32_t samples)
                        samples);
 }
 
-// Places along a pixel's side that samples may have.
+// Returns the number of sample positions along a pixel's side.
 static uint32_t samples_across(const Run *run)
 {
     if (run->options->contrast > 0)
@@ -73,7 +73,7 @@ static uint32_t samples_across(const Run *run)
     return options_are_adaptive(run->options) ? LADDER_GRID : run->settings.samples;
 }
 
-// What refining has sampled, it tells itself.
+// Counts the samples of a picture; adaptive ones have counted theirs.
 static void count_samples(Run *run)
 {
     Report *report = &run->report;
@@ -121,7 +121,7 @@ static bool certify(Run *run, Error *error)
            certain_picture_make(run, &camera, error);
 }
 
-// The channels beside the colors.  A picture that was stopped has none of their values.
+// Computes the channels beside the colors.  A stopped picture has none of their values.
 static bool draw_layers(Run *run, Error *error)
 {
     AovPass pass;
@@ -218,7 +218,7 @@ static void describe(const Run *run)
             report->upload_size);
 }
 
-static void tell_beginning(const Run *run)
+static void print_beginning(const Run *run)
 {
     if (!run->options->verbose)
         return;
@@ -242,7 +242,7 @@ static ExitCode goal_missed(const Run *run, Error *error)
     return EXIT_FAULTS;
 }
 
-// What shows before any work.
+// Finds errors that need no work to find.
 static ExitCode check_files(Run *run, Error *error)
 {
     const Options *options = run->options;
@@ -277,7 +277,7 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees what there is of the picture before.
+// Frees the previous picture.
 static void clear(Run *run)
 {
     framebuffer_free(&run->framebuffer);
@@ -289,7 +289,7 @@ static void clear(Run *run)
     run->report.frame_count = 0;
 }
 
-// Where the frame of that number is seen from.
+// Sets the viewpoint of the frame with that number.
 static void look(Run *run, uint32_t number)
 {
     const Options *options = run->options;
@@ -300,7 +300,7 @@ static void look(Run *run, uint32_t number)
                                     run->scene.has_course_views, run->report.turned);
 }
 
-// Black, but for the tiles that are there.
+// Makes a black picture with the tiles of an earlier run.
 static bool begin_picture(Run *run, Error *error)
 {
     Provenance own;
@@ -312,7 +312,7 @@ static bool begin_picture(Run *run, Error *error)
     return ok;
 }
 
-static ExitCode tell_stopped(const Run *run, Error *error)
+static ExitCode report_stopped(const Run *run, Error *error)
 {
     const RenderProgress *progress = &run->renderer.progress;
     const char *path = run->output_path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
@@ -333,7 +333,7 @@ static ExitCode finish(Run *run, double start, Error *error)
         return EXIT_OUTPUT;
     resume_close(&run->resume, run->report.complete);
     if (run->stopped_by > 0)
-        return tell_stopped(run, error);
+        return report_stopped(run, error);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
@@ -345,7 +345,7 @@ static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error
     look(run, number);
     if (!begin_picture(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
-    tell_beginning(run);
+    print_beginning(run);
     stop_wait_for_tiles();
     if (!draw(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
@@ -354,7 +354,7 @@ static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error
     return finish(run, start, error);
 }
 
-// A goal that one frame misses keeps no other from being drawn.
+// A frame that misses its goal does not keep the others from being drawn.
 static ExitCode make_frames(Run *run, double start, Error *error)
 {
     ExitCode outcome = EXIT_DONE;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A terminal gets one line that rewrites itself, with the time that is left; a log gets a plain
-// line for every tenth of a picture that takes longer than a second.
+// A terminal gets a line that rewrites itself, with the remaining time.  A log gets a line for
+// every tenth of a picture that takes longer than a second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
@@ -20,7 +20,8 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-// What this run has drawn tells how fast it is; what it found drawn took it no time.
+// Estimates the remaining time from the tiles drawn in this run; tiles of an earlier run took no
+// time.
 static void print_progress(Progress *progress, const RenderProgress *render)
 {
     const double elapsed = clock_seconds() - progress->start;

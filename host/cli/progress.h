@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Watches a picture being traced: progress on standard error, and the signals that stop it, which
-// base/stop.h takes.
+// Observes a picture's tracing: prints progress on standard error, and stops on the signals of
+// base/stop.h.
 #pragma once
 
 #include "render/renderer.h"
 
 typedef struct {
     bool silent;
-    bool terminal;    // standard error is one: a line that rewrites itself
-    double start;     // seconds of the clock
+    bool terminal;    // standard error is a terminal: rewrite one line
+    double start;     // in seconds of the clock
     unsigned printed; // percent in the last plain line
-    bool line_open;   // a rewriting line stands unfinished
+    bool line_open;   // the rewritten line is on the screen
 } Progress;
 
 Progress progress_begin(bool silent);
@@ -18,5 +18,5 @@ Progress progress_begin(bool silent);
 // The observer's function; context is a Progress.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
-// Clears the line and returns the signal that asked to stop, 0 where none did.
+// Clears the line and returns the signal that requested the stop, or 0.
 int progress_end(Progress *progress);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A pass draws one sample a pixel, all shifted alike: half of the passes make each of two pictures,
-// whose difference tells the reference's own error.  Shifts follow two additive recurrences by the
-// powers of the plastic number (Roberts's R2), one for each half with a start of its own, so that
-// the halves' errors are independent, and neither shares samples with an N x N grid of sub-pixel
-// centers.  A shift is the camera's: the kernels are those of every picture.
+// A pass draws one sample per pixel, with the same shift for all pixels.  Each half of the passes
+// makes a picture, and the difference of both measures the reference's own error.  Shifts follow
+// the additive recurrence by powers of the plastic number (Roberts's R2).  The halves have
+// different starts, so their errors are independent, and neither shares samples with an N x N grid
+// of sub-pixel centers.  The camera is shifted, so the kernels are the usual ones.
 #include "cli/reference.h"
 
 #include "base/clock.h"
@@ -17,7 +17,7 @@
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
 
-// The second run, of which the halves are made.
+// The second run, which draws the halves.
 typedef struct {
     Options options;
     Run run;
@@ -39,7 +39,7 @@ static Options options_of(const Options *picture)
     Options options = *picture;
     options.kernel = (KernelRequest){.precision = PRECISION_FP64};
     options.samples = 1;
-    // Where the picture's levels follow from an error, the reference has as many as floats show.
+    // If the picture's levels follow from an error, the reference uses as many as floats can show.
     options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);
     options.format = "pfm";
     options.group_width = options.group_height = 0;
@@ -66,7 +66,7 @@ static bool open_run(Reference *reference, const Run *picture, Error *error)
            framebuffer_make(&run->framebuffer, run->settings.width, run->settings.height, error);
 }
 
-// All passes are one progress.
+// All passes share one progress.
 static bool tile_done(void *context, const RenderProgress *progress)
 {
     Reference *reference = context;
@@ -81,7 +81,7 @@ static bool draw_pass(Reference *reference, uint32_t pass, Error *error)
 {
     Run *run = &reference->run;
     const int half = (int)(pass % 2);
-    const double place = pass / 2; // in its half
+    const double place = pass / 2; // index in its half
     CameraData camera =
         camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
@@ -108,7 +108,7 @@ static bool draw_passes(Reference *reference, Run *picture, Error *error)
     return ok;
 }
 
-// Stores the mean of the halves, and returns the error of it that their difference tells.
+// Stores the mean of the halves, and returns its error, estimated from their difference.
 static double join_halves(const Reference *reference, Framebuffer *mean)
 {
     const size_t pixels = (size_t)mean->width * mean->height;
@@ -124,7 +124,7 @@ static double join_halves(const Reference *reference, Framebuffer *mean)
     return sqrt(squares / (3 * (double)pixels));
 }
 
-// The picture's values, borrowed.
+// Returns a view of the picture's values, which it borrows.
 static StoredImage stored_view(const Framebuffer *framebuffer)
 {
     return (StoredImage){.width = framebuffer->width,
@@ -134,7 +134,7 @@ static StoredImage stored_view(const Framebuffer *framebuffer)
                          .values = framebuffer->pixels[0]};
 }
 
-// The largest of the three colors' differences.
+// Returns the largest difference of the three colors.
 static float error_of(const float drawn[3], const float truth[3])
 {
     float largest = 0;

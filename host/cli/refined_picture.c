@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads of the host share what is decided between the device's passes.
+// A thread pool on the host decides where to sample, between the device's passes.
 #include "cli/refined_picture.h"
 
 #include "base/clock.h"
@@ -10,22 +10,23 @@
 #include <math.h>
 #include <stdio.h>
 
-// The error that counts beside that of sampling.  Levels that --error chooses are part of its
-// error; any others are part of the picture.
+// Returns the truncation error that counts towards --error.  Levels chosen by --error are part of
+// its error; other levels are part of the picture.
 static double truncation_of(const Run *run)
 {
     const Options *options = run->options;
     return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
 }
 
-// The error that sampling may make beside the truncation's; below 0 where that alone is too much.
+// Returns the error left for sampling beside the truncation; negative if truncation alone exceeds
+// the goal.
 static double error_left(const Run *run)
 {
     const double most = run->options->error_goal, truncation = truncation_of(run);
     return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
 }
 
-// Keeps how many samples each pixel has, where channels may ask for it.
+// Keeps each pixel's sample count if channels may need it.
 static bool keep_counts(Run *run, Error *error)
 {
     const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
@@ -62,7 +63,7 @@ static bool draw_adaptively(Run *run, const CameraData *camera, Crew *crew,
     return ok;
 }
 
-// Refines as the options say; an error that too few levels make alone is not refined.
+// Refines according to the options.  Does nothing if truncation alone exceeds the error goal.
 static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *outcome, Error *error)
 {
     const GoalTime time = {start, run->options->time_goal};

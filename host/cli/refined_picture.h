@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A picture whose pixels get as many samples as they need.
+// A picture with as many samples per pixel as it needs.
 #pragma once
 
 #include "cli/run.h"
 
-// Draws the run's picture, and leaves in its report what that took.
+// Draws the run's picture and stores its cost in the report.
 bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserver *observer,
                           Error *error);

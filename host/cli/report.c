@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words the report; Jansson writes the JSON.
+// Writes the report as text, and as JSON with Jansson.
 #include "cli/report.h"
 
 #include "accel/levels.h"
@@ -155,7 +155,7 @@ static json_t *scene_json(const Report *report)
                      "dropped_triangles", integer(report->dropped_triangles));
 }
 
-// Down to the deepest there are.
+// Lists the inner nodes at each depth of the tree.
 static json_t *inner_nodes_json(const Report *report)
 {
     json_t *list = json_array();
@@ -195,7 +195,7 @@ static json_t *samples_json(const Report *report)
                      "goal_reached", !report->goal_missed);
 }
 
-// Refining goes over the picture as often as it needs to.
+// Refining has no tiles, because it passes over the picture several times.
 static json_t *tiles_json(const Report *report)
 {
     const uint64_t found = report->settings->ready_tiles;
@@ -229,7 +229,7 @@ static json_t *certainty_json(const Report *report)
                      integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
 }
 
-// The parts of the report, each under its name.
+// Adds the parts of the report under their names.
 static void add_parts(json_t *json, const Report *report)
 {
     json_object_set_new(json, "scene", scene_json(report));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run cost, as text and as JSON.
+// The costs and results of a run, as text and as JSON.
 #pragma once
 
 #include "cli/options/options.h"
@@ -8,21 +8,21 @@
 
 #include <stdio.h>
 
-// What a picture differs by from its reference.
+// The difference between a picture and its reference.
 typedef struct {
-    uint32_t samples; // of the reference, a pixel; 0 where none was drawn
+    uint32_t samples; // of the reference, per pixel; 0 without one
     Difference difference;
-    double own_error; // of the reference: RMSE, as two independent halves of it tell
+    double own_error; // of the reference: RMSE, from its two independent halves
     double seconds;
 } ReferenceResult;
 
-// How many pixels are how certain.
+// The number of pixels for each certainty.
 typedef struct {
-    uint64_t pixels[CERTAINTY_KINDS]; // zeros where nobody asked
+    uint64_t pixels[CERTAINTY_KINDS]; // zeros unless requested
     double seconds;
 } CertaintyResult;
 
-// Everything about one run that is told to the user.
+// All facts about a run that the reports contain.
 typedef struct {
     const Options *options;
     const RenderSettings *settings;
@@ -34,15 +34,15 @@ typedef struct {
     uint32_t lights, spheres, triangles;
     uint64_t dropped_triangles;
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
-    uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at every depth
+    uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
     size_t upload_size;
-    double contrast;   // that refining left, 0 where nothing was refined
-    double estimate;   // of the error, with the bound of the truncation; 0 where there is none
-    double bound;      // likewise, that exceeds it with a confidence of 95 %
+    double contrast;   // the limit of adaptive anti-aliasing; 0 without it
+    double estimate;   // of the error, with the bound of the truncation; 0 without one
+    double bound;      // exceeds the error with 95 % confidence
     bool goal_missed;  // of --error or --time
-    double truncation; // bound of the error that max_level makes
-    uint64_t pixels;   // that this run has drawn
-    uint64_t samples;  // of all of them together
+    double truncation; // bounds the error from max_level
+    uint64_t pixels;   // drawn in this run
+    uint64_t samples;  // in all these pixels
     bool specialized;
     bool complete;
     uint64_t tiles_done;
@@ -56,17 +56,17 @@ typedef struct {
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 
-// Takes what there is to tell of a scene and its tree.
+// Fills in the facts about a scene and its tree.
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
 
-// The tree's builder, as --bvh has it, or none.
+// Returns the tree's builder as --bvh names it, or "none".
 const char *report_tree_name(const Report *report);
 
-// The error of a picture that was measured against a reference, on stream.
+// Prints the error against the reference.
 void report_write_error(const Report *report, FILE *stream);
 
-// The figures the course prints, on stream.
+// Prints the figures of the course's program.
 void report_write_text(const Report *report, FILE *stream);
 
-// Versioned JSON with sorted keys, at path ("-": standard output).
+// Writes versioned JSON with sorted keys to path ("-": standard output).
 bool report_write_json(const Report *report, const char *path, Error *error);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings are those that the picture depends on, none of those that change no bit: files of the
-// same picture are equal.
+// The settings include only those that can change a bit, so files of the same picture are equal.
 #include "cli/report_provenance.h"
 
 #include <stdio.h>
@@ -23,7 +22,7 @@ static json_t *samples_json(const Report *report)
                                                  : integer(report->settings->samples);
 }
 
-// Counts of tests are of one tree, whatever the colors are the same with.
+// Test counts depend on the tree; colors do not.
 static void add_tree(json_t *json, const Report *report)
 {
     if (!aov_needs(report->options->aovs, AOV_NEEDS_TESTS))

@@ -7,6 +7,6 @@
 
 void report_fill_provenance(Provenance *provenance, const Report *report);
 
-// Prints the hash of the pixels if the options ask for it, and rejects a hash that differs from the
-// expected one.
+// Prints the hash of the pixels if the options ask for it.  Fails if it differs from the expected
+// hash.
 bool report_print_hash(const Options *options, const char *hash, Error *error);

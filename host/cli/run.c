@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stages from a scene file to a renderer that stands ready.
+// The stages from a scene file to a renderer ready to draw.
 #include "cli/run.h"
 
 #include "base/clock.h"
@@ -14,14 +14,14 @@
 
 #include <stdlib.h>
 
-// With so many, a tree takes longer to build than a compiled kernel to be loaded.
+// Above this number, building a tree takes longer than loading a compiled kernel.
 #define MANY_TRIANGLES 20000
 
-// The part of the error asked for that too few levels of reflections may make: they cost least.
+// The fraction of the error goal that truncated reflections may use; levels cost least.
 #define TRUNCATION_PART 0.25
 
-// Blocks of so few triangles are tested sooner than a tree is walked: packets take 0.92, 0.91 and
-// 0.95 times as long at 8, 16 and 32 triangles, but 1.06 times at 64.
+// Testing a few triangles is faster than traversing a tree: packets take 0.92, 0.91 and 0.95 times
+// as long at 8, 16 and 32 triangles, but 1.06 times at 64.
 #define FEW_TRIANGLES 32
 
 double run_lap(double *moment)
@@ -115,7 +115,7 @@ bool run_await_device(Run *run, Error *error)
     return true;
 }
 
-// --bvh asks for a tree however few the triangles.
+// An explicit --bvh always builds a tree.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
@@ -145,7 +145,7 @@ bool run_build_scene(Run *run, Error *error)
     return ok;
 }
 
-// Arrays and kernels to the renderer.
+// Makes the renderer from arrays and kernels.
 static bool open_renderer(Run *run, Error *error)
 {
     AsyncDevice *async = &run->async_device;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What every use of the pipeline keeps, and the stages that all of them begin with.  Stages borrow
-// the ones before them and fill a value of their own; a zeroed Run is valid and freeing it does
-// nothing, so there is one way out.
+// The state of a run, and its first stages, which all commands share.  Each stage borrows the
+// earlier ones' values and fills its own.  A zeroed Run is valid and freeing it is harmless, so
+// there is one cleanup path.
 #pragma once
 
 #include "accel/flat.h"
@@ -21,35 +21,36 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
-    Framebuffer reference;   // empty unless one was asked for
+    Framebuffer reference;   // empty unless requested
     Layers layers;           // beside the colors
-    uint32_t *samples;       // of each pixel, for the layers; NULL where all have as many
-    CertaintyMap certainty;  // empty unless it was asked for
+    uint32_t *samples;       // of each pixel, for the layers; NULL if all have the same number
+    CertaintyMap certainty;  // empty unless requested
     const char *output_path; // of the picture being drawn
-    Viewpoint viewpoint;     // it is seen from
+    Viewpoint viewpoint;     // of that picture
     Resume resume;           // empty without --resume
     Report report;
-    int stopped_by; // a signal, 0 where the picture is whole
+    int stopped_by; // a signal; 0 if the picture is complete
 } Run;
 
-// Returns the seconds since *moment, and moves it to now.
+// Returns the seconds since *moment, and sets it to now.
 double run_lap(double *moment);
 
-// Begins to open the device and to make the kernels, beside what follows.
+// Starts opening the device and making the kernels on another thread.
 void run_begin(Run *run);
 
-// File to scene, with the frame it is traced in and the settings of its picture.  Where that fails,
-// no kernels are made.
+// Reads the scene, and computes its normalized frame and the picture's settings.  On failure no
+// kernels are made.
 bool run_load_scene(Run *run, Error *error);
 
-// Waits for the device; it and the scene decide about the kernels, and they about the layout.
+// Waits for the device.  The device and the scene determine the kernels, which determine the
+// layout.
 bool run_await_device(Run *run, Error *error);
 
-// Scene to arrays.
+// Flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);
 
-// These two, and then arrays and kernels to the renderer; how it went.
+// Runs these two stages and makes the renderer.  Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);
 
-// Frees what the stages made.
+// Frees the values of all stages.
 void run_free(Run *run);

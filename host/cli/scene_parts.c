@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words the traits of a scene (host/accel/traits.c) and what chose the kernels.
+// Describes the traits of a scene (host/accel/traits.c) and the reasons for the choice of kernels.
 #include "cli/scene_parts.h"
 
 #include <stdarg.h>
@@ -51,7 +51,7 @@ void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
             : part("mirrors", false, "no material in use reflects: no ray is followed on");
     parts[PART_STATISTICS] = needed.statistics
                                  ? part("statistics", true, "--stats counts rays and tests")
-                                 : part("statistics", false, "nobody asks to count: no --stats");
+                                 : part("statistics", false, "not requested: no --stats");
     for (int i = 0; i < SCENE_PARTS; i++)
         parts[i].is_compiled = parts[i].is_needed || (!is_special && i != PART_STATISTICS);
 }
@@ -78,7 +78,7 @@ const char *scene_family_reason(const Run *run)
     if (request->precision == PRECISION_FP64)
         return "--precision fp64 traces rays one by one";
     if (request->family > 0)
-        return "--kernel asks for it";
+        return "--kernel requests it";
     if (request->nodes == 1 + NODES_PAIR)
         return "--nodes pair has no other";
     if (run->async_device.is_quick)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene makes clrt compile and upload -> parts, each with its reason.
+// A scene -> the kernel features and buffers that it needs, each with a reason.
 #pragma once
 
 #include "cli/run.h"
@@ -14,26 +14,26 @@ typedef enum {
     SCENE_PARTS
 } ScenePartKind;
 
-// Something that kernels are compiled with or without.
+// A feature that kernels are compiled with or without.
 typedef struct {
     const char *name;
     bool is_needed;
-    bool is_compiled; // the general kernels are compiled with what a scene lacks as well
+    bool is_compiled; // general kernels also contain features that the scene lacks
     char reason[160];
 } ScenePart;
 
-// An array of the scene on the device.
+// A buffer of the scene on the device.
 typedef struct {
     const char *name;
-    size_t bytes; // 0: it is not there
+    size_t bytes; // 0: not uploaded
 } SceneArray;
 
 #define SCENE_ARRAYS RENDERER_ARRAYS
 
-// Run has opened its renderer; parts are in the order of ScenePartKind.
+// Fill the parts in the order of ScenePartKind, and the arrays.  The run's renderer must be open.
 void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS]);
 void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS]);
 
-// Why the kernels are of that family, and why they are special or general.
+// Return the reasons for the kernel family, and for special or general kernels.
 const char *scene_family_reason(const Run *run);
 const char *scene_program_reason(const Run *run);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Only the program reads "-" as standard input: to whoever uses the library it is a file's name.
+// Only the program reads "-" as standard input.  The library treats it as a file name.
 #include "cli/scene_source.h"
 
 #include "scene/scn.h"
 
-// What messages call it; having no slash, it has its meshes looked for in the current folder.
+// The name used in messages.  Without a slash, it makes meshes relative to the current folder.
 #define INPUT_NAME "standard input"
 
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one file of the command line that knows the window, which a build may be without.
+// The only file of the command line that uses the window, which is optional in a build.
 #include "cli/commands.h"
 
 #ifdef CLRT_WITH_WINDOW
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A closed window is to be gone at once, unless everything is to be taken down.
+// A closed window should disappear at once, unless a tidy exit must free everything.
 #define PATIENCE (CLRT_TIDY_EXIT ? 60 : 0.05)
 
 void show_write_keys(FILE *stream)
@@ -53,7 +53,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      .statistics = options->statistics,
                                      .verbose = options->verbose,
                                      .patience = PATIENCE};
-    // A machine without a display must not hide that the scene is missing.
+    // Without a display, a missing scene must still be reported.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;
     return codes[viewer_run(&settings, error)];

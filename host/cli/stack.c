@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The limit bounds the first thread's stack, and the default of the others.
+// RLIMIT_STACK bounds the first thread's stack and sets the default of the others.
 #include "cli/stack.h"
 
 #include <pthread.h>

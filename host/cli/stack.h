@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stacks that are large enough for compilers, whatever `ulimit -s` says.
+// Stacks large enough for compilers, regardless of `ulimit -s`.
 #pragma once
 
-// Calls work(context) and returns after it.  Where the limit is below what systems set, it runs on
-// a thread of its own, and threads that drivers start get larger stacks too.
+// Calls work(context) and returns when it does.  If the stack limit is below the usual one, work
+// runs on a new thread, and threads that drivers start get larger stacks, too.
 void stack_run(void (*work)(void *context), void *context);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The general kernels, and those for a scene where one is named.
+// Compiles the general kernels, and a scene's kernels if a scene is named.
 #include "cli/commands.h"
 
 #include <stdio.h>
 
-// Makes the kernel once, which leaves it in the cache, and tells of it.
+// Makes the kernel once, which stores it in the cache, and prints the time.
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
     ReadyKernel ready;

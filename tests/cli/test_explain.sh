@@ -113,7 +113,7 @@ check "... and no mirrors" part mirrors False False "no material in use reflects
 check "... and say why they are" json explained.json "d['program'] == {'special': True, 'reason': '--specialize always'}"
 check "general kernels" run 0 ball.scn --explain --specialize never --json=explained.json
 check "... hold all but counters" part triangles False True "there are none"
-check "... which are asked for" part statistics False False "nobody asks to count: no --stats"
+check "... which are asked for" part statistics False False "not requested: no --stats"
 check "counters" run 0 ball.scn --explain --specialize never --stats --json=explained.json
 check "... are compiled where they are" part statistics True True "--stats counts rays and tests"
 check "silhouettes" run 0 flat.scn --explain --specialize always --json=explained.json
@@ -121,7 +121,7 @@ check "... are not lit" part lights False False "all materials in use are silhou
 check "... and few triangles get no tree" part tree False False "10 triangles are tested sooner than found"
 check "a tree that is asked for" run 0 flat.scn --explain --bvh sah --kernel ray --nodes pair --json=explained.json
 check "... is there" json explained.json "next(p for p in d['parts'] if p['name'] == 'tree')['needed'] and d['uploaded_bytes']['nodes'] > 0"
-check "... with the kernels asked for" json explained.json "d['kernels'] == {'family': 'ray', 'nodes': 'pair', 'precision': 'fp32', 'reason': '--kernel asks for it'}"
+check "... with the kernels asked for" json explained.json "d['kernels'] == {'family': 'ray', 'nodes': 'pair', 'precision': 'fp32', 'reason': '--kernel requests it'}"
 check "explaining draws nothing" refuses 2 "clrt --explain takes no --output" ball.scn --explain -o a.pfm
 
 check "a pixel outside is named" refuses 2 \

@@ -289,7 +289,7 @@ class Refusals(Resume):
 
     def test_what_cannot_be_gone_on_with_is_refused(self):
         for words, sentence in (
-            (["-o", "-"], "--resume goes on with a file: standard output is none"),
+            (["-o", "-"], "--resume needs a file: give -o FILE"),
             (["-o", "a.pfm", "--aa-adaptive"],
              "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as a "
              "whole: give --aa"),

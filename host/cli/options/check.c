@@ -8,10 +8,10 @@
 
 #define NAMES_MOST 4
 
-// Options that exclude each other because the command line gives them, whatever their values.
+// Options that exclude each other, regardless of their values.
 typedef struct {
-    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL behind the last
-    const char *sentence;                               // %s stands for the name
+    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last
+    const char *sentence;                               // %s is the option's name
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"
@@ -58,7 +58,7 @@ bool options_check_conflicts(const Options *options, Error *error)
     return true;
 }
 
-// Returns the first option of the command line that is for one use and not for another.
+// Returns the first option of the command line that is valid for use and not for other.
 static const char *first_for(const Options *options, unsigned use, unsigned other)
 {
     for (size_t i = 0; i < option_count; i++)
@@ -139,7 +139,7 @@ static bool check_part(const Options *options, Error *error)
 static bool check_resume(const Options *options, Error *error)
 {
     return !options->resume || strcmp(options->output_path, "-") != 0 ||
-           error_set(error, "--resume goes on with a file: standard output is none");
+           error_set(error, "--resume needs a file: give -o FILE");
 }
 
 static bool check_frames(Options *options, Error *error)
@@ -168,7 +168,7 @@ static bool check_frames(Options *options, Error *error)
     return true;
 }
 
-// What float arithmetic is off by, 4e-5 measured, must not weigh beside what is asked for.
+// Goals below this choose fp64: the error of fp32, 4e-5 measured, must be small beside the goal.
 #define ERROR_OF_FP64 1.6e-4
 
 static void choose_precision(Options *options)
@@ -179,7 +179,7 @@ static void choose_precision(Options *options)
         kernel->precision = PRECISION_FP64;
 }
 
-// One thing at most goes to standard output.
+// At most one output goes to standard output.
 static bool check_streams(const Options *options, Error *error)
 {
     const bool picture = strcmp(options->output_path, "-") == 0,
@@ -211,9 +211,9 @@ bool options_check_compare(Options *options, Error *error)
         return options->format == NULL ||
                error_set(error,
                          "--format is for the picture of differences: give one with -o FILE");
-    const bool json_told =
+    const bool json_on_stdout =
         options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
-    if (strcmp(options->output_path, "-") == 0 && (json_told || !options->quiet))
+    if (strcmp(options->output_path, "-") == 0 && (json_on_stdout || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Rules about options that come together.
+// Rules about combinations of options.
 #pragma once
 
 #include "cli/options/options.h"
 
-// Rejects options that exclude each other, whatever they are for.
+// Rejects options that exclude each other, for any command.
 bool options_check_conflicts(const Options *options, Error *error);
 
-// Decides whether the scene goes to a file, in which format, or to the window, and refuses options
-// that are for the other.
+// Determines whether the picture goes to a file, and in which format, or to the window.  Rejects
+// options of the other.
 bool options_check_purpose(Options *options, Error *error);
 
-// The same of clrt compare, whose picture may be left out.
+// The same for clrt compare, whose picture is optional.
 bool options_check_compare(Options *options, Error *error);
 
-// The same of clrt merge, which writes to a file alone.
+// The same for clrt merge, which always writes a file.
 bool options_check_merge(Options *options, Error *error);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The table of commands.  A scene file with the name of one is reached by ./NAME.
+// The table of commands.  ./NAME opens a scene file with a command's name.
 #include "cli/options/command.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// Asked for by an option.
+// Commands that an option selects.
 static const Command silent_commands[] = {
     {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
     {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
@@ -25,7 +25,8 @@ const Command command_table[] = {
     {"check", ACTION_CHECK, FOR_CHECK, "SCENE",
      "look for what is wrong in the scene's geometry, and draw nothing", NULL},
     {"compare", ACTION_COMPARE, FOR_COMPARE, "PICTURE PICTURE",
-     "tell how much two pictures differ; -o draws a map of it", "the names of two pictures"},
+     "report how much two pictures differ; -o draws a map of the differences",
+     "the names of two pictures"},
     {"merge", ACTION_MERGE, FOR_MERGE, "PART...",
      "join the EXR files of all parts that --part drew into the whole picture, -o", NULL},
     {"convert", ACTION_CONVERT, FOR_CONVERT, "SCENE FILE",

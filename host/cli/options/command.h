@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands: what clrt does when its first word that is no option names one, instead of drawing.
+// The commands.  The first operand may name one; otherwise clrt draws.
 #pragma once
 
 #include "cli/options/option.h"
@@ -7,23 +7,23 @@
 typedef struct {
     const char *name;
     Action action;
-    unsigned use;         // FOR_...: options of that use are the command's
-    const char *operands; // what follows its name
+    unsigned use;         // FOR_...: the command takes options of that use
+    const char *operands; // the arguments after its name
     const char *help;
-    const char *two_operands; // names two files in words; NULL where it takes a scene
+    const char *two_operands; // describes its two file operands; NULL if it takes a scene
 } Command;
 
 extern const Command command_table[];
 extern const size_t command_count;
 
-// NULL where the word names none.
+// Returns NULL if no command has that name.
 const Command *command_named(const char *word);
 
-// The command that an option asks for, which has no word of its own; NULL where none did.
+// Returns the command that an option selected; NULL for none.
 const Command *command_of_action(Action action);
 
-// Returns whether the command takes the option; NULL stands for drawing.
+// Returns whether the command takes the option; NULL means drawing.
 bool command_takes(const Command *command, const Option *option);
 
-// Writes "clrt check or clrt compare": the commands that take the option.
+// Writes the commands that take the option, as "clrt check or clrt compare".
 void command_list_takers(const Option *option, char *text, size_t size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels stay those of the whole picture: a part of it is the same bits.
+// A cropped pixel has the same bits as in the whole picture.
 #include "cli/options/crop.h"
 
 #include "base/number.h"

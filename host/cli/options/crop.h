@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a picture that is drawn: "X0,Y0,X1,Y1" in pixels, or in parts of the picture's sides
-// where a number has a dot.
+// The crop of a picture: "X0,Y0,X1,Y1" in pixels, or in fractions of the sides if a number has a
+// dot.
 #pragma once
 
 #include "base/error.h"
@@ -10,16 +10,16 @@
 
 typedef struct {
     bool is_given;
-    bool in_parts;     // of the sides, each from 0 to 1
-    double corners[4]; // left, top, right and bottom; the latter two are just outside
+    bool in_parts;     // fractions of the sides, each from 0 to 1
+    double corners[4]; // left, top, right and bottom; right and bottom are exclusive
 } Crop;
 
-// Reads the text; false where it is none.
+// Parses text; returns false if it is malformed.
 bool crop_parse(Crop *crop, const char *text);
 
-// Makes of the settings of a whole picture those of its part.  Parts of a side are rounded to the
-// nearest edge of pixels, so that crops which share one fit together.
+// Turns the settings of a whole picture into those of its crop.  Fractions are rounded to the
+// nearest pixel edge, so adjacent crops fit together.
 bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error);
 
-// The corners of what is drawn, in pixels of the whole picture.
+// Returns the corners of the crop, in pixels of the whole picture.
 json_t *crop_json(const RenderSettings *settings);

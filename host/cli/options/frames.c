@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names are numbered as other programs that take pictures apart and put them together expect.
+// File numbers follow the convention of programs that split and join films.
 #include "cli/options/frames.h"
 
 #include "base/array.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A value is read whole: clrt rejects text that is left over.
+// Parses whole values: clrt rejects trailing text.
 #include "cli/options/option.h"
 
 #include "base/number.h"

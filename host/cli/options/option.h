@@ -24,7 +24,7 @@ typedef enum {
 
 // How a setting may change the picture.
 typedef enum {
-    CLASS_NONE,        // selects another picture, or none
+    CLASS_NONE,        // selects another picture, or affects none
     CLASS_EXACT,       // same bits
     CLASS_BOUNDED,     // the error has a stated bound
     CLASS_STATISTICAL, // the error can be measured
@@ -37,7 +37,7 @@ typedef enum {
     OPTION_COUNT,  // an integer from 1 to limit; stores a uint32_t
     OPTION_PART,   // a number above 0 and up to 1; stores a double
     OPTION_AREA,   // "WxH", each from 1 to limit; stores two uint32_t
-    OPTION_WORD,   // one of the words of argument; stores its place in an enumeration
+    OPTION_WORD,   // one of the words of argument; stores its index
     OPTION_TEXT,   // any text; stores the pointer
     OPTION_ODD     // calls set
 } OptionKind;
@@ -53,10 +53,10 @@ enum {
     FOR_PIXEL = 64,    // --explain-pixel
     FOR_EXPLAIN = 128, // --explain
     FOR_PICTURE = FOR_FILE | FOR_WINDOW,
-    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // whatever traces rays
+    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // everything that traces rays
 };
 
-// Stores text in options; text is NULL where the command line gives none.
+// Stores text in options; text is NULL if the command line gives none.
 typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
@@ -67,7 +67,7 @@ typedef struct {
     OptionKind kind;
     size_t offset;        // of the field in Options
     int64_t limit;        // of OPTION_COUNT, OPTION_AREA and OPTION_ACTION
-    const char *fallback; // the text where the command line may leave it out
+    const char *fallback; // the text if the command line omits it
     SetOption *set;       // of OPTION_ODD
     OptionGroup group;
     OptionClass class;
@@ -77,9 +77,8 @@ typedef struct {
 
 bool option_argument_is_optional(const Option *option);
 
-// Returns whether the value is the name of a file.
+// Returns whether the value is a file name.
 bool option_names_file(const Option *option);
 
-// Stores text in the field that the option names, or rejects it with a message that names the
-// option.
+// Stores text in the option's field, or rejects it with a message that names the option.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);

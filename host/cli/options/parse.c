@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// getopt walks the words, the table takes the values, and then all are looked at together.
+// getopt splits the command line, the table stores the values, and check.c checks their
+// combination.
 #include "cli/options/parse.h"
 
 #include "base/word.h"
@@ -11,7 +12,7 @@
 #include <getopt.h>
 #include <string.h>
 
-#define FIRST_LONG 256 // getopt's values of options: past the letters
+#define FIRST_LONG 256 // getopt values of long options, above all letters
 
 static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
 {
@@ -54,7 +55,8 @@ static size_t option_of(int found)
     return 0;
 }
 
-// Settings may be given again, and the last counts; a second file would be lost.
+// Settings may be repeated, and the last one counts.  A second file would be lost, so clrt rejects
+// it.
 static bool note_given(Options *options, size_t row, Error *error)
 {
     const Option *option = &option_table[row];

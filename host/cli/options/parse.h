@@ -4,5 +4,5 @@
 
 #include "cli/options/options.h"
 
-// Fills options from the words of the command line, or rejects them.
+// Parses the command line into options, or fails with a message.
 bool options_parse(Options *options, int count, char **words, Error *error);

@@ -135,7 +135,7 @@ bool set_reference_samples(Options *options, const char *text, Error *error)
     int64_t samples;
     const char *end = text + strlen(text);
     options->reference = true;
-    // Half of them make each of the two pictures whose difference is the reference's own error.
+    // Each half makes a picture, and their difference measures the reference's own error.
     if (integer_parse(text, end, &samples) != end || samples < 2 ||
         samples > REFERENCE_SAMPLES_MAX || samples % 2 != 0)
         return error_set(error,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Setters of options whose values fit no kind that the table knows.
+// Setters of options whose values fit none of the table's kinds.
 #pragma once
 
 #include "cli/options/option.h"

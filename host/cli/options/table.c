@@ -19,27 +19,27 @@
 const Option option_table[] = {
     {"output", "FILE", 'o', ODD(set_output), GROUP_OUTPUT, CLASS_NONE,
      FOR_PICTURE | FOR_COMPARE | FOR_MERGE,
-     "write the picture; its ending tells the format; - is standard output"},
+     "write the picture; the file's ending sets the format; - is standard output"},
     {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_COMPARE | FOR_MERGE,
-     "write this format, whatever the ending (png for standard output)"},
+     "write this format for any ending (png for standard output)"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "8-bit files: raw values (default) or srgb"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
      "add channels to an EXR file; the names are below"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "leave out of the file what tells where the picture comes from"},
+     "omit the metadata that records how the picture was made"},
     {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "print a hash of the pixels, as they are traced, on standard output"},
     {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "exit 1 where the pixels have another hash"},
+     "exit 1 if the pixels have another hash"},
 
     {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "size of the picture in pixels (the scene's, or 512x512)"},
     {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_FILE,
-     "draw the pixels from X0,Y0 up to and without X1,Y1 alone; with a dot in a number, all four "
-     "are parts of the sides; an EXR file tells where they lie"},
+     "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); with a dot in a number, all four "
+     "are fractions of the sides; an EXR file records their position"},
     {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "look through the scene's N-th camera (1); without any, the course's six"},
@@ -74,7 +74,7 @@ const Option option_table[] = {
      FOR_PICTURE | FOR_EXPLAIN,
      "compile kernels for the scene: where it pays (default), always or never"},
     {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "trace rays one by one or packets of 4x4 pixels; auto (default) asks the device"},
+     "trace rays one by one or packets of 4x4 pixels; auto (default) chooses by the device"},
     {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "nodes of two children or of eight; auto (default) is what suits the kernel"},
     {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
@@ -88,8 +88,8 @@ const Option option_table[] = {
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
-     "keep finished tiles in FILE.part until the picture is whole, and go on from there or from an "
-     "EXR file that was stopped"},
+     "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
+     "incomplete EXR file"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
@@ -108,14 +108,14 @@ const Option option_table[] = {
      FOR_FILE, "samples a pixel of the reference, an even number (256)"},
     {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE,
      FOR_FILE | FOR_EXPLAIN,
-     "draw the picture N times, for timing: -v and --stats=FILE tell each (1)"},
+     "draw the picture N times, for timing: -v and --stats=FILE report each time (1)"},
     {"explain", NULL, 0, ACTION(ACTION_EXPLAIN_SCENE), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN,
-     "tell what of the kernels and the scene's arrays is used, what is left out, and why, and draw "
+     "explain which kernel features and buffers this scene uses, which it omits and why; draw "
      "nothing"},
     {"explain-pixel", "X,Y", 0, ODD(set_explain_pixel), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL,
-     "tell how the color of a pixel comes about, ray by ray, and draw nothing; X counts from the "
+     "explain the color of a pixel, ray by ray; draw nothing; X counts from the "
      "left and Y from the top, both from 0"},
 
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
@@ -130,14 +130,14 @@ const Option option_table[] = {
      "instead of the text"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
-     "press these keys in the window, each once the one before is shown"},
+     "play these keys in the window, one per displayed frame"},
     {"quit-after", "N", 0, COUNT(quit_after, QUIT_AFTER_MOST), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
      "close the window after N frames, counted once the keys are played"},
 
     {"quiet", NULL, 'q', FLAG(quiet), GROUP_TALK, CLASS_NONE,
-     FOR_TRACING | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "say nothing but errors"},
+     FOR_TRACING | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "print only errors"},
     {"verbose", NULL, 'v', FLAG(verbose), GROUP_TALK, CLASS_NONE,
-     FOR_TRACING | FOR_COMPARE | FOR_CONVERT, "say what is done and with what"},
+     FOR_TRACING | FOR_COMPARE | FOR_CONVERT, "print each step and its settings"},
     {"version", NULL, 0, ACTION(ACTION_VERSION), GROUP_TALK, CLASS_NONE, FOR_PICTURE,
      "print the version"},
     {"help", NULL, 'h', ACTION(ACTION_HELP), GROUP_TALK, CLASS_NONE, FOR_PICTURE, "print this"},
@@ -170,9 +170,9 @@ const char *const option_class_names[OPTION_CLASSES] = {
 
 const char *const option_class_meanings[OPTION_CLASSES] = {
     [CLASS_NONE] = "",
-    [CLASS_EXACT] = "the same bits, whatever it is set to",
-    [CLASS_BOUNDED] = "the picture is off by no more than the bound that is stated",
-    [CLASS_STATISTICAL] = "how far off the picture is can be measured, not promised",
+    [CLASS_EXACT] = "every value gives the same bits",
+    [CLASS_BOUNDED] = "the error is at most the stated bound",
+    [CLASS_STATISTICAL] = "the error can be measured, but has no bound",
 };
 
 bool option_is_given(const Options *options, const char *name)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All options of the command line.  The parser, --help, the man page and the completions walk the
-// table.
+// All options of the command line.  The parser, --help, the man page and the completions iterate
+// over it.
 #pragma once
 
 #include "cli/options/option.h"
@@ -18,5 +18,5 @@ extern const char *const option_group_names[OPTION_GROUPS];
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 
-// Returns whether the command line gives the option, with any value.  The table must hold it.
+// Returns whether the command line gives the option, with any value.  The table must contain it.
 bool option_is_given(const Options *options, const char *name);
