@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --resume: the finished tiles of an earlier run, from the journal FILE.part or an incomplete EXR
-// file -> the tiles to skip, and the journal of this run.
+// --resume: the journal FILE.part, or an incomplete EXR file -> the tiles that an earlier run has
+// finished, and the journal of this run.
 #pragma once
 
 #include "cli/options/options.h"

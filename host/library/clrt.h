@@ -88,10 +88,9 @@ CLRT_API bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], do
 // equal corners.
 typedef struct {
     size_t size;
-    const double *positions; // X Y Z of each vertex
-    const float
-        *normals; // X Y Z of each vertex, of any length; zero for none; NULL without normals
-    const uint32_t *triangles;           // three vertices of each triangle, from 0
+    const double *positions;   // X Y Z of each vertex
+    const float *normals;      // X Y Z of each vertex, any length; zero for none; NULL without
+    const uint32_t *triangles; // three vertices of each triangle, from 0
     size_t vertex_count, triangle_count; // each at most 2147483647
     uint32_t material;
     bool two_sided; // visible from behind, too

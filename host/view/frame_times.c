@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorted times tell the median and the slow ones.
+// Sorting the times yields the median and the slowest ones.
 #include "view/frame_times.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How smoothly a moving camera is shown: the times between frames.
+// The times between displayed frames of a moving camera.
 #pragma once
 
 #include "base/array.h"
@@ -8,17 +8,17 @@
 #include <stdio.h>
 
 typedef struct {
-    ARRAY(double) seconds; // between each frame and the one before
-    double latest;         // moment of the latest frame, 0 while there is none
+    ARRAY(double) seconds; // from each frame to the next
+    double latest;         // time of the latest frame; 0 for none
 } FrameTimes;
 
-// A frame of a moving camera was shown at that moment.
+// Records a displayed frame of a moving camera.
 bool frame_times_add(FrameTimes *times, double moment, Error *error);
 
-// The camera stands still: the time to the next frame counts for nothing.
+// Ignores the time to the next frame, because the camera stands still.
 void frame_times_pause(FrameTimes *times);
 
-// Writes a line of figures; coarse is how many of frames traced pictures had fewer pixels than the
-// window.
+// Prints the statistics.  coarse is the number of traced pictures, out of frames, with fewer pixels
+// than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);

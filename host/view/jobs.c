@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// What the worker does, one job after the other, and the news that each leaves.
+// The worker's jobs.  Each ends with a status update.
 #include "view/worker_inside.h"
 
 #include "base/clock.h"
 
-// Between news of tiles, in seconds.
+// The shortest interval between status updates for tiles, in seconds.
 #define WAKE_STEP 0.03
 
-// A pass that is being traced.
+// A pass in progress.
 typedef struct {
     Worker *worker;
     const Job *job;
     Layer *layer;
 } Tracing;
 
-// News are written between these two.
+// The status may be changed only between these two calls.
 static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -29,13 +29,13 @@ static void end_update(Worker *worker)
     worker->setup.wake();
 }
 
-static void tell_busy(Worker *worker, const char *busy)
+static void report_busy(Worker *worker, const char *busy)
 {
     begin_update(worker)->busy = busy;
     end_update(worker);
 }
 
-// Whether the pass is still of use.
+// Returns whether the pass is still useful.
 static bool is_current(Worker *worker, const Job *job)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -66,8 +66,9 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return is_current(worker, job);
 }
 
-// Follows what samples cost.  A first measurement counts for more than any guess, and a single slow
-// picture, whose processors were busy elsewhere, for no more than twice the cost before.
+// Updates the measured cost of a sample.  The first measurement replaces the guess.  Later ones
+// count for at most twice the previous cost, because busy processors may have slowed down a single
+// picture.
 static void learn(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
@@ -79,7 +80,7 @@ static void learn(Worker *worker, const Pass *pass, double seconds, double part)
     worker->has_measured = true;
 }
 
-// A whole picture is news; under the lock.
+// Records a complete picture.  The caller holds the lock.
 static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
@@ -114,7 +115,7 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// What cannot be traced is given up until something else is wished.
+// Gives up a picture that cannot be traced; a different request will be tried.
 static void give_up(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -143,8 +144,8 @@ void jobs_trace(Worker *worker, const Job *job)
     give_up(worker, job, &error);
 }
 
-// The renderer is made for what was wished, or cannot be; error is empty where it is.
-static void tell_taken(Worker *worker, const Job *job, const Error *error)
+// Records that the renderer was made, or failed with error.
+static void report_taken(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
     status->done.uses_bvh = job->request.uses_bvh;
@@ -156,8 +157,8 @@ static void tell_taken(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
-// The same of the scene.
-static void tell_loaded(Worker *worker, const Job *job, const Error *error)
+// Records that the scene was read, or failed with error.
+static void report_loaded(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
     status->done.loads = job->request.loads;
@@ -168,7 +169,7 @@ static void tell_loaded(Worker *worker, const Job *job, const Error *error)
 
 static bool take(Worker *worker, const Job *job, Model *model, Error *error)
 {
-    tell_busy(worker, "compiling the kernels");
+    report_busy(worker, "compiling the kernels");
     const bool ok = tracer_take(&worker->tracer, model, job->request.uses_bvh, error);
     if (ok) {
         worker->sample_seconds =
@@ -178,7 +179,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     return ok;
 }
 
-// Puts the model, whose tree may still be missing, where the window finds it.
+// Publishes the model for the window.  Its tree may still be missing.
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);
@@ -193,20 +194,20 @@ static void publish(Worker *worker, Model *model, bool has_tree)
 void jobs_load(Worker *worker, const Job *job)
 {
     Error error = {0};
-    tell_busy(worker, "reading the scene");
+    report_busy(worker, "reading the scene");
     Model *model = model_load(job->request.path, worker->setup.options->threads, &error);
     const BvhSettings tree = tracer_tree(&worker->tracer);
     if (model != NULL && model_build_tree(model, &tree, worker->setup.options->threads, &error)) {
         Error cause = {0};
         if (take(worker, job, model, &cause))
             publish(worker, model, true);
-        tell_taken(worker, job, &cause);
+        report_taken(worker, job, &cause);
     }
     model_release(model);
-    tell_loaded(worker, job, &error);
+    report_loaded(worker, job, &error);
 }
 
-static void tell_fault(Worker *worker, WorkerFault fault, const Error *error)
+static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
     status->fault = fault;
@@ -215,7 +216,7 @@ static void tell_fault(Worker *worker, WorkerFault fault, const Error *error)
     end_update(worker);
 }
 
-// The first scene is shown before the device is open and the tree built.
+// Publishes the first scene before the device is open and the tree is built.
 bool jobs_begin(Worker *worker)
 {
     Error error = {0};
@@ -224,11 +225,11 @@ bool jobs_begin(Worker *worker)
     pthread_mutex_unlock(&worker->mutex);
     Model *model = model_load(job.request.path, worker->setup.options->threads, &error);
     if (model == NULL) {
-        tell_fault(worker, FAULT_SCENE, &error);
+        report_fault(worker, FAULT_SCENE, &error);
         return false;
     }
     publish(worker, model, false);
-    tell_busy(worker, "opening the device");
+    report_busy(worker, "opening the device");
     bool ok = tracer_open(&worker->tracer, worker->setup.options, &error);
     const BvhSettings tree = tracer_tree(&worker->tracer);
     ok = ok && model_build_tree(model, &tree, worker->setup.options->threads, &error);
@@ -237,11 +238,11 @@ bool jobs_begin(Worker *worker)
     ok = ok && take(worker, &job, model, &error);
     model_release(model);
     if (!ok) {
-        tell_fault(worker, FAULT_DEVICE, &error);
+        report_fault(worker, FAULT_DEVICE, &error);
         return false;
     }
-    tell_taken(worker, &job, &error);
-    tell_loaded(worker, &job, &error);
+    report_taken(worker, &job, &error);
+    report_loaded(worker, &job, &error);
     return true;
 }
 
@@ -249,7 +250,7 @@ void jobs_take(Worker *worker, const Job *job)
 {
     Error error = {0};
     take(worker, job, worker->tracer.model, &error);
-    tell_taken(worker, job, &error);
+    report_taken(worker, job, &error);
 }
 
 void jobs_encode(Worker *worker, const Job *job)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Half the picture is as many steps wide as it has pixels.
+// Half the picture is as many steps wide as the picture has pixels.
 #include "view/lens.h"
 
-// In the normalized frame, whose geometry is 1 to 2 large.  What is nearer is drawn too, but has
-// no depth.
+// In the normalized frame, where geometry is 1 to 2 large.  Nearer objects are drawn, but without
+// depth.
 #define NEAREST 0.01f
 
-// The axis along a step, of such a length that the edge of the picture is at 1.
+// Stores the axis along a step, scaled so that the picture's edge is at 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = {(double)step[0], (double)step[1], (double)step[2]};

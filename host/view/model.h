@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene file -> what both views draw: the scene, its triangles in the frame they are traced in and
-// their tree.  One thread makes it and others read it, so it is shared and counted.
+// Scene file -> the input of both views: the scene, its triangles in the normalized frame and their
+// tree.  One thread makes a model and others read it, so it is reference-counted.
 #pragma once
 
 #include "accel/bvh.h"
@@ -9,22 +9,22 @@
 
 typedef struct {
     atomic_uint holders;
-    const char *path; // that it was loaded from, as it was given
+    const char *path; // the path as given
     Scene scene;
     Normalization normalization;
     Triangles triangles;
     Bvh bvh; // without nodes until the tree is built
 } Model;
 
-// Reads the scene or mesh at path, a string that outlives the model; the caller holds the model.
-// NULL with the reason where it cannot be read.
+// Reads the scene or mesh at path, a string that outlives the model, and returns it with one
+// reference.  Returns NULL with the reason on failure.
 Model *model_load(const char *path, uint32_t threads, Error *error);
 
-// Builds the tree of a model that nobody else holds, or whose tree nobody else looks at yet.
+// Builds the tree.  No other thread may hold the model or read its tree yet.
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error);
 
-// One more holder.
+// Adds a reference and returns the model.
 Model *model_hold(Model *model);
 
-// One holder less; the last one frees the model.  NULL is nothing.
+// Drops a reference; the last one frees the model.  Accepts NULL.
 void model_release(Model *model);

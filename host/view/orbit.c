@@ -14,7 +14,7 @@
 #define COURSE_DISTANCE    6.5
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Two axes across up.  Those of z are x and y, as the course counts its angles.
+// Makes two axes perpendicular to up.  For z they are x and y, the course's reference for angles.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
-// A camera that turns about a point, as the course's viewer moves it: two angles and a distance.
+// A camera that orbits a point, as in the course's viewer: two angles and a distance.
 #pragma once
 
 #include "scene/scene.h"
 
 typedef struct {
-    Vec3 pivot;       // the eye turns about it
+    Vec3 pivot;       // the center of the orbit
     Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // the last is up
-    double azimuth;   // degrees below the plane across up: the eye is above where it is negative
-    double rotation;  // degrees about up
-    double distance;  // of the eye from the pivot
-    double unit;      // the length that steps and limits are multiples of: 1 in the course
+    double azimuth;   // degrees below the plane perpendicular to up; negative if the eye is above
+    double rotation;  // degrees around up
+    double distance;  // from the eye to the pivot
+    double unit;      // the length unit of steps and limits: 1 in the course
     double fov_degrees;
 } Orbit;
 
-// The orbit a camera is on.  The course's cameras turn about the origin, others about the point
-// they look at.
+// Returns the orbit of a camera.  The course's cameras orbit the origin, others their look_at
+// point.
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 
-// The camera where the orbit is now.
+// Returns the camera at the orbit's current position.
 Viewpoint orbit_viewpoint(const Orbit *orbit);
 
-// What dragging by so many pixels does; past the course's limits nothing moves.
+// Apply a drag, in pixels.  The course's limits stop the motion.
 void orbit_turn(Orbit *orbit, double right, double down);
 void orbit_zoom(Orbit *orbit, double down);
 
-// What is at the pivot follows the pointer, in a window as high as the course's.
+// Moves the camera sideways: the pivot follows the pointer in a window of the course's height.
 void orbit_pan(Orbit *orbit, double right, double down);
 
-// What turning the wheel by so many notches does, away from the user being positive.
+// Applies a turn of the wheel, in notches; away from the user is positive.
 void orbit_wheel(Orbit *orbit, double notches);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame also has to be shown, and its time varies; so tracing gets a part of it.
+// Tracing gets only part of a frame's time, because displaying takes time and tracing times vary.
 #include "view/plan.h"
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
@@ -22,7 +22,7 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
-// The least divisor that keeps to the time.
+// Returns the smallest divisor that meets the time limit.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

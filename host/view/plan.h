@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which picture to trace next, so that the camera moves smoothly and what stands still sharpens:
-// first one of as many pixels as the time of a frame allows, then one of all pixels, then with all
-// samples.  What it cost is counted last of all.
+// Chooses the next picture to trace, so that the camera moves smoothly and a still picture
+// sharpens.  The first picture has as many pixels as a frame's time allows, the next one all
+// pixels, then all samples.  The last pass counts rays and tests.
 #pragma once
 
 #include <stdbool.h>
@@ -9,38 +9,38 @@
 
 #define PLAN_FRAME_SECONDS (1 / 30.0)
 
-// What is wanted, and how dear it is.
+// The requested picture and its cost.
 typedef struct {
     bool is_wanted;
-    uint64_t subject; // names the scene, camera and size: a picture of another one is of no use
+    uint64_t subject; // names the scene, camera and size; pictures of other subjects are useless
     uint32_t width, height;
     uint32_t samples;      // per pixel and axis
-    double sample_seconds; // that tracing one takes, as measured
+    double sample_seconds; // per sample, as measured
 } PlanRequest;
 
-// The best picture there is.
+// The best picture so far.
 typedef struct {
-    uint64_t subject; // 0 while there is none
+    uint64_t subject; // 0 for none
     uint32_t divisor, samples;
     bool is_counted;
 } PlanReached;
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // in the time of a frame; not interrupted, else nothing would be seen
+    PASS_MOVING, // within a frame's time; never interrupted, so that something is displayed
     PASS_FULL,   // all pixels, or all samples
-    PASS_COUNT   // the same again, for its counters
+    PASS_COUNT   // the same picture with counters
 } PassKind;
 
 typedef struct {
     PassKind kind;
-    uint32_t divisor; // a pixel is traced for so many a side
+    uint32_t divisor; // one traced pixel covers divisor x divisor pixels
     uint32_t samples;
-    uint32_t width, height; // traced
-    uint32_t tile;          // side, so small that stopping takes no time
+    uint32_t width, height; // of the traced picture
+    uint32_t tile;          // side, small enough to stop without delay
 } Pass;
 
 Pass plan_pass(const PlanRequest *request, const PlanReached *reached);
 
-// What a sample may be expected to take before any was traced.
+// Returns the expected seconds per sample before the first measurement.
 double plan_first_guess(uint32_t triangles, bool uses_bvh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A few calls of stat, five times a second.
+// Calls stat a few times, five times a second.
 #include "view/reload.h"
 
 #include "base/file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells when the scene or the kernels have to be read again.
+// Detects changes of the scene's files and of the kernels.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,19 +7,19 @@
 
 typedef struct {
     Watch scene, kernels;
-    double looked; // moment
+    double looked; // time of the latest check
 } Reload;
 
 typedef enum { RELOAD_SCENE = 1, RELOAD_KERNELS = 2 } ReloadBits;
 
-// Watches the files that the scene, NULL for none, was read from.  Where reading them has failed
-// since, a file may be missing, so the scene file's folder counts too.
+// Watches the files of the scene, which may be NULL.  After a failed read a file may be missing, so
+// the scene file's folder is watched, too.
 bool reload_follow(Reload *reload, const Scene *scene, const char *path, bool has_failed,
                    Error *error);
 
-// Watches the kernels of a folder, NULL for none.
+// Watches the kernels in a folder; NULL for none.
 bool reload_follow_kernels(Reload *reload, const char *folder, Error *error);
 
-// Looks, if it is time to, and returns the ReloadBits of what has changed.
+// Checks the files if it is time, and returns the ReloadBits of the changed ones.
 unsigned reload_look(Reload *reload, double now);
 void reload_free(Reload *reload);

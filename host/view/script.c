@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys come before frames.
+// All keys are played before frames are counted.
 #include "view/script.h"
 
 #include <stddef.h>

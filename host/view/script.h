@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Keys that are played to the window in place of a user, and the frames after which it closes.
+// Keys played to the window instead of a user's, and the number of frames after which it closes.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
 typedef struct {
-    const char *keys;    // that are left, NULL where there were none
-    uint32_t quit_after; // frames that are left once the keys are played; 0: for ever
+    const char *keys;    // remaining keys; NULL without keys
+    uint32_t quit_after; // remaining frames after the last key; 0: no limit
 } Script;
 
-// Whether anything is left to play or to count, so that the window draws without being asked.
+// Returns whether keys or frames remain, so that the window must draw without events.
 bool script_is_running(const Script *script);
 
-// Takes the next key, 0 where there is none.
+// Takes the next key; returns 0 for none.
 int script_take_key(Script *script);
 
-// A frame was shown with all keys in effect; true once it was the last.
+// Counts a displayed frame once all keys are played.  Returns true for the last one.
 bool script_count_frame(Script *script);

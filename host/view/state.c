@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each key does; view/status_text.c tells of them.
+// The effect of each key; view/status_text.c lists the keys.
 #include "view/state.h"
 
 #define ARROW_PIXELS      20
@@ -47,7 +47,7 @@ static void change_level(State *state, const StateScene *scene, int step)
         state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
 }
 
-// What a key turns on and off, NULL where it does not.
+// Returns the setting that a key toggles; NULL for none.
 static bool *switch_of(State *state, int key)
 {
     switch (key) {

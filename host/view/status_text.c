@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Nothing here asks the time or the system, so the same state always reads the same.
+// Uses neither time nor system, so the same state always gives the same text.
 #include "view/status_text.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdlib.h>
 
-// A text that grows at its end; what does not fit is cut off.
+// A text that grows at its end and is truncated if it gets too long.
 typedef struct {
     char *text;
     size_t size, length;
@@ -114,7 +114,7 @@ void status_text_title(char *text, size_t size, const State *state, const Figure
         add(&buffer, " - %.0f %%", 100 * figures->progress);
 }
 
-// The shortest form that is read back as the same number.
+// Adds the shortest form that parses to the same number.
 static void add_number(Buffer *buffer, const char *before, double value)
 {
     char text[32];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State and figures -> the words of the window: its title, its overlays and what `c` prints.
+// State and figures -> the window's texts: its title, its overlay and the output of key c.
 #pragma once
 
 #include "view/state.h"
@@ -8,34 +8,34 @@
 
 #define STATUS_TEXT_SIZE 8192
 
-// What is known of the picture beside the state.
+// The facts about the picture besides the state.
 typedef struct {
     const char *scene_name;
     uint32_t width, height; // of the window, in pixels
-    uint32_t samples;       // per pixel and axis, where the picture is anti-aliased
-    uint32_t divisor;       // the picture shown is traced with one pixel for so many a side
-    bool is_finished;       // nothing more will be traced for it
-    double progress;        // of the pass that is being traced, from 0 to 1
+    uint32_t samples;       // per pixel and axis, with anti-aliasing
+    uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
+    bool is_finished;       // nothing remains to be traced
+    double progress;        // of the current pass, from 0 to 1
     double frame_seconds;   // of the latest frame
-    bool has_counts;        // the two below are known
+    bool has_counts;        // the next two are known
     uint64_t rays;
     double tests_per_ray;
-    uint32_t box_count;  // of the boxes shown
-    const char *busy;    // what the user waits for, empty where nothing
-    const char *notice;  // what was done last, empty where nothing
-    const char *failure; // why the last change has no effect, empty where it has
+    uint32_t box_count;  // of displayed boxes
+    const char *busy;    // the current operation; empty for none
+    const char *notice;  // the latest result; empty for none
+    const char *failure; // why the latest change has no effect; empty if it has
 } Figures;
 
-// The state alone, on one line without a line end: what tests and -v tell effects by.
+// Writes the state alone, as one line without a line end, for tests and -v.
 void status_text_state(char *text, size_t size, const State *state, const Figures *figures);
 
-// The overlay's line: state and figures.
+// Writes the overlay: state and figures.
 void status_text_overlay(char *text, size_t size, const State *state, const Figures *figures);
 
 void status_text_title(char *text, size_t size, const State *state, const Figures *figures);
 
-// The camera in the course's terms, and as statements of a scene file.
+// Writes the camera in the course's terms, and as statements of a scene file.
 void status_text_camera(char *text, size_t size, const State *state);
 
-// The keys and the mouse, a line each.
+// Returns the list of keys and mouse actions, one per line.
 const char *status_text_help(void);

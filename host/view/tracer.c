@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New things are opened before old ones are closed, so that a failure leaves the old ones drawing.
+// Opens new objects before it closes old ones, so that a failure leaves the old ones in use.
 #include "view/tracer.h"
 
 #include "scene/camera.h"
@@ -23,7 +23,7 @@ bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
     return true;
 }
 
-// Lets go of what draws the model.
+// Frees the model and everything derived from it.
 static void drop_model(Tracer *tracer)
 {
     renderer_close(&tracer->counter);
@@ -68,7 +68,7 @@ static uint32_t max_level(const Tracer *tracer, const Model *model)
     return wanted >= 0 ? (uint32_t)wanted : model->scene.max_level;
 }
 
-// Passes have sizes and samples of their own.
+// Each pass sets its own size and samples.
 static RenderSettings first_settings(const Tracer *tracer, const Model *model)
 {
     return (RenderSettings){.width = 1,

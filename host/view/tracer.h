@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Device, model and pass -> picture: what the thread that traces keeps open.
+// Device, model and pass -> picture, on the tracing thread.
 #pragma once
 
 #include "render/renderer.h"
@@ -11,9 +11,9 @@ typedef struct {
     KernelRequest kernel;
     Specialization specialization;
     BvhBuilder builder;
-    uint32_t group_width, group_height; // 0: what suits the kernels
+    uint32_t group_width, group_height; // 0: the kernels' default
     int64_t max_level;                  // negative: the scene's
-    uint32_t threads;                   // of the host's own work
+    uint32_t threads;                   // for work on the host
     const char *kernel_folder;          // NULL: the embedded kernels
     const Cache *cache;
 } TracerOptions;
@@ -23,36 +23,36 @@ typedef struct {
     Device device;
     RendererSetup setup;
     uint32_t group[2];
-    Model *model; // that is drawn, held; NULL while there is none
+    Model *model; // the current model, held; NULL for none
     bool uses_bvh;
     FlatScene flat;
     Renderer renderer;
-    Renderer counter; // the same with counters, opened when it is first wanted
+    Renderer counter; // the same with counters, opened on first use
 } Tracer;
 
-// Opens the device.  The options outlive the tracer, which is to be closed in either case.
+// Opens the device.  The options must outlive the tracer.  The caller closes it, also after a
+// failure.
 bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(Tracer *tracer);
 
-// How trees are to be built for the device.
+// Returns the settings for trees that suit the device.
 BvhSettings tracer_tree(const Tracer *tracer);
 
-// Draws that model from now on, with its tree or by brute force.  Where that fails, it goes on with
-// what it had.
+// Switches to the model, with its tree or by brute force.  On failure it keeps the previous one.
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
 
-// What is drawn: a pass of the picture that a viewpoint has.
+// A picture to draw: a camera and a pass.
 typedef struct {
     const Viewpoint *camera;
     const Pass *pass;
 } Shot;
 
-// The settings of a pass's picture.
+// Returns the settings of a pass's picture.
 RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
 
-// Draws into framebuffer, which has the settings' size, as far as the observer lets it.
+// Draws into framebuffer, which has the settings' size, until the observer stops it.
 bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 
-// How far the latest pass came, and what it cost.
+// Returns the progress and the counters of the latest pass.
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

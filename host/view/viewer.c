@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The loop: events and news change the state, the state makes the wish for the worker, and what is
-// new is drawn.
+// The main loop: events and the worker's status change the state, the state becomes a request to
+// the worker, and changes are drawn.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep, in seconds: files are looked at in between.
+// The loop's longest sleep, in seconds; files are checked between sleeps.
 #define REST_SECONDS 0.1
 
 static uint32_t samples_of(const Viewer *viewer)
@@ -51,7 +51,7 @@ static bool take_events(Viewer *viewer, Error *error)
     return true;
 }
 
-// Plays a key once the one before has been shown.
+// Plays a key once the effect of the previous one has been displayed.
 static bool play_script(Viewer *viewer, Error *error)
 {
     if (!script_is_running(&viewer->script) || !viewer_is_settled(viewer) || viewer->is_dirty)
@@ -61,7 +61,7 @@ static bool play_script(Viewer *viewer, Error *error)
     return event.key == 0 || take_event(viewer, &event, error);
 }
 
-// A traced picture moves on when the one before is whole, and none while one is to be saved.
+// A turning camera waits until its traced picture is complete, and stands still before a save.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
@@ -100,7 +100,7 @@ static void post_request(Viewer *viewer)
     worker_request(viewer->worker, request);
 }
 
-// How long the loop may sleep.
+// Returns how long the loop may sleep, in seconds.
 static double rest(const Viewer *viewer)
 {
     const bool plays = script_is_running(&viewer->script) && viewer_is_settled(viewer);
@@ -125,7 +125,7 @@ static bool step(Viewer *viewer, Error *error)
     return viewer_recover(viewer, error);
 }
 
-// The scene decides about the window's size, so it is read first.
+// The scene is read first, because it determines the window's size.
 static bool await_scene(Viewer *viewer)
 {
     do {
@@ -169,8 +169,8 @@ static ViewerEnd show(Viewer *viewer, Error *error)
     return VIEWER_CLOSED;
 }
 
-// A picture being traced is given up; a driver that does not come back in time is left to the end
-// of the process, with all it may still touch.
+// Stops the picture being traced.  If the driver does not return in time, the end of the process
+// cleans up everything that the driver may still use.
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
@@ -212,7 +212,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
     ViewerEnd end = VIEWER_NO_DEVICE;
-    // What changes while it is read the first time has changed.
+    // Watching starts before the first read, so that changes during the read count.
     if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&
         reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
         viewer->worker = worker_start(&setup, &viewer->request, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene file in a window: OpenGL and traced pictures of it, until the user closes it.
+// Shows a scene file in a window, by OpenGL and by tracing, until the user closes it.
 #pragma once
 
 #include "image/image_file.h"
@@ -9,18 +9,18 @@ typedef struct {
     const char *scene_path;
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // per pixel and axis, of anti-aliased pictures
-    bool smooth, uses_bvh;  // to begin with
+    uint32_t samples;       // per pixel and axis, with anti-aliasing
+    bool smooth, uses_bvh;  // initial values
     Encoding encoding;
     TracerOptions tracer;
-    const char *keys;    // to play, NULL for none
-    uint32_t quit_after; // frames; 0: when the user quits
-    bool statistics;     // the times of frames are told in the end
-    bool verbose;        // so is the state, whenever it changes
-    double patience;     // seconds to wait for the device in the end
+    const char *keys;    // to play; NULL for none
+    uint32_t quit_after; // frames; 0: until the user quits
+    bool statistics;     // print frame times at the end
+    bool verbose;        // print the state whenever it changes
+    double patience;     // seconds to wait for the device at the end
 } ViewerSettings;
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;
 
-// Shows the scene; returns when the window is closed, or cannot be opened.
+// Shows the scene.  Returns when the window is closed or cannot be opened.
 ViewerEnd viewer_run(const ViewerSettings *settings, Error *error);

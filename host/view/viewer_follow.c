@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What others did becomes part of the viewer here, and nowhere else.
+// Transfers results of the worker, the saver and the file system into the viewer.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"

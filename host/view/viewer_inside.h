@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer's own value, which its files share: viewer.c is the loop, viewer_follow.c takes in
-// what the worker and the file system did, viewer_show.c draws, tells and saves.
+// The viewer's state, shared by its files.  viewer.c runs the loop, viewer_follow.c takes results
+// of the worker and the file system, and viewer_show.c draws, prints and saves.
 #pragma once
 
 #include "view/frame_times.h"
@@ -16,7 +16,7 @@
 #define STATE_SIZE 1024
 
 typedef struct {
-    ViewerSettings settings; // copies, with the cache: the worker may outlive the call
+    ViewerSettings settings; // copied, with the cache, because the worker may outlive the call
     Cache cache;
     Window window;
     Views views;
@@ -24,50 +24,49 @@ typedef struct {
     Worker *worker;
     WorkerRequest request;
     WorkerStatus status;
-    Model *model; // held; NULL until the first is read
+    Model *model; // held; NULL until the first one is read
     StateScene scene;
     State state;
-    ARRAY(char *) dropped; // paths, owned: the worker may be reading any of them
+    ARRAY(char *) dropped; // paths, owned, because the worker may be reading any of them
     Reload reload;
-    bool is_failure_followed; // the scene's failure, by the files watched
+    bool is_failure_followed; // whether the watched files include the folder, after a failed read
     Script script;
     Saver saver;
     bool wants_save;
     FrameTimes frame_times;
-    double advanced;       // moment until which the camera has turned by itself
-    uint64_t moving_shown; // pictures of a moving camera that were traced when one was shown
-    Error failure;         // of the window's own doings
+    double advanced;       // the time up to which the camera has turned by itself
+    uint64_t moving_shown; // status.moving_frames at the latest displayed frame
+    Error failure;         // of the window's own operations
     char notice[SAVER_TEXT_SIZE];
-    char told[STATE_SIZE], title[STATE_SIZE]; // the latest state told, and the window's title
-    char told_failure[STATE_SIZE];
+    char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // the latest ones printed
+    char title[STATE_SIZE];                                      // of the window
     bool is_dirty, quits;
 } Viewer;
 
-// Takes in what the worker has done; false where nothing can be shown any more.
+// Processes the worker's status.  Returns false if nothing can be displayed anymore.
 bool viewer_follow_worker(Viewer *viewer, Error *error);
 
-// Shows the latest model that was read.
+// Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
 
-// Goes on with a file that was dropped on the window.
+// Switches to a file dropped on the window.
 bool viewer_take_drop(Viewer *viewer, Error *error);
 
-// Wishes for files that have changed to be read again.
+// Requests a new read of changed files.
 void viewer_follow_files(Viewer *viewer);
 
-// Reads and makes everything again, also what OpenGL keeps.
+// Requests a new read of everything and rebuilds the OpenGL objects.
 bool viewer_renew(Viewer *viewer, Error *error);
 
-// Makes the window again where the driver has lost its context, with everything in it.
+// Reopens the window and rebuilds its contents if the driver has lost the context.
 bool viewer_recover(Viewer *viewer, Error *error);
 
-// Whether nothing is under way any more that the keys played so far have caused.
+// Returns whether all effects of the keys played so far are complete.
 bool viewer_is_settled(const Viewer *viewer);
 
 // Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
-// Saves what was drawn last, if that is wished, once it is all there; and tells of it once it is
-// written.
+// Saves the latest drawn picture if requested and complete; then reports the written files.
 void viewer_save(Viewer *viewer);
 void viewer_follow_saver(Viewer *viewer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture first, then the words over it, which tell what it was drawn with.
+// Draws the picture first and the text over it, which describes the picture's settings.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -67,7 +67,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
                    window_text_scale(&viewer->window));
 }
 
-static void tell_title(Viewer *viewer, const Figures *figures)
+static void update_title(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
     status_text_title(text, sizeof text, &viewer->state, figures);
@@ -77,32 +77,32 @@ static void tell_title(Viewer *viewer, const Figures *figures)
     memcpy(viewer->title, text, sizeof text);
 }
 
-// On standard error, where it is wanted, once nothing moves any more.
-static void tell_state(Viewer *viewer, const Figures *figures)
+// Prints a changed state on standard error, with -v, once nothing moves.
+static void print_state(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
     if (!viewer->settings.verbose || viewer->state.turning || !viewer_is_settled(viewer))
         return;
     status_text_state(text, sizeof text, &viewer->state, figures);
-    if (strcmp(text, viewer->told) == 0)
+    if (strcmp(text, viewer->printed_state) == 0)
         return;
     fprintf(stderr, "%s\n", text);
-    memcpy(viewer->told, text, sizeof text);
+    memcpy(viewer->printed_state, text, sizeof text);
 }
 
-// A failure, when it is new; the overlay goes on showing it.
-static void tell_failure(Viewer *viewer, const Figures *figures)
+// Prints a new failure; the overlay keeps displaying it.
+static void print_failure(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
     snprintf(text, sizeof text, "%s", figures->failure);
-    if (strcmp(text, viewer->told_failure) == 0)
+    if (strcmp(text, viewer->printed_failure) == 0)
         return;
     if (text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", text);
-    memcpy(viewer->told_failure, text, sizeof text);
+    memcpy(viewer->printed_failure, text, sizeof text);
 }
 
-// Frames of a moving camera are timed and counted, those that show it at a new place.
+// Returns whether the frame shows a moving camera at a new position; only those frames are timed.
 static bool is_new_frame(const Viewer *viewer)
 {
     return !viewer->state.turning || !viewer->state.traced ||
@@ -132,15 +132,15 @@ bool viewer_draw(Viewer *viewer, Error *error)
         return false;
     const Figures figures = figures_of(viewer);
     draw_text(viewer, &figures);
-    tell_title(viewer, &figures);
+    update_title(viewer, &figures);
     window_show(&viewer->window);
-    tell_state(viewer, &figures);
-    tell_failure(viewer, &figures);
+    print_state(viewer, &figures);
+    print_failure(viewer, &figures);
     count_frame(viewer, was_settled);
     return true;
 }
 
-// The floats that were traced.
+// Copies the traced floats.
 static bool copy_traced(Viewer *viewer, Framebuffer *copy, Error *error)
 {
     pthread_mutex_lock(&viewer->canvas.mutex);

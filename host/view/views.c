@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines are hidden by what is before them in the ray-traced view too: the scene's depth is drawn
-// for them, and the traced picture over its colors.
+// The scene hides lines behind it in the ray-traced view, too: OpenGL draws its depth, and the
+// traced picture covers its colors.
 #include "view/views.h"
 
 #include "image/encode.h"
@@ -69,7 +69,7 @@ static Tone tone_of(const Frame *frame)
     return (Tone){state_gain(frame->state), frame->encoding == ENCODE_SRGB};
 }
 
-// To the background, as it is shown.
+// Clears the target to the displayed background.
 static void clear(const Frame *frame)
 {
     const Scene *scene = &frame->model->scene;
@@ -86,7 +86,7 @@ static void clear(const Frame *frame)
 static void draw_scene(Views *views, const Frame *frame, const Lens *lens)
 {
     const Tone tone = tone_of(frame);
-    // Away from the eye, so that lines on a surface are before it.
+    // Moves surfaces away from the eye, so that lines on them stay visible.
     if (frame->state->boxes || frame->state->normals)
         glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);

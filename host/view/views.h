@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that OpenGL keeps for a model, and the order in which a frame is drawn from it.
+// All OpenGL objects of a model, and the drawing order of a frame.
 #pragma once
 
 #include "view/draw/boxes.h"
@@ -19,28 +19,28 @@ typedef struct {
     LineView boxes, normals;
     RayView rays;
     TextView text;
-    bool has_boxes, has_normals; // they are those of the model and the level
+    bool has_boxes, has_normals; // they match the model and the level
     uint32_t level;
 } Views;
 
-// What a frame shows.
+// The contents of a frame.
 typedef struct {
     const State *state;
     const Model *model;
     bool has_tree; // of the model
     Canvas *canvas;
-    Viewpoint camera; // of the picture: the traced one may lag behind the state's
+    Viewpoint camera; // of the picture; a traced one may lag behind the state's
     uint32_t width, height;
     Encoding encoding;
 } Frame;
 
-// Makes everything that needs no model, in the context that is current.  To be closed in either
-// case.
+// Makes everything that needs no model, in the current context.  The caller closes the views, also
+// after a failure.
 bool views_open(Views *views, Error *error);
 void views_close(Views *views);
 
-// Takes another model, of which OpenGL keeps copies.
+// Switches to another model, which OpenGL copies.
 bool views_load(Views *views, const Model *model, Error *error);
 
-// Draws the frame and shows it in the window, without text.
+// Draws the frame, without text, into the target.
 bool views_draw(Views *views, const Frame *frame, Error *error);

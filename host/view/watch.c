@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files look like is one number: the hash of their times, sizes and places on the disk.
+// A file's signature is one number: a hash of its times, size and inode.
 #include "view/watch.h"
 
 #include <dirent.h>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
-// A file that is not there looks like nothing, which is a look too.
+// A missing file has a signature, too.
 static uint64_t look_of(const struct stat *status)
 {
     const uint64_t numbers[] = {(uint64_t)status->st_mtim.tv_sec, (uint64_t)status->st_mtim.tv_nsec,
@@ -25,7 +25,7 @@ static uint64_t look_inside(const char *folder)
         return 0;
     for (struct dirent *entry = readdir(entries); entry != NULL; entry = readdir(entries)) {
         struct stat status;
-        // The sum does not depend on the order, which may change.
+        // The sum does not depend on the order of entries, which may change.
         if (fstatat(dirfd(entries), entry->d_name, &status, 0) == 0 && S_ISREG(status.st_mode))
             look += look_of(&status);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window of the system with an OpenGL context, and what the user does to it as events.
+// A system window with an OpenGL context, and the user's actions as events.
 #pragma once
 
 #include "base/error.h"
@@ -11,44 +11,44 @@ typedef struct {
     void *handle; // GLFW's
     Event events[WINDOW_EVENTS];
     int event_count;
-    char *dropped;           // the path of a file; owned, NULL where none was dropped
-    double mouse_x, mouse_y; // as far as drags were told
-    bool is_touched;         // it must be drawn again
+    char *dropped;           // the path of a file; owned; NULL for none
+    double mouse_x, mouse_y; // of the latest event
+    bool is_touched;         // must be drawn again
 } Window;
 
-// Connects to the display; the sentence of a failure says what to do without one.
+// Connects to the display; on failure the message suggests -o FILE.
 bool window_connect(Error *error);
 void window_disconnect(void);
 
-// Opens a window whose inside has so many pixels, if the screen has room for them, and makes its
-// context current.
+// Opens a window of that size in pixels, or as large as the screen permits, and makes its context
+// current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
 
-// Waits for events or window_wake, so many seconds at most.
+// Waits for events or window_wake, at most that many seconds.
 void window_wait(Window *window, double seconds);
 
-// Ends a wait, from any thread.
+// Ends a wait; callable from any thread.
 void window_wake(void);
 
-// Takes the next event; false where there is none.
+// Takes the next event; returns false for none.
 bool window_take_event(Window *window, Event *event);
 
-// The path of the file that was dropped on it last, which the caller frees; NULL where none was.
+// Returns the path of the latest dropped file, which the caller frees; NULL for none.
 char *window_take_drop(Window *window);
 
-// The size in pixels; zeros while it is minimised.
+// Returns the size in pixels; zeros while the window is minimized.
 void window_measure(const Window *window, uint32_t *width, uint32_t *height);
 
-// Pixels to a dot of text that is read well.
+// Returns the number of pixels per font dot for legible text.
 uint32_t window_text_scale(const Window *window);
 
 void window_set_title(Window *window, const char *title);
-void window_show(Window *window); // what was drawn
+void window_show(Window *window); // displays the drawn frame
 void window_hide(Window *window);
 
-// Whether the user wants it closed.
+// Returns whether the user has closed the window.
 bool window_is_closed(const Window *window);
 
-// Whether the driver has lost the context, so that everything in it has to be made anew.
+// Returns whether the driver has lost the context, with all objects in it.
 bool window_is_lost(const Window *window);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One job after the other: each is chosen by comparing what is wished with what is done.
+// Chooses the next job by comparing the request with the finished work.
 #include "view/worker_inside.h"
 
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static Pass next_pass(const Worker *worker)
     return plan_pass(&plan, &worker->status.reached);
 }
 
-// Under the lock.  False where there is nothing to do.
+// Returns false if nothing remains to be done.  The caller holds the lock.
 static bool choose_job(Worker *worker, Job *job)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
@@ -36,7 +36,7 @@ static bool choose_job(Worker *worker, Job *job)
     }
     job->pass = next_pass(worker);
     job->kind = JOB_PASS;
-    // A picture that has to be traced is encoded anew all the same.
+    // Pictures still to be traced are encoded again, too.
     if (request->is_traced && request->gain != done->gain && job->pass.kind != PASS_MOVING)
         job->kind = JOB_ENCODE;
     return job->kind == JOB_ENCODE || job->pass.kind != PASS_NONE;

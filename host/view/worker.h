@@ -1,65 +1,68 @@
 // SPDX-License-Identifier: MIT
-// The thread that reads scenes and traces pictures, so that the window never waits.  The window
-// says what it wishes and looks what news there are; nothing else passes between the two.
+// A thread that reads scenes and traces pictures, so that the window never waits.  The window posts
+// requests and polls the status.  Besides, the two threads share only the canvas and finished
+// models.
 #pragma once
 
 #include "view/draw/canvas.h"
 #include "view/tracer.h"
 
-// What the window wants.
+// A request from the window to the worker thread.
 typedef struct {
     const char *path; // of the scene; the string outlives the worker
-    bool is_traced;   // the ray-traced view is shown
-    uint64_t subject; // ascending, from 1: another one with every camera and size
+    bool is_traced;   // the ray-traced view is displayed
+    uint64_t subject; // from 1; increases with every new camera or size
     Viewpoint camera;
     uint32_t width, height;
     uint32_t samples; // per pixel and axis
     bool uses_bvh;
     double gain;
-    uint64_t loads;    // how often the scene was to be read, the first time included
-    uint64_t renewals; // how often the kernels were to be made again
+    uint64_t loads;    // number of requested scene reads, including the first
+    uint64_t renewals; // number of requested kernel builds after the first
 } WorkerRequest;
 
 typedef enum { FAULT_NONE, FAULT_SCENE, FAULT_DEVICE } WorkerFault;
 
-// How things stand.
+// The worker's status.
 typedef struct {
-    uint64_t number;     // of the news, ascending
-    WorkerFault fault;   // that leaves nothing to show
-    Error scene_failure; // of reading the scene, empty where it went well
+    uint64_t number;     // of status updates
+    WorkerFault fault;   // a fault after which nothing can be displayed
+    Error scene_failure; // from reading the scene; empty if it succeeded
     Error failure;       // of the device and the kernels
-    uint64_t models;     // read so far
+    uint64_t models;     // number of models read
     bool has_tree;       // the latest model's tree is built
-    const char *busy;    // with what, empty where it is tracing or idle
-    WorkerRequest done;  // the wish that the latest whole picture and its scene answer
+    const char *busy;    // the current operation; empty while tracing or idle
+    WorkerRequest done;  // the request fulfilled by the latest complete picture and its scene
     PlanReached reached;
-    double progress;                       // of the pass that is being traced
-    double frame_seconds;                  // of the latest pass
-    uint64_t moving_frames, moving_coarse; // pictures of moving cameras; those not of all pixels
-    uint64_t tallies[TALLY_KINDS];         // where reached is counted
+    double progress;               // of the current pass
+    double frame_seconds;          // of the latest pass
+    uint64_t moving_frames;        // pictures of moving cameras
+    uint64_t moving_coarse;        // of these, at reduced resolution
+    uint64_t tallies[TALLY_KINDS]; // valid if reached is counted
 } WorkerStatus;
 
 typedef struct Worker Worker;
 
-// What a worker stands on, which outlives it.
+// The inputs of a worker, which must outlive it.
 typedef struct {
     const TracerOptions *options;
     Canvas *canvas;
-    void (*wake)(void); // called whenever there are news
+    void (*wake)(void); // called after every status update
 } WorkerSetup;
 
-// Starts, with a first wish.  NULL with the reason where no thread can be had.
+// Starts the worker with a first request.  Returns NULL with the reason if it cannot start a
+// thread.
 Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Error *error);
 
 void worker_request(Worker *worker, const WorkerRequest *request);
 void worker_poll(Worker *worker, WorkerStatus *status);
 
-// The latest model, held for the caller; NULL while there is none.
+// Returns the latest model with a reference for the caller; NULL for none.
 Model *worker_model(Worker *worker);
 
-// Whether nothing is left to read or to trace for the wish.
+// Returns whether the request is fulfilled: nothing is left to read or trace.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
-// Stops and frees the worker.  Where it does not come to its end within so many seconds, nothing
-// is freed and it returns false: the process is to end then.
+// Stops and frees the worker.  If it does not stop within that many seconds, the function frees
+// nothing and returns false, and the process must then end.
 bool worker_stop(Worker *worker, double seconds);

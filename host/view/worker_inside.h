@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the worker's own files share: worker.c chooses jobs, jobs.c does them.
+// Shared by the worker's own files: worker.c chooses jobs, jobs.c runs them.
 #pragma once
 
 #include "view/worker.h"
@@ -7,16 +7,16 @@
 struct Worker {
     WorkerSetup setup;
     pthread_t thread;
-    pthread_mutex_t mutex; // over the next five
+    pthread_mutex_t mutex; // guards the next five members
     pthread_cond_t changed;
     WorkerRequest request;
     WorkerStatus status;
     Model *model;
     bool stops;
-    // The thread's own:
+    // Used only by the worker thread.
     Tracer tracer;
-    double sample_seconds; // that tracing one takes
-    bool has_measured;     // it is no guess
+    double sample_seconds; // per sample
+    bool has_measured;     // sample_seconds is measured, not guessed
     double woken;
 };
 
@@ -24,11 +24,11 @@ typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_ENCODE, JOB_PASS } JobKind;
 
 typedef struct {
     JobKind kind;
-    WorkerRequest request; // as it was when the job was chosen
+    WorkerRequest request; // at the time of the choice
     Pass pass;
 } Job;
 
-// The jobs.  The first one opens the device, too, and is false where nothing can be shown.
+// The jobs.  jobs_begin also opens the device; it returns false if nothing can be displayed.
 bool jobs_begin(Worker *worker);
 void jobs_load(Worker *worker, const Job *job);
 void jobs_take(Worker *worker, const Job *job);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recursion is bounded by the levels of the tree.
+// The depth of the tree bounds the recursion.
 #include "view/draw/boxes.h"
 
 #include <stdlib.h>

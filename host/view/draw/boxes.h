@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bvh -> the boxes that one level of it shows.
+// Bvh -> the boxes at one of its levels.
 #pragma once
 
 #include "accel/bvh.h"
@@ -7,10 +7,10 @@
 
 typedef ARRAY(Box) Boxes;
 
-// How many levels of inner nodes there are.
+// Returns the number of levels of inner nodes.
 uint32_t boxes_levels(const Bvh *bvh);
 
-// Fills an empty array: level 0 gives the boxes of the leaves, others those of the inner nodes at
-// that level, the root being at 1.  To be freed in either case.
+// Fills an empty array.  Level 0 selects the leaves; other levels select the inner nodes there,
+// with the root at 1.  The caller frees the boxes, also after a failure.
 bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error);
 void boxes_free(Boxes *boxes);

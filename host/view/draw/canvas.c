@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two layers take turns.
+// Passes alternate between two layers.
 #include "view/draw/canvas.h"
 
 #include "image/encode.h"
@@ -78,7 +78,7 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
     return ok ? layer : NULL;
 }
 
-// Encodes a row's part.  Brighter than white is white.
+// Encodes part of a row.  Values above white become white.
 static void encode_row(const Canvas *canvas, Layer *layer, size_t first, size_t count, double gain)
 {
     enum { STEP = 256 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pictures that pass from the thread that traces to the one that shows: the latest whole one,
-// and the one that is being traced, tile by tile.  The tracing thread writes a tile first and then
-// counts it under the lock; who shows holds the lock while it reads tiles that are counted.
+// The pictures passed from the tracing thread to the window's thread: the latest complete one, and
+// the one in progress, tile by tile.  The tracing thread writes a tile and then counts it under the
+// lock.  The window's thread holds the lock while it reads counted tiles.
 #pragma once
 
 #include "image/image_file.h"
@@ -10,13 +10,13 @@
 #include <pthread.h>
 
 typedef struct {
-    Framebuffer framebuffer; // the tracing thread's alone until the layer is whole
-    unsigned char *bytes;    // of the window: three a pixel, the top row first
-    uint64_t pass;           // number of the pass that fills it, ascending; 0: holds nothing
+    Framebuffer framebuffer; // only for the tracing thread until the layer is complete
+    unsigned char *bytes;    // for the window: three per pixel, top row first
+    uint64_t pass;           // number of the pass that fills the layer, ascending; 0: empty
     RenderSettings settings; // of that pass: size and tiles
     uint64_t tiles_done;
-    uint64_t revision; // of the bytes of tiles that were counted before
-    bool is_hidden;    // to be shown once it is whole
+    uint64_t revision; // counts re-encodings of the counted tiles' bytes
+    bool is_hidden;    // not displayed before it is complete
     bool is_whole;
 } Layer;
 
@@ -24,7 +24,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // begun
+    uint64_t passes; // passes begun
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;
@@ -32,23 +32,23 @@ typedef struct {
 void canvas_open(Canvas *canvas, Encoding encoding);
 void canvas_close(Canvas *canvas);
 
-// Makes room for a picture of that size in the layer that is not the latest whole one, and returns
-// it; NULL where memory ran out.
+// Prepares the layer that is not the latest complete one for a picture of that size.  Returns NULL
+// without memory.
 Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidden, Error *error);
 
-// Encodes the tiles up to tiles_done, of colors times gain, and counts them.
+// Encodes the tiles up to tiles_done, with colors multiplied by gain, and counts them.
 void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double gain);
 
-// The layer's picture is whole: from now on the latest.
+// Marks the layer complete, which makes it the latest picture.
 void canvas_finish(Canvas *canvas, Layer *layer);
 
-// The layer holds nothing worth showing.
+// Marks the layer empty.
 void canvas_drop(Canvas *canvas, Layer *layer);
 
-// Encodes the latest whole picture again.
+// Encodes the latest complete picture again.
 void canvas_encode_again(Canvas *canvas, double gain);
 
-// The latest whole picture, and the one that is traced to be shown above it; NULL where there is
-// none.  Under the lock.
+// Return the latest complete picture, and the one in progress to be displayed above it; NULL for
+// none.  The caller holds the lock.
 Layer *canvas_whole(Canvas *canvas);
 Layer *canvas_unfinished(Canvas *canvas);

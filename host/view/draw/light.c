@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the scene in the order in which shaders read them.
+// The scene's numbers in the shaders' layout.
 #include "view/draw/light.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One box is an instance of a cube's edges, or of its diagonal.
+// Each box is an instance of a cube's edges or of its diagonal.
 #include "view/draw/line_view.h"
 
 #include "view/draw/cube.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes, or lines between two corners of boxes, in one color.
+// Boxes, or their diagonals, in one color.
 #pragma once
 
 #include "accel/bvh.h"
@@ -8,10 +8,10 @@
 typedef struct {
     GLuint program, corners, boxes, array;
     bool is_diagonal;
-    uint32_t count; // of the boxes loaded
+    uint32_t count; // of loaded boxes
 } LineView;
 
-// Diagonal: a line from each box's low to its high corner, which need not be the larger.
+// With is_diagonal, draws a line from each box's low corner to its high one, in any direction.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 void line_view_close(LineView *view);
 

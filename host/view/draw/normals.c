@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The course's lines are 0.15 long in scenes 2 to 4 large, which are 1 to 2 large in the frame.
+// The course's lines are 0.15 long.  Its scenes are 2 to 4 large, and 1 to 2 large in the
+// normalized frame.
 #include "view/draw/normals.h"
 
 #define LINE_LENGTH 0.075

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Model -> its normals as lines: those of the vertices where triangles are smooth, else one in the
-// middle of each triangle.
+// Model -> its normals as lines: at the vertices of smooth objects, otherwise in the middle of each
+// triangle.
 #pragma once
 
 #include "view/draw/boxes.h"
 #include "view/model.h"
 
-// Fills an empty array, which is to be freed in either case, with lines from low to high, in the
-// normalized frame.
+// Fills an empty array with lines from low to high, in the normalized frame.  The caller frees it,
+// also after a failure.
 bool normals_make(Boxes *lines, const Model *model, Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Only tiles that are new go to OpenGL.  A picture of the target's size is shown pixel by pixel.
+// Uploads only new tiles.  A picture of the target's size is displayed pixel by pixel.
 #include "view/draw/ray_view.h"
 
 bool ray_view_open(RayView *view, Error *error)
@@ -35,7 +35,7 @@ static void copy_tile(const Layer *layer, const Tile *tile)
                     (GLsizei)tile->height, GL_RGB, GL_UNSIGNED_BYTE, layer->bytes + 3 * first);
 }
 
-// Brings the copy up to the layer; under the canvas's lock.
+// Updates the copy from the layer.  The caller holds the canvas's lock.
 static void update_copy(LayerCopy *copy, const Layer *layer)
 {
     const RenderSettings *settings = &layer->settings;
@@ -71,7 +71,7 @@ static void draw_part(GLint x, GLint y, GLint width, GLint height)
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-// The rows of tiles that are done, and what is done of the next one.
+// Draws the complete rows of tiles, and the finished part of the next row.
 static void draw_done(const LayerCopy *copy, const RenderSettings *settings)
 {
     const GLint width = (GLint)copy->width, height = (GLint)copy->height;

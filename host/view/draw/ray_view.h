@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Canvas -> OpenGL: the traced picture, and over it the tiles of the one that is being traced.
+// Canvas -> OpenGL: the latest traced picture, covered by the finished tiles of the next.
 #pragma once
 
 #include "view/draw/canvas.h"
 #include "view/draw/shader.h"
 
-// What of a layer OpenGL has.
+// OpenGL's copy of a layer.
 typedef struct {
     GLuint texture;
     uint64_t pass, revision, tiles;
@@ -20,5 +20,5 @@ typedef struct {
 bool ray_view_open(RayView *view, Error *error);
 void ray_view_close(RayView *view);
 
-// Draws over all of the target, which is of that size.
+// Covers the whole target, of width x height pixels.
 void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t height);

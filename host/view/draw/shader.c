@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL 1.40 is what all of OpenGL 3.1 to 4.6 reads, core profile or not.
+// All of OpenGL 3.1 to 4.6 accept GLSL 1.40, in core profiles and others.
 #include "view/draw/shader.h"
 
 #define MESSAGE_SIZE 1024

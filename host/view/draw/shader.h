@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Shader text -> OpenGL program.  One text holds both stages: VERTEX is defined in the first.
+// Shader text -> OpenGL program.  One text holds both stages; VERTEX is defined in the first.
 #pragma once
 
 #include "base/error.h"
 
 #include <epoxy/gl.h>
 
-// The files of host/view/shaders, made part of the program by tools/embed_shaders.cmake.
+// The files of host/view/shaders, embedded by tools/embed_shaders.cmake.
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// Compiles and links; attributes gets the places 0, 1, ... in the order of the names, which end
-// with NULL.  0 with the driver's reason where it cannot be built.
+// Compiles and links a program.  attributes ends with NULL, and its names get the locations 0, 1,
+// ...  Returns 0 with the driver's message on failure.
 GLuint shader_build(const char *text, const char *const *attributes, Error *error);
 
-// Sets uniforms of the program in use, by name; those it does without are passed over.
+// Set uniforms of the current program by name.  Names unknown to the program are ignored.
 void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);

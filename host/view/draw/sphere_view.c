@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a sphere is seen from the eye is found in fp64 for every frame: a ground sphere of radius
-// 1e9 has no bits left for it in float.
+// Computes each sphere's position relative to the eye in fp64 for every frame.  For a ground sphere
+// of radius 1e9, float would have no bits left for it.
 #include "view/draw/sphere_view.h"
 
 #include "view/draw/cube.h"
@@ -81,7 +81,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     glBindBuffer(GL_ARRAY_BUFFER, view->spheres);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(SPHERE_NUMBERS * count * sizeof(float)),
                  view->numbers.data, GL_STREAM_DRAW);
-    // Back faces cover a sphere also from within its cube.
+    // Back faces cover the sphere even from inside its cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_FACE_VERTICES, (GLsizei)count);

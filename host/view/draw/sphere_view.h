@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model's spheres, each as round as its pixels.
+// A model's spheres, exact in every pixel.
 #pragma once
 
 #include "view/draw/light.h"
@@ -8,13 +8,13 @@
 
 typedef struct {
     GLuint program, corners, spheres, array;
-    ARRAY(float) numbers; // of all spheres, as OpenGL reads them
+    ARRAY(float) numbers; // of all spheres, in OpenGL's layout
 } SphereView;
 
 bool sphere_view_open(SphereView *view, Error *error);
 void sphere_view_close(SphereView *view);
 
-// Makes room for the model's spheres.
+// Allocates memory for the model's spheres.
 bool sphere_view_load(SphereView *view, const Model *model, Error *error);
 
 void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, const Tone *tone);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two frames: the larger is averaged into the smaller by a linear blit to half its size.
+// The target has two frame buffers.  A linear blit to half the size averages the larger into the
+// smaller.
 #include "view/draw/target.h"
 
 #include <stdlib.h>
@@ -77,7 +78,7 @@ void target_show(const Target *target)
     glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
 }
 
-// OpenGL's first row is the lowest.
+// OpenGL's first row is the bottom one.
 static void store_rows(Framebuffer *framebuffer, const unsigned char *bytes)
 {
     const size_t width = framebuffer->width, height = framebuffer->height;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// stb_easy_font turns letters into rectangles, which are all there is to draw.
+// stb_easy_font converts letters to rectangles.
 #include "view/draw/text_view.h"
 
 #include <stb/stb_easy_font.h>
@@ -45,7 +45,7 @@ void text_view_close(TextView *view)
     *view = (TextView){0};
 }
 
-// The font knows ASCII.
+// The font has only ASCII.
 static void copy_printable(char copy[TEXT_SIZE], const char *text)
 {
     size_t length = 0;
@@ -56,7 +56,7 @@ static void copy_printable(char copy[TEXT_SIZE], const char *text)
     copy[length] = '\0';
 }
 
-// Whether the text from line on, up to end, is wider than width dots.
+// Returns whether the text from line to end is wider than width dots.
 static bool is_wider(char *line, char *end, int width)
 {
     const char kept = *end;
@@ -66,7 +66,7 @@ static bool is_wider(char *line, char *end, int width)
     return wider;
 }
 
-// Turns blanks into line ends so that lines are at most width dots wide.
+// Replaces spaces by line ends so that no line is wider than width dots.
 static void break_lines(char *text, int width)
 {
     char *line = text, *blank = NULL;
@@ -92,7 +92,7 @@ static int count_lines(const char *text)
     return count;
 }
 
-// Each quad of four corners becomes two triangles.
+// Splits each quad of four corners into two triangles.
 static size_t make_triangles(Vertex *triangles, const Vertex *quads, size_t count, uint32_t scale)
 {
     static const int corners[QUAD_VERTICES] = {0, 1, 2, 0, 2, 3};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles share their vertices, as in the meshes; each object is one call.
+// Triangles share vertices as in the meshes, and each object takes one draw call.
 #include "view/draw/triangle_view.h"
 
 #include <stddef.h>
@@ -7,7 +7,7 @@
 
 typedef struct {
     float position[3];
-    float normal[3]; // zero where there is none
+    float normal[3]; // zero for none
 } Vertex;
 
 bool triangle_view_open(TriangleView *view, Error *error)

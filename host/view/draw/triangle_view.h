@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model's triangles, kept by OpenGL.
+// A model's triangles in OpenGL buffers.
 #pragma once
 
 #include "view/draw/light.h"
@@ -13,9 +13,9 @@ typedef struct {
 bool triangle_view_open(TriangleView *view, Error *error);
 void triangle_view_close(TriangleView *view);
 
-// Hands the model's triangles to OpenGL, instead of those before.
+// Replaces the triangles in OpenGL's buffers by the model's.
 bool triangle_view_load(TriangleView *view, const Model *model, Error *error);
 
-// Draws them, with the uniforms of lens and lights.
+// Draws the triangles with the uniforms of lens and lights.
 void triangle_view_draw(const TriangleView *view, const Model *model, const Lens *lens,
                         const Tone *tone);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The camera of the rays as a projection without a far end: depth is 1 - near / distance.
+// The camera of the rays as a projection without a far plane: depth is 1 - near / distance.
 uniform vec3 eye, forward;
 uniform vec3 clip_x, clip_y;          // across the picture, from -1 to 1 at distance 1
 uniform vec3 right_step, down_step;   // half a pixel at distance 1
 uniform vec2 size;                    // of the picture in pixels
 uniform float nearest;
 
-// Of a place as seen from the eye.
+// Projects a point given relative to the eye.
 vec4 projected(vec3 offset)
 {
     float distance = dot(offset, forward);

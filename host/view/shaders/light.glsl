@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The materials under the scene's lights, without shadows; mirrors reflect the background.  As in
-// the traced picture, a light counts where the shading normal and the face are turned to it.
+// Shades the scene's materials under its lights, without shadows; mirrors reflect the background.
+// As in the traced picture, a light counts only if both the shading normal and the face are turned
+// to it.
 #define LIGHTS       64
-#define SILHOUETTE   0.5 // shaders below and above are numbered
+#define SILHOUETTE   0.5 // separates the numbers of the shaders
 #define BLINN_PHONG  1.5
 
-uniform vec4 lights[LIGHTS]; // place and intensity
+uniform vec4 lights[LIGHTS]; // position and intensity
 uniform int light_count;
 uniform vec3 background;
 uniform float ambient, gain;
 uniform bool is_srgb;
 
 struct Surface {
-    vec3 place, normal, face, toward_viewer; // the face on the side that is seen, of any length
+    vec3 place, normal, face, toward_viewer; // face is the visible side's normal, of any length
     vec4 diffuse;  // color and kd
     vec4 specular; // color and ks
     vec4 look;     // shader, unused, shininess, reflectivity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines between the corners of boxes, of which a line by itself is one: from its first corner to
-// the opposite one.
+// The edges of boxes.  A single line runs from a box's first corner to the opposite one.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 corner;    // of the unit cube

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A traced picture, whose first row is the uppermost, over the whole target.
+// Draws a traced picture, top row first, over the whole target.
 #ifdef VERTEX
 out vec2 place;
 

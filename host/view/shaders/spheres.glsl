@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Spheres, met by the ray of each pixel; a cube around each says which pixels to try.
+// Intersects spheres with each pixel's ray; a cube around each sphere selects the pixels.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 corner;
-in vec4 sphere; // center as seen from the eye, and radius
+in vec4 sphere; // center relative to the eye, and radius
 in vec4 diffuse, specular;
-in vec4 look;   // with the eye's height above the sphere in the second place
+in vec4 look; // the second number is the eye's height above the sphere
 flat out vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 
 void main()
@@ -21,8 +21,8 @@ void main()
 flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 out vec4 color;
 
-// The nearer meeting in front of the eye, negative where there is none.  The roots are found from
-// the larger one, and the eye's height, so that large spheres keep their digits.
+// Returns the nearer hit in front of the eye, negative for none.  Both roots are computed from the
+// larger one and from the eye's height, so that large spheres keep their digits.
 float meeting(vec3 direction)
 {
     vec3 center = sphere_shown.xyz;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colored shapes at places in pixels, counted from the upper left corner.
+// Draws colored shapes at pixel positions, counted from the upper left corner.
 uniform vec2 size;
 #ifdef VERTEX
 in vec2 position;

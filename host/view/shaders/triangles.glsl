@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles, smooth or flat; how places change from pixel to pixel gives the face.
+// Draws smooth or flat triangles; the derivatives of the position give the face's normal.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 position, normal;
