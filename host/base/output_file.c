@@ -62,6 +62,38 @@ static char *temporary_file(const char *path, bool beside, Error *error)
     return NULL;
 }
 
+// Creates a file without a name in the folder of path, so that a signal leaves nothing behind.
+// Returns -1 where the file system has no such files.
+static int probe_folder(const char *path, Error *error)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+    char *folder = memory_raw(length + 2, 1, error);
+    if (folder == NULL)
+        return false;
+    snprintf(folder, length + 2, "%.*s.", (int)length, path);
+    const int file = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    free(folder);
+    if (file >= 0)
+        return close(file) == 0;
+    if (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)
+        return -1;
+    return error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+}
+
+static bool check_folder(const char *path, Error *error)
+{
+    const int probed = probe_folder(path, error);
+    if (probed >= 0)
+        return probed;
+    char *temporary = temporary_file(path, true, error);
+    if (temporary == NULL)
+        return false;
+    unlink(temporary);
+    free(temporary);
+    return true;
+}
+
 bool output_file_check(const char *path, Error *error)
 {
     struct stat status;
@@ -72,11 +104,8 @@ bool output_file_check(const char *path, Error *error)
         const bool writable = strcmp(path, "-") == 0 || access(path, W_OK) == 0;
         return writable || error_set(error, "%s: cannot be written: %s", path, strerror(errno));
     }
-    char *temporary = temporary_file(path, true, error);
-    if (temporary == NULL)
+    if (!check_folder(path, error))
         return false;
-    unlink(temporary);
-    free(temporary);
     return strlen(strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path) <= NAME_MAX ||
            error_set(error, "%s: cannot be written: the name is too long", path);
 }

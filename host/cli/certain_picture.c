@@ -2,6 +2,7 @@
 // The certifier always needs pair nodes, so the scene is flattened again.
 #include "cli/certain_picture.h"
 
+#include "accel/compile.h"
 #include "base/clock.h"
 #include "device/threads.h"
 #include "render/certifier.h"
@@ -10,18 +11,14 @@
 
 static bool flatten(const Run *run, FlatScene *flat, Error *error)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
-    Crew *crew = crew_open(threads_allowed(run->options->threads));
-    const NodeLayout layout = certifier_choice().nodes;
-    const BvhSettings tree = {run->options->builder, flat_leaves(layout)};
-    const FlatSource source = {&run->scene, &triangles, &bvh, &run->normalization, layout, crew};
-    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, crew, error) &&
-                    bvh_build(&bvh, &triangles, &tree, crew, error) &&
-                    flat_make(flat, &source, error);
-    crew_close(crew);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
+    const CompileSource source = {.scene = &run->scene,
+                                  .normalization = &run->normalization,
+                                  .layout = certifier_choice().nodes,
+                                  .builder = run->options->builder,
+                                  .has_tree = true,
+                                  .crew = crew_open(threads_allowed(run->options->threads))};
+    const bool ok = scene_compile(flat, NULL, &source, error);
+    crew_close(source.crew);
     return ok;
 }
 

@@ -2,6 +2,7 @@
 // The stages from a scene file to a renderer ready to draw.
 #include "cli/run.h"
 
+#include "accel/compile.h"
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/table.h"
@@ -124,24 +125,23 @@ static bool wants_tree(const Options *options, NodeLayout layout, uint64_t trian
 
 bool run_build_scene(Run *run, Error *error)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
+    Bvh bvh;
     double moment = clock_seconds();
     const Options *options = run->options;
     const NodeLayout layout = run->async_device.setup.source.choice.nodes;
-    const bool has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene));
-    Crew *crew = crew_open(threads_allowed(options->threads));
-    const BvhSettings settings = {options->builder, flat_leaves(layout)};
-    const FlatSource source = {&run->scene, &triangles, &bvh, &run->normalization, layout, crew};
-    const bool ok = triangles_make(&triangles, &run->scene, &run->normalization, crew, error) &&
-                    (!has_tree || bvh_build(&bvh, &triangles, &settings, crew, error)) &&
-                    flat_make(&run->flat, &source, error);
-    crew_close(crew);
+    const CompileSource source = {
+        .scene = &run->scene,
+        .normalization = &run->normalization,
+        .layout = layout,
+        .builder = options->builder,
+        .has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene)),
+        .crew = crew_open(threads_allowed(options->threads))};
+    const bool ok = scene_compile(&run->flat, &bvh, &source, error);
+    crew_close(source.crew);
     run->report.build += run_lap(&moment);
     if (ok)
         report_count_scene(&run->report, &run->scene, &bvh);
     bvh_free(&bvh);
-    triangles_free(&triangles);
     return ok;
 }
 

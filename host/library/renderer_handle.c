@@ -2,6 +2,7 @@
 // Every scene uses the general kernels, which are compiled once per renderer.
 #include "library/renderer_handle.h"
 
+#include "accel/compile.h"
 #include "base/processors.h"
 #include "library/check.h"
 
@@ -72,19 +73,14 @@ void clrt_renderer_free(ClrtRenderer *renderer)
 
 static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
-    Crew *crew = crew_open(renderer->threads);
-    const NodeLayout layout = renderer->setup.source.choice.nodes;
-    const Normalization *normalization = &renderer->normalization;
-    const BvhSettings tree = {BVH_SAH, flat_leaves(layout)};
-    const FlatSource source = {scene, &triangles, &bvh, normalization, layout, crew};
-    const bool ok = triangles_make(&triangles, scene, normalization, crew, cause) &&
-                    bvh_build(&bvh, &triangles, &tree, crew, cause) &&
-                    flat_make(&renderer->flat, &source, cause);
-    crew_close(crew);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
+    const CompileSource source = {.scene = scene,
+                                  .normalization = &renderer->normalization,
+                                  .layout = renderer->setup.source.choice.nodes,
+                                  .builder = BVH_SAH,
+                                  .has_tree = true,
+                                  .crew = crew_open(renderer->threads)};
+    const bool ok = scene_compile(&renderer->flat, NULL, &source, cause);
+    crew_close(source.crew);
     return ok;
 }
 

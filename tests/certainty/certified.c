@@ -2,6 +2,7 @@
 // The plain picture is drawn by packets, as on any CPU.
 #include "certainty/certified.h"
 
+#include "accel/compile.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>
@@ -22,18 +23,14 @@ void office_close(Office *office)
 
 static bool flatten(FlatScene *flat, const Scene *scene, NodeLayout layout, Error *error)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
     const Normalization normalization = normalization_of(scene);
-    const BvhSettings tree = {BVH_SAH, flat_leaves(layout)};
-    const FlatSource source = {scene, &triangles, &bvh, &normalization, layout, NULL};
-    const bool ok = normalization_check(&normalization, scene, error) &&
-                    triangles_make(&triangles, scene, &normalization, NULL, error) &&
-                    bvh_build(&bvh, &triangles, &tree, NULL, error) &&
-                    flat_make(flat, &source, error);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
-    return ok;
+    const CompileSource source = {.scene = scene,
+                                  .normalization = &normalization,
+                                  .layout = layout,
+                                  .builder = BVH_SAH,
+                                  .has_tree = true};
+    return normalization_check(&normalization, scene, error) &&
+           scene_compile(flat, NULL, &source, error);
 }
 
 static RenderSettings settings_of(const Scene *scene, const CertifiedView *view)

@@ -2,6 +2,7 @@
 // Runs the stages one after the other; every one leaves a value that is empty where it failed.
 #include "image/picture.h"
 
+#include "accel/compile.h"
 #include "image/form.h"
 #include "render/aov_pass.h"
 #include "scene/camera.h"
@@ -51,19 +52,12 @@ static bool load(Pipeline *pipeline, Error *error)
 
 static bool flatten(Pipeline *pipeline, Error *error)
 {
-    Triangles triangles = {0};
-    Bvh bvh = {0};
-    const NodeLayout layout = pipeline->request->choice.nodes;
-    const BvhSettings settings = {pipeline->request->builder, flat_leaves(layout)};
-    const FlatSource source = {&pipeline->scene,         &triangles, &bvh,
-                               &pipeline->normalization, layout,     NULL};
-    const bool ok =
-        triangles_make(&triangles, &pipeline->scene, &pipeline->normalization, NULL, error) &&
-        (!pipeline->request->uses_bvh || bvh_build(&bvh, &triangles, &settings, NULL, error)) &&
-        flat_make(&pipeline->flat, &source, error);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
-    return ok;
+    const CompileSource source = {.scene = &pipeline->scene,
+                                  .normalization = &pipeline->normalization,
+                                  .layout = pipeline->request->choice.nodes,
+                                  .builder = pipeline->request->builder,
+                                  .has_tree = pipeline->request->uses_bvh};
+    return scene_compile(&pipeline->flat, NULL, &source, error);
 }
 
 static RenderSettings settings_of(const PictureRequest *request, const Scene *scene)
