@@ -22,7 +22,7 @@ GOALS = "0.02,0.01,0.005,0.002"
 
 # A reference may be off by this part of the smallest goal.
 REFERENCE_PART = 0.1
-REFERENCE_SAMPLES = [256, 65536]
+REFERENCE_SAMPLES = [64, 65536]
 
 # The largest N of --aa=N that competes, and the thresholds of --aa-adaptive: tools/trade's.
 LARGEST_SIDE = 24
