@@ -121,7 +121,7 @@ class Installed(unittest.TestCase):
         environment["HOME"] = "/proc"
         failed = subprocess.run([program], capture_output=True, env=environment)
         self.assertNotEqual(failed.returncode, 0)
-        self.assertIn(b"POCL_CACHE_DIR names a folder", failed.stderr)
+        self.assertIn(b"set POCL_CACHE_DIR to a folder", failed.stderr)
         environment["POCL_CACHE_DIR"] = str(self.work / "cache")
         self.assertEqual(run(program, env=environment), self.expected)
 
