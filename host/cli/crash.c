@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The program counter shows whose crash it is: the program's file contains clrt's code, but no
-// drivers, libraries or kernels, and OpenCL never calls back into it.  LLVM installs handlers
-// during a build, and all of them except abort()'s return to ours.  So the program's own sigaction,
-// which precedes the C library's, keeps SIGABRT.
+// drivers, libraries or kernels, and OpenCL never calls back into it.  LLVM installs handlers of
+// its own during a build.  That of SIGABRT never returns to ours, and where two threads crash at
+// once, the others restore no handler at all.  So the program's own sigaction, which precedes the C
+// library's, keeps ours.  Only SIGFPE is free: PoCL steps over divisions by zero with it.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -88,14 +89,18 @@ static void handle_exit(void)
 }
 
 #if !CLRT_TIDY_EXIT // sanitizers define this function themselves
+static bool is_kept(int number)
+{
+    return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT;
+}
+
 // The C library's own name for sigaction.
 extern int __sigaction(int number, const struct sigaction *action, struct sigaction *before);
 
 __attribute__((visibility("default"))) int sigaction(int number, const struct sigaction *action,
                                                      struct sigaction *before)
 {
-    const bool is_taken = number == SIGABRT && watcher != 0;
-    return __sigaction(number, is_taken ? NULL : action, before);
+    return __sigaction(number, watcher != 0 && is_kept(number) ? NULL : action, before);
 }
 #endif
 
