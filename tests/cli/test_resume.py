@@ -135,6 +135,7 @@ class Kills(Resume):
     def test_with_channels_parts_and_crops_too(self):
         for more in (["--aov", "depth,primitive,certainty"], ["--part", "2/3"],
                      ["--crop", "30,20,390,290"], ["--precision", "fp64"]):
+            more += ["--aa=4"]
             whole = self.whole(*LONG, *more)
             self.kill_in_the_middle(*LONG, *more)
             self.assertGreaterEqual(self.resumed_tiles(*LONG, *more), 30)

@@ -2,6 +2,7 @@
 // Differences are summed in double, value by value.
 #include "image/rendered.h"
 
+#include "image/form.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
@@ -15,13 +16,37 @@ Framebuffer rendered(const PictureRequest *request)
     return picture;
 }
 
-void rendered_expect_same(const PictureRequest *one, const PictureRequest *other)
+void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
+                          size_t count)
 {
-    Framebuffer first = rendered(one), second = rendered(other);
+    Framebuffer first = rendered(expected);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
-    assert_memory_equal(first.pixels, second.pixels, size);
+    for (size_t i = 0; i < count; i++) {
+        Framebuffer other = rendered(&others[i]);
+        assert_memory_equal(first.pixels, other.pixels, size);
+        framebuffer_free(&other);
+    }
     framebuffer_free(&first);
-    framebuffer_free(&second);
+}
+
+void rendered_expect_same_in_every_form(const PictureRequest *usual)
+{
+    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
+                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
+    enum { COUNT = sizeof choices / sizeof choices[0] };
+    PictureRequest others[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        others[i] = *usual;
+        others[i].choice = choices[i];
+        others[i].group_width = others[i].group_height = form_group(&choices[i]);
+        others[i].threads = i;
+        others[i].builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
+        others[i].specialization = i == COUNT - 1 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+    }
+    rendered_expect_same(usual, others, COUNT);
 }
 
 double rendered_error(const Framebuffer *one, const Framebuffer *other)

@@ -7,8 +7,12 @@
 // The caller frees the picture.
 Framebuffer rendered(const PictureRequest *request);
 
-// Fails the test unless both are the same bits.
-void rendered_expect_same(const PictureRequest *one, const PictureRequest *other);
+// Fails the test unless all others, count of them, are the same bits as the expected picture.
+void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
+                          size_t count);
+
+// The same for one picture in every form of the kernels, with other threads, trees and programs.
+void rendered_expect_same_in_every_form(const PictureRequest *usual);
 
 // The root mean square difference of the values of two pictures of one size.
 double rendered_error(const Framebuffer *one, const Framebuffer *other);

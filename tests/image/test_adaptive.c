@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Adaptive anti-aliasing: what it reaches, what it costs, and that it is one picture.
-#include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"
 #include "unit/cmocka_all.h"
@@ -31,23 +30,10 @@ static const char *const scenes[] = {SCENES "simple.scn", SCENES "reflections.sc
 static void every_form_threads_and_tree_refine_the_same(void **state)
 {
     (void)state;
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         PictureRequest usual = adaptive(square(scenes[scene], 97), 0.02f);
         usual.height = 61;
-        for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
-            PictureRequest other = usual;
-            other.choice = choices[i];
-            other.group_width = other.group_height = form_group(&choices[i]);
-            other.threads = (uint32_t)i;
-            other.builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
-            other.specialization = i == 4 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
-            rendered_expect_same(&usual, &other);
-        }
+        rendered_expect_same_in_every_form(&usual);
     }
 }
 

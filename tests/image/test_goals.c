@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures with an error that was asked for: that they are one picture, and the ends of the scale.
 // tests/goals measures whether errors are held.
-#include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"
 #include "unit/cmocka_all.h"
@@ -25,22 +24,9 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
     (void)state;
     static const char *const scenes[] = {SCENES "reflections.scn", SCENES "blinn_phong.scn",
                                          CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
     for (size_t scene = 0; scene < sizeof scenes / sizeof scenes[0]; scene++) {
         const PictureRequest usual = request_for(scenes[scene], 0.003);
-        for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
-            PictureRequest other = usual;
-            other.choice = choices[i];
-            other.group_width = other.group_height = form_group(&choices[i]);
-            other.threads = (uint32_t)i;
-            other.builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
-            other.specialization = i == 4 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
-            rendered_expect_same(&usual, &other);
-        }
+        rendered_expect_same_in_every_form(&usual);
     }
 }
 

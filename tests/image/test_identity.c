@@ -48,75 +48,78 @@ static void every_way_to_find_triangles_draws_the_same(void **state)
     (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         const PictureRequest sah = small_request(scene);
-        PictureRequest midpoint = sah, list = sah;
-        midpoint.builder = BVH_MIDPOINT;
-        list.uses_bvh = false;
-        rendered_expect_same(&sah, &midpoint);
-        rendered_expect_same(&sah, &list);
+        PictureRequest others[] = {sah, sah};
+        others[0].builder = BVH_MIDPOINT;
+        others[1].uses_bvh = false;
+        rendered_expect_same(&sah, others, 2);
     }
 }
 
 static void every_form_of_the_kernels_draws_the_same(void **state)
 {
     (void)state;
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        PictureRequest usual = in_form(small_request(scene), &choices[0]), others[CHOICE_COUNT * 4];
+        usual.samples = 1;
         for (size_t i = 0; i < CHOICE_COUNT; i++) {
-            PictureRequest usual = in_form(small_request(scene), &choices[0]);
-            usual.samples = 1;
-            const PictureRequest sah = in_form(usual, &choices[i]);
-            PictureRequest midpoint = sah, list = sah, tiled = sah;
-            midpoint.builder = BVH_MIDPOINT;
-            list.uses_bvh = false;
-            tiled.tile_width = 13;
-            tiled.tile_height = 7;
-            rendered_expect_same(&usual, &sah);
-            rendered_expect_same(&sah, &midpoint);
-            rendered_expect_same(&list, &tiled);
-            rendered_expect_same(&usual, &tiled);
+            PictureRequest *form = &others[i * 4];
+            form[0] = form[1] = form[2] = form[3] = in_form(usual, &choices[i]);
+            form[1].builder = BVH_MIDPOINT;
+            form[2].uses_bvh = false;
+            form[3].tile_width = 13;
+            form[3].tile_height = 7;
         }
+        rendered_expect_same(&usual, others, CHOICE_COUNT * 4);
+    }
 }
 
 static void every_form_draws_pictures_of_a_few_pixels(void **state)
 {
     (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
-    for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++)
-        for (size_t i = 0; i < CHOICE_COUNT; i++) {
-            PictureRequest usual = small_request(SCENE_COUNT - 1);
-            usual.width = sizes[size][0];
-            usual.height = sizes[size][1];
-            usual = in_form(usual, &choices[0]);
-            const PictureRequest other = in_form(usual, &choices[i]);
-            rendered_expect_same(&usual, &other);
-        }
+    for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
+        PictureRequest usual = small_request(SCENE_COUNT - 1), others[CHOICE_COUNT - 1];
+        usual.width = sizes[size][0];
+        usual.height = sizes[size][1];
+        for (size_t i = 1; i < CHOICE_COUNT; i++)
+            others[i - 1] = in_form(usual, &choices[i]);
+        usual = in_form(usual, &choices[0]);
+        rendered_expect_same(&usual, others, CHOICE_COUNT - 1);
+    }
 }
 
 static void every_tile_size_draws_the_same(void **state)
 {
     (void)state;
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
-        for (size_t i = 0; i < sizeof tiles / sizeof tiles[0]; i++) {
-            const PictureRequest usual = small_request(scene);
-            PictureRequest tiled = usual;
-            tiled.tile_width = tiles[i][0];
-            tiled.tile_height = tiles[i][1];
-            rendered_expect_same(&usual, &tiled);
+    enum { COUNT = sizeof tiles / sizeof tiles[0] };
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        const PictureRequest usual = small_request(scene);
+        PictureRequest tiled[COUNT];
+        for (size_t i = 0; i < COUNT; i++) {
+            tiled[i] = usual;
+            tiled[i].tile_width = tiles[i][0];
+            tiled[i].tile_height = tiles[i][1];
         }
+        rendered_expect_same(&usual, tiled, COUNT);
+    }
 }
 
 static void every_work_group_size_draws_the_same(void **state)
 {
     (void)state;
     static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
-        for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
-            const PictureRequest usual = small_request(scene);
-            PictureRequest grouped = usual;
-            grouped.group_width = groups[i][0];
-            grouped.group_height = groups[i][1];
-            rendered_expect_same(&usual, &grouped);
+    enum { COUNT = sizeof groups / sizeof groups[0] };
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
+        const PictureRequest usual = small_request(scene);
+        PictureRequest grouped[COUNT];
+        for (size_t i = 0; i < COUNT; i++) {
+            grouped[i] = usual;
+            grouped[i].group_width = groups[i][0];
+            grouped[i].group_height = groups[i][1];
         }
+        rendered_expect_same(&usual, grouped, COUNT);
+    }
 }
 
 static void counting_changes_no_pixel(void **state)
@@ -127,7 +130,7 @@ static void counting_changes_no_pixel(void **state)
         const PictureRequest usual = small_request(scene);
         PictureRequest counted = usual;
         counted.tallies = tallies;
-        rendered_expect_same(&usual, &counted);
+        rendered_expect_same(&usual, &counted, 1);
         assert_int_equal(tallies[TALLY_CAMERA_RAYS], 131 * 97 * 4);
     }
 }
@@ -159,7 +162,7 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     special.specialization = SPECIALIZE_ALWAYS;
     special.extra_options = "-Werror";
     special.tallies = mask & 32 ? tallies : NULL;
-    rendered_expect_same(&general, &special);
+    rendered_expect_same(&general, &special, 1);
     remove(general.scene_path);
 }
 
@@ -193,16 +196,14 @@ static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(
     (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         const PictureRequest sah = in_form(small_request(scene), &fp64);
-        PictureRequest midpoint = sah, list = sah, grouped = sah;
-        midpoint.builder = BVH_MIDPOINT;
-        midpoint.tile_width = 13;
-        list.uses_bvh = false;
-        list.group_width = list.group_height = 1;
-        grouped.group_width = 3;
-        grouped.group_height = 5;
-        rendered_expect_same(&sah, &midpoint);
-        rendered_expect_same(&sah, &list);
-        rendered_expect_same(&sah, &grouped);
+        PictureRequest others[] = {sah, sah, sah};
+        others[0].builder = BVH_MIDPOINT;
+        others[0].tile_width = 13;
+        others[1].uses_bvh = false;
+        others[1].group_width = others[1].group_height = 1;
+        others[2].group_width = 3;
+        others[2].group_height = 5;
+        rendered_expect_same(&sah, others, 3);
     }
 }
 

@@ -10,7 +10,11 @@
 #include <malloc.h>
 #include <stdio.h>
 
-#define CYCLES     200
+#ifdef __SANITIZE_ADDRESS__
+#define CYCLES 200
+#else
+#define CYCLES 60 // enough for growth to show
+#endif
 #define WARMING_UP 20 // cycles after which drivers have all they keep
 
 // Three times the memory that PoCL keeps for each kernel. A picture here is six times as large.
@@ -97,7 +101,7 @@ static Usage measure(void)
                    count_entries("/proc/self/task")};
 }
 
-static void two_hundred_windows_leave_nothing_behind(void **state)
+static void many_windows_leave_nothing_behind(void **state)
 {
     (void)state;
     Usage before = {0};
@@ -119,7 +123,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lost_context_is_made_anew),
-        cmocka_unit_test(two_hundred_windows_leave_nothing_behind),
+        cmocka_unit_test(many_windows_leave_nothing_behind),
     };
     cache_open(&cache);
     return cmocka_run_group_tests(tests, NULL, NULL);
