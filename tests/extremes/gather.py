@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the extremes with ctest and gathers their lines into RESULTS.md.
+"""Runs the extremes with ctest and gathers their lines into a table of all cases.
 
-Usage: tests/extremes/gather.py BUILD_FOLDER [--tiers 2,1,0] [--from TIER:LOG]...
-Without --from the tiers are run; with it, the verbose output of earlier runs is read.  Tier 0
-counts only for the tests that no other tier has.
+Usage: tests/extremes/gather.py BUILD_FOLDER [-o FILE] [--tiers 2,1,0] [--from TIER:LOG]...
+The table goes to FILE, or to extremes.md in the build folder.  With --from, the script runs no
+tests but reads the verbose output of earlier runs.  Tier 0 counts only for the tests that no other
+tier has.
 Exits as ctest does: with 0 where every test passed.
 """
 import argparse
@@ -144,7 +145,7 @@ def write(results, path):
 
 Made by `tests/extremes/gather.py` on {date}, on an {machine()}.
 
-What each test asks is in [README.md](README.md). `rays` counts what a test judges: rays, pixels,
+What each test asks is in tests/extremes/README.md. `rays` counts what a test judges: rays, pixels,
 boxes or files. Under packet, wide and pair stand the failures of the kernels' three forms, under
 Embree those of Embree 3.13.5 on the same rays and triangles, in its default and its robust mode; an
 empty cell means not run there. A test holds where no case has more failures than its limit.
@@ -170,6 +171,7 @@ empty cell means not run there. A test holds where no case has more failures tha
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build")
+    parser.add_argument("-o", dest="output")
     parser.add_argument("--tiers", default="2,1,0")
     parser.add_argument("--from", dest="logs", action="append", default=[])
     options = parser.parse_args()
@@ -183,7 +185,7 @@ def main():
         output, code = run_tier(options.build, tier)
         results.read(tier, output)
         status = status or code
-    write(results, os.path.join(FOLDER, "RESULTS.md"))
+    write(results, options.output or os.path.join(options.build, "extremes.md"))
     return status
 
 
