@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The built-in functions that the kernels call, under the names that clang gives them, and a loop
 // over the work-items.
-#include "extremes/host/host_kernel.h"
+#include "host_kernel.h"
 
 #include <math.h>
 

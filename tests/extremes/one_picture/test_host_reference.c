@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The device's picture is, bit by bit, that of the same kernels compiled for the host by clang.
-#include "extremes/host/host_kernel.h"
+#include "host_kernel.h"
 #include "support/check.h"
 #include "support/picture.h"
 #include "support/report.h"
