@@ -103,3 +103,28 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
     }
     return joined;
 }
+
+// Links to the program are followed: its companion files are beside the file itself.
+static bool own_folder(char folder[PATH_MAX])
+{
+    const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
+    if (length <= 0)
+        return false;
+    folder[length] = '\0';
+    char *slash = strrchr(folder, '/');
+    if (slash == NULL)
+        return false;
+    slash[slash == folder] = '\0'; // the root remains
+    return true;
+}
+
+bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder)
+{
+    char own[PATH_MAX];
+    if (!own_folder(own))
+        return false;
+    snprintf(path, COMPANION_PATH_SIZE, "%s/%s", own, name);
+    if (access(path, R_OK) != 0)
+        snprintf(path, COMPANION_PATH_SIZE, "%s/%s/%s", own, folder, name);
+    return true;
+}

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 
+#include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -31,3 +32,10 @@ bool file_has_ending(const char *path, const char *ending);
 // Returns path relative to the folder of the file beside, or path itself if it is absolute. The
 // caller frees it; NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
+
+// Fills path with the place of a companion file of the running program: in the program's own
+// folder, as in a build tree, or else in `folder`, relative to it. Returns false if the system does
+// not report the program's folder, as without /proc. There is no fallback: the current folder may
+// hold anybody's files.
+#define COMPANION_PATH_SIZE (2 * PATH_MAX)
+bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

@@ -4,7 +4,7 @@
 // which clears pages: nodes that share children double with each level.
 #include "foreign/limits.h"
 
-#include "base/confinement.h"
+#include "base/child_process.h"
 
 #include <unistd.h>
 

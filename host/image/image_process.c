@@ -5,18 +5,14 @@
 #include "image/image_process.h"
 
 #include "base/array.h"
-#include "image/open_module.h"
-#include "image/socket.h"
+#include "base/child_process.h"
 
-#include <fcntl.h>
+#include <dlfcn.h>
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
@@ -34,7 +30,23 @@ typedef struct {
     char message[512];
 } Answer;
 
-static int channel = -1; // to the child process, in the parent
+static ChildProcess writer;
+
+ModuleFunction *open_module(const char *name, Error *cause)
+{
+    char path[COMPANION_PATH_SIZE];
+    if (!file_companion(path, CLRT_IMAGE_MODULE, CLRT_IMAGE_MODULE_FOLDER)) {
+        error_set(cause, "the picture module cannot be found: /proc does not show where clrt is");
+        return NULL;
+    }
+    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    ModuleFunction *function = NULL;
+    if (module != NULL)
+        *(void **)&function = dlsym(module, name);
+    if (function == NULL)
+        error_set(cause, "the picture module cannot be opened: %s", dlerror());
+    return function;
+}
 
 static size_t pixel_size(const ImageModulePicture *picture)
 {
@@ -79,11 +91,11 @@ static bool send_request(const ImageModulePicture *picture)
         request.layer_is_integer[i] = picture->layer_is_integer[i];
     for (size_t i = 0; i < string_count(picture); i++)
         request.string_size += strlen(string_at(picture, i)) + 1;
-    bool ok = socket_send(channel, &request, sizeof request);
+    bool ok = child_send(writer.socket, &request, sizeof request);
     for (size_t i = 0; ok && i < string_count(picture); i++)
-        ok = socket_send(channel, string_at(picture, i), strlen(string_at(picture, i)) + 1);
-    return ok && socket_send(channel, picture->pixels, request.pixel_size) &&
-           socket_send(channel, picture->layers, request.layer_size);
+        ok = child_send(writer.socket, string_at(picture, i), strlen(string_at(picture, i)) + 1);
+    return ok && child_send(writer.socket, picture->pixels, request.pixel_size) &&
+           child_send(writer.socket, picture->layers, request.layer_size);
 }
 
 // Points the picture's members into the strings. texts must have room for all of them.
@@ -130,16 +142,16 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     void *layers = memory_raw(request->layer_size, 1, &error);
     const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
     const bool held = strings != NULL && pixels != NULL && layers != NULL && texts != NULL;
-    bool ok = held && socket_receive(socket, strings, request->string_size) &&
-              socket_receive(socket, pixels, request->pixel_size) &&
-              socket_receive(socket, layers, request->layer_size);
+    bool ok = held && child_receive(socket, strings, request->string_size) &&
+              child_receive(socket, pixels, request->pixel_size) &&
+              child_receive(socket, layers, request->layer_size);
     if (ok) {
         place_strings(&picture, strings, texts);
         picture.pixels = pixels;
         picture.layers = layers;
         snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
         answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
-        ok = socket_send(socket, &answer, sizeof answer);
+        ok = child_send(socket, &answer, sizeof answer);
     }
     free(strings);
     free(pixels);
@@ -148,43 +160,26 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     return ok;
 }
 
-// Serves requests until the parent ends. The process keeps none of the parent's files open.
-static _Noreturn void serve(int socket, pid_t parent)
+// Serves requests until the parent ends.
+static void serve(int socket, const void *context)
 {
     Error failure = {0};
     Request request;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(0);
+    (void)context;
     // Only the parent handles these signals; it may still have its picture written here.
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
-    const int nothing = open("/dev/null", O_RDWR);
-    dup2(nothing, STDIN_FILENO);
-    dup2(nothing, STDOUT_FILENO);
     ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, &failure);
-    while (socket_receive(socket, &request, sizeof request) &&
+    while (child_receive(socket, &request, sizeof request) &&
            answer_request(socket, &request, write, &failure))
         continue;
-    _exit(0);
 }
 
 void image_process_start(void)
 {
-    int sockets[2];
-    if (channel >= 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0)
-        return;
-    const pid_t parent = getpid();
-    const pid_t child = fork();
-    if (child == 0) {
-        close(sockets[0]);
-        serve(sockets[1], parent);
-    }
-    close(sockets[1]);
-    if (child > 0)
-        channel = sockets[0];
-    else
-        close(sockets[0]);
+    Error ignored = {0};
+    if (writer.id == 0)
+        child_fork(&writer, serve, NULL, &ignored);
 }
 
 static bool write_here(const ImageModulePicture *picture, Error *cause)
@@ -198,9 +193,9 @@ static bool write_here(const ImageModulePicture *picture, Error *cause)
 bool image_process_write(const ImageModulePicture *picture, Error *cause)
 {
     Answer answer;
-    if (channel < 0 || pixel_size(picture) + layer_size(picture) > LARGEST_SENT)
+    if (writer.id == 0 || pixel_size(picture) + layer_size(picture) > LARGEST_SENT)
         return write_here(picture, cause);
-    if (!send_request(picture) || !socket_receive(channel, &answer, sizeof answer))
+    if (!send_request(picture) || !child_receive(writer.socket, &answer, sizeof answer))
         return error_set(cause, "the process that writes pictures has ended");
     return answer.ok || error_set(cause, "%s", answer.message);
 }

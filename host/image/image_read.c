@@ -3,7 +3,7 @@
 // surface for hostile files.
 #include "image/image_read.h"
 
-#include "image/image_reader.h"
+#include "image/image_process.h"
 #include "image/pfm.h"
 #include "image/png_load.h"
 

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The child process reads the file and sends a header with its values or a message. The parent
 // checks the header as carefully as a file.
-#include "image/image_reader.h"
+#include "base/child_process.h"
+#include "image/image_process.h"
 
-#include "base/confinement.h"
-#include "image/image_module.h"
-#include "image/open_module.h"
-#include "image/socket.h"
-
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #define MEMORY_LIMIT ((rlim_t)12 << 30) // beside what is already mapped
@@ -36,9 +29,7 @@ static void live_within_limits(void)
 {
     confine_process(TIME_LIMIT);
     confine_resource(RLIMIT_AS, confine_mapped_memory() + MEMORY_LIMIT);
-    const int nothing = open("/dev/null", O_RDWR);
-    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
-        dup2(nothing, stream);
+    dup2(STDOUT_FILENO, STDERR_FILENO); // decoders print warnings
 }
 
 static void fill_head(Head *head, const ImageModuleContent *content)
@@ -56,21 +47,26 @@ static size_t value_count(const Head *head)
     return (size_t)head->width * head->height * head->channel_count;
 }
 
-static _Noreturn void serve(int socket, const char *path, const char *format)
+typedef struct {
+    const char *path, *format;
+} ReadRequest;
+
+static void serve(int socket, const void *context)
 {
+    const ReadRequest *request = context;
     Error failure = {0};
     Head head = {0};
     ImageModuleContent content = {.values_max = STORED_VALUES_MAX, .text_names = stored_text_names};
     live_within_limits();
     ImageModuleRead *read = (ImageModuleRead *)open_module(IMAGE_MODULE_READ, &failure);
     snprintf(head.message, sizeof head.message, "%.500s", failure.text);
-    head.ok = read != NULL && read(path, format, &content, head.message, sizeof head.message);
+    head.ok = read != NULL &&
+              read(request->path, request->format, &content, head.message, sizeof head.message);
     if (head.ok)
         fill_head(&head, &content);
     const size_t size = head.is_8_bit ? 1 : sizeof(float);
-    if (socket_send(socket, &head, sizeof head) && head.ok)
-        socket_send(socket, content.values, value_count(&head) * size);
-    _exit(0);
+    if (child_send(socket, &head, sizeof head) && head.ok)
+        child_send(socket, content.values, value_count(&head) * size);
 }
 
 // Messages quote files, which may contain terminal escape sequences.
@@ -106,12 +102,12 @@ static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *ca
 {
     const size_t count = (size_t)image->width * image->height * image->channel_count;
     if (!is_8_bit)
-        return socket_receive(socket, image->values, count * sizeof(float)) ||
+        return child_receive(socket, image->values, count * sizeof(float)) ||
                error_set(cause, "reading it ended the process that did");
     unsigned char *bytes = memory_raw(count, 1, cause);
     if (bytes == NULL)
         return false;
-    const bool ok = socket_receive(socket, bytes, count);
+    const bool ok = child_receive(socket, bytes, count);
     if (ok)
         stored_image_values(bytes, count, image->values);
     free(bytes);
@@ -121,26 +117,18 @@ static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *ca
 static bool receive_image(StoredImage *image, int socket, Error *cause)
 {
     Head head;
-    if (!socket_receive(socket, &head, sizeof head))
+    if (!child_receive(socket, &head, sizeof head))
         return error_set(cause, "reading it ended the process that did");
     return take_head(image, &head, cause) && take_values(image, socket, head.is_8_bit != 0, cause);
 }
 
 bool image_reader_run(StoredImage *image, const char *path, const char *format, Error *cause)
 {
-    int sockets[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0)
-        return error_set(cause, "no sockets are left");
-    const pid_t child = fork();
-    if (child == 0) {
-        close(sockets[0]);
-        serve(sockets[1], path, format);
-    }
-    close(sockets[1]);
-    const bool ok = child > 0 ? receive_image(image, sockets[0], cause)
-                              : error_set(cause, "no process can be started");
-    close(sockets[0]);
-    if (child > 0)
-        waitpid(child, NULL, 0);
+    const ReadRequest request = {path, format};
+    ChildProcess child;
+    if (!child_fork(&child, serve, &request, cause))
+        return false;
+    const bool ok = receive_image(image, child.socket, cause);
+    child_end(&child);
     return ok;
 }

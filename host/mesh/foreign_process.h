@@ -4,12 +4,11 @@
 // memory, clrt prints one error message.
 #pragma once
 
-#include "base/file.h"
+#include "base/child_process.h"
 
 typedef struct {
     const char *program; // NULL: the program that belongs to this build
-    double seconds;      // time limit, from its start
-    size_t bytes;        // limit of its output
+    ChildLimits limits;
 } ForeignReader;
 
 // Limits that suit any model that clrt can render.

@@ -41,7 +41,7 @@ static void write_script(const char *text)
 
 static bool run(const char *text, File *stream, Error *error)
 {
-    const ForeignReader reader = {.program = script, .seconds = 1, .bytes = 100000};
+    const ForeignReader reader = {.program = script, .limits = {.seconds = 1, .bytes = 100000}};
     write_script(text);
     *error = (Error){0};
     return foreign_process_run(stream, &reader, "m.obj", error);
@@ -107,7 +107,7 @@ static void a_program_that_gives_up_is_told(void **state)
 static void a_program_that_is_not_there_is_told(void **state)
 {
     (void)state;
-    const ForeignReader reader = {.program = "/nonexistent", .seconds = 1, .bytes = 1};
+    const ForeignReader reader = {.program = "/nonexistent", .limits = {.seconds = 1, .bytes = 1}};
     File stream;
     Error error = {0};
     assert_false(foreign_process_run(&stream, &reader, "m.obj", &error));

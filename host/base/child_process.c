@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Starting, messages, collecting an output, and limits, in this order.
+#include "base/child_process.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PIECE ((size_t)1 << 16) // the least free space before each read
+
+typedef enum { END_PARENT, END_CHILD } SocketEnd;
+
+static bool open_sockets(int ends[2])
+{
+    return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+}
+
+// Keeps the parent's end if the child has started.
+static bool keep_child(ChildProcess *child, pid_t id, const int ends[2])
+{
+    close(ends[END_CHILD]);
+    *child = (ChildProcess){0};
+    if (id > 0)
+        *child = (ChildProcess){id, ends[END_PARENT]};
+    else
+        close(ends[END_PARENT]);
+    return id > 0;
+}
+
+static _Noreturn void run_fork(pid_t parent, int socket, ChildWork *work, const void *context)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(0);
+    const int nothing = open("/dev/null", O_RDWR);
+    dup2(nothing, STDIN_FILENO);
+    dup2(nothing, STDOUT_FILENO);
+    work(socket, context);
+    _exit(0);
+}
+
+bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause)
+{
+    int ends[2];
+    const pid_t parent = getpid();
+    if (!open_sockets(ends))
+        return error_set(cause, "no sockets are left");
+    const pid_t id = fork();
+    if (id == 0) {
+        close(ends[END_PARENT]);
+        run_fork(parent, ends[END_CHILD], work, context);
+    }
+    return keep_child(child, id, ends) || error_set(cause, "no process can be started");
+}
+
+static int spawn(pid_t *id, const char *program, const char *argument, int output)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, ordinary;
+    char *const words[] = {(char *)program, (char *)argument, NULL};
+    sigemptyset(&none);
+    sigemptyset(&ordinary);
+    sigaddset(&ordinary, SIGALRM);
+    sigaddset(&ordinary, SIGPIPE);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &ordinary);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    const int fault = posix_spawn(id, program, &actions, &attributes, words, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return fault;
+}
+
+bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause)
+{
+    int ends[2];
+    pid_t id = 0;
+    if (!open_sockets(ends))
+        return error_set(cause, "%s", strerror(errno));
+    const int fault = spawn(&id, program, argument, ends[END_CHILD]);
+    return keep_child(child, fault == 0 ? id : 0, ends) || error_set(cause, "%s", strerror(fault));
+}
+
+int child_end(ChildProcess *child)
+{
+    int status = 0;
+    if (child->id <= 0)
+        return status;
+    kill(child->id, SIGKILL);
+    while (waitpid(child->id, &status, 0) < 0 && errno == EINTR)
+        continue;
+    close(child->socket);
+    *child = (ChildProcess){0};
+    return status;
+}
+
+// Signals and full buffers split messages, which these functions join.
+bool child_send(int socket, const void *bytes, size_t size)
+{
+    const char *next = bytes;
+    while (size > 0) {
+        const ssize_t sent = send(socket, next, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            return false;
+        next += sent;
+        size -= (size_t)sent;
+    }
+    return true;
+}
+
+bool child_receive(int socket, void *bytes, size_t size)
+{
+    char *next = bytes;
+    while (size > 0) {
+        const ssize_t received = recv(socket, next, size, 0);
+        if (received < 0 && errno == EINTR)
+            continue;
+        if (received <= 0)
+            return false;
+        next += received;
+        size -= (size_t)received;
+    }
+    return true;
+}
+
+// Waits until there is something to read, including the end of the output.
+static ChildFate await(int socket, double deadline)
+{
+    for (;;) {
+        const double left = deadline - clock_seconds();
+        struct pollfd wanted = {.fd = socket, .events = POLLIN};
+        if (left <= 0)
+            return CHILD_LATE;
+        const int found = poll(&wanted, 1, left > 1000 ? 1000000 : (int)(left * 1000) + 1);
+        if (found > 0)
+            return CHILD_DONE;
+        if (found < 0 && errno != EINTR)
+            return CHILD_LOST;
+    }
+}
+
+static ChildFate read_all(File *output, int socket, const ChildLimits *limits, Error *error)
+{
+    const double deadline = clock_seconds() + limits->seconds;
+    void *memory = NULL;
+    size_t capacity = 0;
+    for (;;) {
+        const bool has_room = array_reserve(&memory, &capacity, output->size + PIECE, 1, error);
+        output->bytes = memory;
+        const ChildFate fate = has_room ? await(socket, deadline) : CHILD_LOST;
+        if (fate != CHILD_DONE)
+            return fate;
+        const ssize_t got = read(socket, output->bytes + output->size, capacity - output->size);
+        if (got == 0)
+            return CHILD_DONE;
+        if (got < 0 && errno != EINTR)
+            return CHILD_LOST;
+        output->size += got > 0 ? (size_t)got : 0;
+        if (output->size > limits->bytes)
+            return CHILD_LONG;
+    }
+}
+
+ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
+                        Error *error)
+{
+    *output = (File){0};
+    const ChildFate fate = read_all(output, child->socket, limits, error);
+    const int status = child_end(child);
+    *signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (*signal == SIGALRM || *signal == SIGXCPU)
+        return CHILD_LATE;
+    if (fate != CHILD_DONE)
+        return fate;
+    if (*signal != 0)
+        return CHILD_CRASHED;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
+}
+
+// Results are ignored: setting a limit only fails if the system already has a lower one.
+void confine_resource(int resource, rlim_t most)
+{
+    const struct rlimit both = {most, most};
+    setrlimit((__rlimit_resource_t)resource, &both);
+}
+
+void confine_process(unsigned seconds)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    confine_resource(RLIMIT_CPU, seconds);
+    confine_resource(RLIMIT_FSIZE, 0);
+    confine_resource(RLIMIT_CORE, 0);
+    alarm(seconds);
+}
+
+rlim_t confine_mapped_memory(void)
+{
+    unsigned long pages = 0;
+    FILE *stream = fopen("/proc/self/statm", "r");
+    if (stream == NULL || fscanf(stream, "%lu", &pages) != 1)
+        pages = 0;
+    if (stream != NULL)
+        fclose(stream);
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}

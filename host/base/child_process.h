@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Child processes run code that may crash, hang or hold locks. The parent and a child communicate
+// over a pair of sockets. The parent survives every fault of the child.
+#pragma once
+
+#include "base/file.h"
+
+#include <sys/resource.h>
+#include <sys/types.h>
+
+// {0}: no child.
+typedef struct {
+    pid_t id;
+    int socket; // to the child
+} ChildProcess;
+
+// Runs in the child, which ends when it returns.
+typedef void ChildWork(int socket, const void *context);
+
+// Starts a copy of this process that calls work(socket, context) and ends with this one. Its
+// standard input and output are empty. Only main may call it, before other threads start. On
+// failure, returns false and the reason alone.
+bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
+
+// Starts a program with one argument. Its standard output is the socket, and it inherits nothing
+// else. Any thread may call it. On failure, returns false and the reason alone.
+bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause);
+
+// Kills the child and closes the socket. A child that has ended by itself keeps its status.
+// Returns the status, as waitpid does.
+int child_end(ChildProcess *child);
+
+// Send and receive whole messages. They return false if the other process has closed its socket.
+bool child_send(int socket, const void *bytes, size_t size);
+bool child_receive(int socket, void *bytes, size_t size);
+
+typedef struct {
+    double seconds; // of wall time
+    size_t bytes;
+} ChildLimits;
+
+typedef enum {
+    CHILD_DONE,
+    CHILD_LATE,    // reached a time limit, its own or the parent's
+    CHILD_LONG,    // exceeded the limit of its output
+    CHILD_LOST,    // the output could not be read
+    CHILD_CRASHED, // ended by a signal
+    CHILD_FAILED   // ended with another status than 0
+} ChildFate;
+
+// Reads the child's output until it closes the socket, then ends it. The caller frees output, also
+// after a failure. *signal is the signal that ended the child, or 0. error receives a message only
+// if memory runs out.
+ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
+                        Error *error);
+
+// Limits of a process that reads possibly hostile files, for the rest of its life. Nothing that it
+// reads later can lift them.
+
+// Ends this process with the thread that started it, and after this many seconds of processor or
+// wall time. It then gains no privileges, writes no file and dumps no core.
+void confine_process(unsigned seconds);
+
+// Limits a resource, such as RLIMIT_AS, to `most`, unless the system's limit is lower.
+void confine_resource(int resource, rlim_t most);
+
+// Returns the bytes mapped into this process so far, 0 if the system does not report them.
+rlim_t confine_mapped_memory(void);
