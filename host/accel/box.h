@@ -33,3 +33,7 @@ static inline float box_half_area(const Box *box)
     const float z = box->high[2] - box->low[2];
     return x >= 0 ? x * y + y * z + z * x : 0;
 }
+
+// Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
+// makes the device's culling conservative (kernels/traverse.cl).
+Box box_grow(const Box *box);

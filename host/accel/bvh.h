@@ -44,3 +44,6 @@ typedef struct {
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
                Error *error);
 void bvh_free(Bvh *bvh);
+
+// Counts the inner nodes at every depth. counts[0] is the root's level.
+void bvh_count_levels(const Bvh *bvh, uint32_t counts[BVH_MAX_DEPTH]);

@@ -2,9 +2,7 @@
 // Flattens everything but the triangles and their tree, which flat_pair.c and flat_wide.c lay out.
 #include "accel/flat.h"
 
-#include "accel/flat_looks.h"
-#include "accel/flat_pair.h"
-#include "accel/flat_wide.h"
+#include "accel/flat_parts.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Processes object after object. The threads share each object's triangles.
-#include "accel/flat_looks.h"
+#include "accel/flat_parts.h"
 
 #include <string.h>
 

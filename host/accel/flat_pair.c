@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Inner nodes are numbered depth first. The depth of the tree bounds the recursion.
-#include "accel/flat_pair.h"
+#include "accel/flat_parts.h"
 
-#include "accel/slack.h"
+#include "accel/box.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ uint32_t flat_pair_count(const Bvh *bvh)
 
 static void write_planes(BvhPair *pair, int child, const Box *box)
 {
-    const Box grown = slack_grow(box);
+    const Box grown = box_grow(box);
     for (int axis = 0; axis < 3; axis++) {
         pair->planes[axis][0][child] = grown.low[axis];
         pair->planes[axis][1][child] = grown.high[axis];

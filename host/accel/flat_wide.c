@@ -5,10 +5,9 @@
 // blocks. One walk through the upper levels finds the wide nodes below them. Threads then count
 // the size of each of these branches, and later write it at its position. Nodes and blocks are
 // written depth first.
-#include "accel/flat_wide.h"
+#include "accel/flat_parts.h"
 
 #include "accel/box.h"
-#include "accel/slack.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -151,7 +150,7 @@ static bool count_node(Walk *walk, const Part *part, Error *error)
 
 static void write_planes(BvhWide *wide, uint32_t child, const Box *box)
 {
-    const Box grown = slack_grow(box);
+    const Box grown = box_grow(box);
     for (int axis = 0; axis < 3; axis++) {
         wide->planes[axis][0][child] = grown.low[axis];
         wide->planes[axis][1][child] = grown.high[axis];

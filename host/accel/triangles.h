@@ -3,9 +3,23 @@
 // points give equal floats, as watertightness and the builders require.
 #pragma once
 
-#include "accel/corner_order.h"
 #include "base/parallel.h"
 #include "scene/normalize.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// The order in which a triangle's corners are stored for the device (kernels/shared.h).
+typedef struct {
+    uint8_t places[3]; // of the corners sorted by x, then y, then z
+    bool reversed;     // sorting swaps front and back
+} CornerOrder;
+
+extern const CornerOrder corner_orders[8];
+
+// Returns an index into corner_orders. Sorting by it gives the same three points for every order
+// of the arguments.
+uint8_t corner_order(const float *a, const float *b, const float *c);
 
 typedef struct {
     float (*points)[4];     // all meshes' vertices in the normalized frame; the fourth is zero

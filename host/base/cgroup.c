@@ -3,7 +3,7 @@
 // each controller, "4:cpu,cpuacct:/path", and two files. A container may see a path that does not
 // exist there, beside a mount that begins at its own group. The upward search ends at the mount in
 // both cases.
-#include "base/cgroup.h"
+#include "base/processors.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,8 +2,6 @@
 // The system is queried every time, because affinity and quotas change while a process runs.
 #include "base/processors.h"
 
-#include "base/cgroup.h"
-
 #include <sched.h>
 #include <unistd.h>
 

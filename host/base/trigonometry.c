@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reduces the angle to at most 45 degrees, which is exact in degrees. Then sums the Taylor series,
 // whose first omitted term is below 2^-55 there.
-#include "base/trigonometry.h"
+#include "base/vec.h"
 
 #include <math.h>
 

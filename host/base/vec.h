@@ -67,3 +67,9 @@ static inline Vec3 vec3_normalize(Vec3 a)
     const Vec3 unit = {scalbn(a.x, -exponent), scalbn(a.y, -exponent), scalbn(a.z, -exponent)};
     return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
 }
+
+// Sine and cosine of degrees by fixed polynomials. The C library's last bits differ between
+// processors with and without fma, and would change the camera.
+// Accurate within 2 ulp; exact at multiples of 90. degrees must be finite and below 1e9.
+double sine_of_degrees(double degrees);
+double cosine_of_degrees(double degrees);

@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its edges, each with its triangles.
+// Mesh -> its points, merged vertices, because vertices at the same position are one point to a
+// ray. Points -> edges, each with its triangles.
 #pragma once
 
-#include "mesh/weld.h"
+#include "base/error.h"
+#include "mesh/mesh.h"
+
+// The point of a vertex that no triangle uses.
+#define WELD_UNUSED UINT32_MAX
+
+typedef struct {
+    uint32_t *points;                    // by vertex: the lowest used vertex at its position
+    size_t unused_count, repeated_count; // vertices without a point, and vertices with another's
+} Weld;
+
+bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
+void weld_free(Weld *weld);
 
 // A triangle at an edge.
 typedef struct {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its finest details, in units of float spacing, as written and as traced.
+// Mesh -> its finest details, in units of float spacing, as written and as traced. Scene -> an
+// error message about triangles without area.
 #pragma once
 
 #include "scene/normalize.h"
@@ -26,3 +27,12 @@ typedef struct {
 bool features_is_flat(const Mesh *mesh, size_t triangle);
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);
+
+// Both report the first object with an offender, as the path of its file, the first offending
+// triangle and the count.
+
+// Fails if the reader dropped a triangle.
+bool bad_geometry_none_dropped(const Scene *scene, Error *error);
+
+// Fails if any triangle has no area, dropped or not.
+bool bad_geometry_none(const Scene *scene, Error *error);

@@ -3,7 +3,7 @@
 // area, duplicates, and leaks of closed meshes.  Everything else may be intended.
 #include "check/findings.h"
 
-#include "scene/missing.h"
+#include "scene/scene.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a check -> findings, each with whether it fails the check.
+// Measurements of a check -> findings, each with whether it fails the check -> text and JSON.
 #pragma once
 
 #include "check/census.h"
 #include "check/leaks.h"
+
+#include <stdio.h>
 
 #define FINDING_SCENE SIZE_MAX // replaces the object index: the whole scene
 
@@ -35,3 +37,14 @@ bool findings_make(Findings *findings, const CheckResult *result, Error *error);
 void findings_free(Findings *findings);
 
 size_t findings_count_failing(const Findings *findings);
+
+typedef struct {
+    const char *scene_path;
+    const CheckResult *result;
+    const Findings *findings;
+} CheckReport;
+
+void check_report_write_text(const CheckReport *report, FILE *stream);
+
+// Writes versioned JSON with sorted keys to path ("-": standard output).
+bool check_report_write_json(const CheckReport *report, const char *path, Error *error);

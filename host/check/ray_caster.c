@@ -3,7 +3,7 @@
 // kernel again for each local size and grid kind, and that must happen under the cache's lock.
 #include "check/ray_caster.h"
 
-#include "device/upload.h"
+#include "device/device.h"
 
 #define LAUNCH_RAYS 65536
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text lists each mesh with its findings.  JSON has every count, zeros included.
-#include "check/report.h"
+#include "check/findings.h"
 
 #include "image/json_file.h"
 

@@ -4,7 +4,7 @@
 #include "cli/async_device.h"
 
 #include "base/clock.h"
-#include "render/quick_kernel.h"
+#include "render/ready_kernel.h"
 
 // Compilers recurse deeply, and a thread's stack may be smaller than the process's.
 #define STACK_SIZE ((size_t)16 << 20)

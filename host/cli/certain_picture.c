@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The certifier always needs pair nodes, so the scene is flattened again.
-#include "cli/certain_picture.h"
+#include "cli/picture.h"
 
 #include "accel/compile.h"
 #include "base/clock.h"
-#include "device/threads.h"
+#include "device/device.h"
 #include "render/certifier.h"
 
 #include <string.h>

@@ -3,11 +3,10 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "check/bad_geometry.h"
-#include "check/report.h"
-#include "cli/command_files.h"
-#include "cli/scene_source.h"
-#include "device/threads.h"
+#include "check/features.h"
+#include "check/findings.h"
+#include "cli/run.h"
+#include "device/device.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The two lists here hold every option that writes a file.
-#include "cli/command_files.h"
+#include "cli/commands.h"
 
 #include "jobs/resume.h"
 

@@ -3,6 +3,7 @@
 // EXIT_DONE.
 #pragma once
 
+#include "base/file_plan.h"
 #include "cli/run.h"
 
 #include <stdio.h>
@@ -45,3 +46,15 @@ ExitCode merge_parts(const Options *options, Error *error);
 
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
+
+// The files of a run, from the command line, and from the scene once it is read.
+
+// Adds every file that the options name, and the files of scene unless it is NULL.
+bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
+
+// Fails if an output would replace an input or another output.  Programs call it twice: before any
+// work, and again once the scene names its meshes.
+bool command_files_check(const Options *options, const Scene *scene, Error *error);
+
+// Writes the text of --help.
+void options_write_help(FILE *stream);

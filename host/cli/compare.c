@@ -3,10 +3,10 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "compare/difference_picture.h"
+#include "compare/difference.h"
 #include "compare/report.h"
 #include "image/image_file.h"
-#include "image/image_read.h"
+#include "image/stored_image.h"
 
 #include <string.h>
 

@@ -4,11 +4,9 @@
 
 #include "base/file.h"
 #include "base/output_file.h"
-#include "cli/command_files.h"
-#include "cli/scene_source.h"
-#include "mesh/ply_write.h"
-#include "scene/mesh_join.h"
-#include "scene/scn_write.h"
+#include "cli/run.h"
+#include "mesh/ply.h"
+#include "scene/scn.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 // its own during a build.  That of SIGABRT never returns to ours, and where two threads crash at
 // once, the others restore no handler at all.  So the program's own sigaction, which precedes the C
 // library's, keeps ours.  Only SIGFPE is free: PoCL steps over divisions by zero with it.
-#include "cli/crash.h"
+#include "cli/process.h"
 
 #include "cli/options/options.h"
 

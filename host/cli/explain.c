@@ -3,7 +3,6 @@
 // in memory.  JSON is written as a whole.
 #include "cli/commands.h"
 
-#include "cli/command_files.h"
 #include "explain/report.h"
 #include "image/json_file.h"
 #include "scene/camera.h"

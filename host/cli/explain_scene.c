@@ -2,7 +2,6 @@
 // Prepares a picture without drawing it, and prints the compiled features and the uploaded buffers.
 #include "cli/commands.h"
 
-#include "cli/command_files.h"
 #include "cli/scene_parts.h"
 #include "image/json_file.h"
 

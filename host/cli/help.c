@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Formats --help: names on the left, wrapped sentences on the right.
-#include "cli/help.h"
-
 #include "cli/commands.h"
+
 #include "cli/options/command.h"
 #include "cli/options/table.h"
 

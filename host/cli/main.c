@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The program: runs the command and prints its error.
-#include "cli/command_files.h"
 #include "cli/commands.h"
-#include "cli/crash.h"
-#include "cli/help.h"
-#include "cli/options/parse.h"
-#include "cli/stack.h"
-#include "device/threads.h"
+#include "cli/options/options.h"
+#include "cli/process.h"
+#include "device/device.h"
 
 #include <signal.h>
 #include <stdio.h>

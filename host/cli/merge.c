@@ -4,8 +4,8 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/report_provenance.h"
-#include "image/image_read.h"
+#include "cli/report.h"
+#include "image/stored_image.h"
 #include "jobs/stored_tiles.h"
 #include "render/tile.h"
 

@@ -4,18 +4,14 @@
 
 #include "base/clock.h"
 #include "base/output_file.h"
-#include "base/stop.h"
-#include "cli/certain_picture.h"
-#include "cli/command_files.h"
-#include "cli/reference.h"
-#include "cli/refined_picture.h"
-#include "cli/report_provenance.h"
+#include "cli/picture.h"
+#include "cli/process.h"
+#include "cli/report.h"
 #include "image/image_file.h"
 #include "refine/refine_tree.h"
 #include "render/aov_pass.h"
 #include "render/tile.h"
 #include "scene/camera.h"
-#include "scene/turn.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
-#include "base/stop.h"
+#include "cli/process.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Observes a picture's tracing: prints progress on standard error, and stops on the signals of
-// base/stop.h.
+// cli/process.h.
 #pragma once
 
 #include "render/renderer.h"

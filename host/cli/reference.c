@@ -4,7 +4,7 @@
 // the additive recurrence by powers of the plastic number (Roberts's R2).  The halves have
 // different starts, so their errors are independent, and neither shares samples with an N x N grid
 // of sub-pixel centers.  The camera is shifted, so the kernels are the usual ones.
-#include "cli/reference.h"
+#include "cli/picture.h"
 
 #include "base/clock.h"
 #include "image/image_file.h"

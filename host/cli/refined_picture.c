@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A thread pool on the host decides where to sample, between the device's passes.
-#include "cli/refined_picture.h"
+#include "cli/picture.h"
 
 #include "base/clock.h"
-#include "device/threads.h"
+#include "device/device.h"
 #include "refine/adaptive.h"
 #include "refine/goal.h"
 

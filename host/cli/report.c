@@ -2,7 +2,7 @@
 // Writes the report as text, and as JSON with Jansson.
 #include "cli/report.h"
 
-#include "accel/levels.h"
+#include "accel/bvh.h"
 #include "image/json_file.h"
 #include "render/tile.h"
 
@@ -49,7 +49,7 @@ void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
     report->bvh_leaves = bvh->leaf_count;
     report->bvh_depth = bvh->depth;
     report->bvh_largest_leaf = bvh->largest_leaf;
-    levels_count(bvh, report->bvh_inner);
+    bvh_count_levels(bvh, report->bvh_inner);
 }
 
 void report_write_text(const Report *report, FILE *stream)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The settings include only those that can change a bit, so files of the same picture are equal.
-#include "cli/report_provenance.h"
+#include "cli/report.h"
 
 #include <stdio.h>
 #include <string.h>

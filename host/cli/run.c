@@ -6,12 +6,11 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/table.h"
-#include "cli/scene_source.h"
-#include "device/threads.h"
+#include "device/device.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
-#include "scene/missing.h"
-#include "scene/truncation.h"
+#include "scene/scene.h"
+#include "scene/scn.h"
 
 #include <stdlib.h>
 
@@ -195,4 +194,20 @@ void run_free(Run *run)
     }
     flat_free(&run->flat);
     scene_free(&run->scene);
+}
+
+// Only the program reads "-" as standard input.  The library treats it as a file name.
+//
+// The name used in messages.  Without a slash, it makes meshes relative to the current folder.
+#define INPUT_NAME "standard input"
+
+bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
+{
+    File file;
+    if (!options_read_input(options))
+        return scn_load(scene, options->scene_path, parse, error);
+    const bool ok = file_read_stream(&file, stdin, INPUT_NAME, error) &&
+                    scn_take(scene, &file, INPUT_NAME, parse, error);
+    file_free(&file);
+    return ok;
 }

@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "jobs/resume.h"
+#include "mesh/ply.h"
 #include "render/certifier.h"
 
 typedef struct {
@@ -54,3 +55,6 @@ ExitCode run_prepare(Run *run, Error *error);
 
 // Frees the values of all stages.
 void run_free(Run *run);
+
+// Reads the scene on the command line, a file or standard input, with the contract of scn_load.
+bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error);

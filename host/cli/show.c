@@ -4,7 +4,7 @@
 
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
-#include "device/threads.h"
+#include "device/device.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // RLIMIT_STACK bounds the first thread's stack and sets the default of the others.
-#include "cli/stack.h"
+#include "cli/process.h"
 
 #include <pthread.h>
 #include <stdbool.h>

@@ -3,6 +3,7 @@
 // / 255. All three colors have equal weight.
 #pragma once
 
+#include "image/framebuffer.h"
 #include "image/stored_image.h"
 
 // Tolerance of the counts of pixels that differ by more than one and by more than four 8-bit steps
@@ -42,3 +43,9 @@ double difference_psnr(const Difference *difference);
 
 // Returns the difference of one color: the second picture's value minus the first's.
 double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
+
+// Makes a picture of the difference of two pictures. All have the same scale, so that two maps can
+// be compared.  Each color is the absolute difference for float files. With for_the_eye it is the
+// square root: 1/255 maps to 1/8, 4/255 to 1/4, and everything from 64/255 to 1.
+bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
+                             Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One list makes the table.
-#include "device/cl_error.h"
+#include "device/device.h"
 
 #define CL_ERRORS(X)                                                                               \
     X(CL_DEVICE_NOT_FOUND)                                                                         \

@@ -2,7 +2,10 @@
 // Queries every device of every platform from the ICD loader and picks one.
 #include "device/device.h"
 
+#include "base/processors.h"
+
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -216,4 +219,36 @@ void device_close(Device *device)
     if (device->context != NULL)
         clReleaseContext(device->context);
     *device = (Device){0};
+}
+
+uint32_t threads_allowed(uint32_t count)
+{
+    return count > 0 ? count : processors_usable();
+}
+
+// PoCL 3.1 and 6.0 read different variables; both are set.
+void threads_limit(uint32_t count)
+{
+    char text[16];
+    const uint32_t usable = processors_usable();
+    if (count == 0 && usable >= processors_present())
+        return;
+    snprintf(text, sizeof text, "%u", count > 0 ? count : usable);
+    setenv("POCL_MAX_PTHREAD_COUNT", text, count > 0);
+    setenv("POCL_CPU_MAX_CU_COUNT", text, count > 0);
+}
+
+// OpenCL has no empty buffers, so an empty array gets a few bytes.
+bool upload_array(const Device *device, const void *data, size_t size, cl_mem *buffer, Error *error)
+{
+    static const _Alignas(64) char nothing[64];
+    if (size > device->largest_allocation)
+        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
+                         size, device->name, (unsigned long long)device->largest_allocation);
+    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+    void *source = (void *)(size > 0 ? data : nothing);
+    cl_int status;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin,
+                             size > 0 ? size : sizeof nothing, source, &status);
+    return cl_succeeded(status, "upload the scene", error);
 }

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Chooses an OpenCL device and opens a context and a queue on it.
+// Chooses an OpenCL device, opens a context and a queue on it, limits its threads and makes
+// buffers.
 #pragma once
 
-#include "device/cl_error.h"
+#define CL_TARGET_OPENCL_VERSION 120
+
+#include "base/error.h"
+
+#include <CL/cl.h>
+#include <stdint.h>
 
 typedef struct {
     cl_device_id id;
@@ -39,3 +45,23 @@ typedef struct {
 
 // Fills entries with all devices and returns their number, 0 without any.
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);
+
+// Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.
+bool cl_succeeded(cl_int status, const char *attempt, Error *error);
+
+// Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
+const char *cl_error_name(cl_int status);
+
+// Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
+// control group's quota, which PoCL ignores. The user's environment variables take precedence
+// unless count is given. Only main may call it, before the first OpenCL call.
+void threads_limit(uint32_t count);
+
+// Returns the number of threads for the program itself: count or, if count is 0, the limit above.
+uint32_t threads_allowed(uint32_t count);
+
+// Makes *buffer from `size` bytes at data, which must outlive it. An empty array also gives a
+// buffer, which kernels do not read. Fails if the device does not offer that size in one
+// allocation.
+bool upload_array(const Device *device, const void *data, size_t size, cl_mem *buffer,
+                  Error *error);

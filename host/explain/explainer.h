@@ -5,6 +5,7 @@
 
 #include "render/renderer.h"
 #include "scene/normalize.h"
+#include "scene/scene.h"
 
 typedef struct {
     LightState state;
@@ -70,3 +71,17 @@ bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, Explai
 
 // Returns in color the pixel's color for these sums of its samples' steps.
 void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3]);
+
+// A primitive's name for users: a sphere has its number in the file, and a triangle has its mesh
+// and its number there.
+typedef struct {
+    bool is_sphere;
+    size_t number;    // spheres from 1, triangles from 0
+    const char *path; // of the triangle's mesh; NULL for a sphere
+} PrimitiveName;
+
+PrimitiveName name_primitive(const Scene *scene, uint32_t id);
+
+// Returns the name that a define statement gave the material, or the course's number. The scene
+// owns the string, or it is static.
+const char *name_material(const Scene *scene, uint32_t material);

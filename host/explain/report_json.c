@@ -2,8 +2,8 @@
 // Ids are those of the --aov channel "primitive", from 0.
 #include "explain/report.h"
 
+#include "explain/explainer.h"
 #include "image/json_file.h"
-#include "scene/names.h"
 
 #define SCHEMA_VERSION 1
 

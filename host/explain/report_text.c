@@ -2,8 +2,8 @@
 // Writes a paragraph per ray, with one fact a line.
 #include "explain/report.h"
 
-#include "image/encode.h"
-#include "scene/names.h"
+#include "explain/explainer.h"
+#include "image/image_file.h"
 
 static void write_vector(Vec3 v, FILE *stream)
 {

@@ -3,8 +3,6 @@
 // Assimp cannot read outside of the model's folder, regardless of the names in a model.
 #include "foreign/files.h"
 
-#include "foreign/limits.h"
-
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -27,3 +27,9 @@ void files_init(Files *files, const char *model);
 
 // Reads the model; on failure returns false and the reason.
 bool files_open_model(Files *files, Error *error);
+
+// Limits this process: gives up file descriptors, later privileges, file writing, memory and time.
+void limits_take(void);
+
+// Raises the memory limit for a file of `bytes` bytes, up to the overall limit.
+void limits_allow_file(size_t bytes);

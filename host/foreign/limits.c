@@ -2,7 +2,7 @@
 // Memory has two limits. The lower one rises with every file read, so a short file cannot use the
 // memory of the longest possible one. Before it is reached, most of the time goes to the system,
 // which clears pages: nodes that share children double with each level.
-#include "foreign/limits.h"
+#include "foreign/files.h"
 
 #include "base/child_process.h"
 

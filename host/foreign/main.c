@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // clrt-foreign PATH: reads one model with Assimp and writes it to standard output in the format of
 // mesh/foreign_stream.h. Only clrt starts it.
-#include "foreign/limits.h"
+#include "foreign/files.h"
 #include "foreign/model.h"
-#include "foreign/send.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

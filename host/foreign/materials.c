@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copies values as they are in the file. The receiver clamps them.
-#include "foreign/materials.h"
+#include "foreign/model.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,9 +3,6 @@
 // on the whole model.
 #include "foreign/model.h"
 
-#include "foreign/parts.h"
-#include "foreign/send.h"
-
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>

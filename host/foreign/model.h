@@ -3,9 +3,47 @@
 #pragma once
 
 #include "foreign/files.h"
+#include "mesh/foreign_stream.h"
 
+#include <assimp/material.h>
+#include <assimp/scene.h>
 #include <stdio.h>
 
 // Sends all records except a failure's. Returns false and the reason if the file has no model or
 // the receiver is gone.
 bool model_send(FILE *stream, Files *files, Error *error);
+
+// Materials: the properties that clrt renders are two colors and an exponent.
+
+// Returns false for a material that Assimp invents because the file has none.
+bool material_is_given(const struct aiMaterial *material);
+
+ForeignMaterial material_taken(const struct aiMaterial *material);
+
+// Returns whether the material's color has a texture, which clrt does not render.
+bool material_is_textured(const struct aiMaterial *material);
+
+// Parts: each is a run of triangles of one material, in the coordinates of the whole file.
+typedef struct {
+    size_t triangles;
+    size_t others;    // faces that are points or lines
+    bool is_textured; // the color of a part has a texture
+} PartCounts;
+
+// Sends every part after its material. Facet normals are omitted, because the corners already
+// determine them.
+bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
+                Error *error);
+
+// Records. Failures show when the stream is flushed.
+
+void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
+
+// Sends a record of that kind with a text, shortened if too long.
+__attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
+                                                     const char *format, ...);
+
+// Sends the hash of a file's `size` bytes, and its path.
+void send_file(FILE *stream, const char *path, const void *bytes, size_t size);
+
+void send_part(FILE *stream, const ForeignPart *part);

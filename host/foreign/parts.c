@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Walks the tree of nodes with the product of their matrices in fp64. An identity passes
 // coordinates unchanged. A mirroring matrix reverses triangles, so that fronts stay fronts.
-#include "foreign/parts.h"
+#include "foreign/model.h"
 
 #include "base/limits.h"
-#include "foreign/materials.h"
-#include "foreign/send.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes record heads and their data.
-#include "foreign/send.h"
+#include "foreign/model.h"
 
-#include "mesh/ply_write.h"
+#include "mesh/ply.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rounds where the course truncates, which halves the error.
-#include "image/encode.h"
+#include "image/image_file.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory and hash of a picture.
+// Memory and hash of a picture, and memory of its channels.
 #include "image/framebuffer.h"
 
 #include <stdio.h>
@@ -26,4 +26,19 @@ void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH
         framebuffer->pixels, count * sizeof *framebuffer->pixels, framebuffer->width);
     snprintf(hash, FRAMEBUFFER_HASH_SIZE, "%016llx%016llx", (unsigned long long)value.high64,
              (unsigned long long)value.low64);
+}
+
+bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error)
+{
+    layers->width = width;
+    layers->height = height;
+    layers->values =
+        memory_zeroed((size_t)width * height, layers->count * sizeof *layers->values, error);
+    return layers->values != NULL;
+}
+
+void layers_free(Layers *layers)
+{
+    free(layers->values);
+    *layers = (Layers){0};
 }

@@ -3,10 +3,8 @@
 #include "image/image_file.h"
 
 #include "base/output_file.h"
-#include "image/encode.h"
+#include "image/formats.h"
 #include "image/image_process.h"
-#include "image/pfm.h"
-#include "image/png_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

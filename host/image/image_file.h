@@ -5,7 +5,6 @@
 #pragma once
 
 #include "image/framebuffer.h"
-#include "image/layers.h"
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
@@ -54,3 +53,11 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 // Writes the picture to path ("-": standard output), as base/output_file.h describes.
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);
+
+// Rounds count values to the nearest of 256 steps. ENCODE_SRGB applies the sRGB curve (IEC
+// 61966-2-1) first.
+void encode_channels(const float *values, size_t count, Encoding encoding, unsigned char *bytes);
+
+// Encodes a whole picture as width * height * 3 bytes. The caller frees them; NULL if memory runs
+// out.
+unsigned char *encode_bytes(const Framebuffer *framebuffer, Encoding encoding, Error *error);

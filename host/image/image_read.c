@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Only formats that clrt writes reach a decoder. OpenImageIO has many more, and each is an attack
 // surface for hostile files.
-#include "image/image_read.h"
+#include "image/stored_image.h"
 
+#include "image/formats.h"
 #include "image/image_process.h"
-#include "image/pfm.h"
-#include "image/png_load.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -52,7 +51,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     if (ferror(stream) || fseek(stream, 0, SEEK_SET) != 0)
         return error_set(cause, "%s", strerror(errno));
     if (length == 8 && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0)
-        return png_load(image, stream, cause);
+        return png_file_read(image, stream, cause);
     if (length >= 2 && start[0] == 'P' && (start[1] == 'F' || start[1] == 'f'))
         return pfm_read(image, stream, cause);
     const char *format = module_format(start, length);

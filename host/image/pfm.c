@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Needs no library, so every build has it.
-#include "image/pfm.h"
+#include "image/formats.h"
 
 #include "base/number.h"
 

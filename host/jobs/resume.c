@@ -2,7 +2,7 @@
 // Tiles finish in the order of their numbers, so a count describes the finished ones.
 #include "jobs/resume.h"
 
-#include "image/image_read.h"
+#include "image/stored_image.h"
 #include "jobs/stored_tiles.h"
 #include "render/tile.h"
 

@@ -82,3 +82,9 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
            check_fail(error, CLRT_ARGUMENT, "%s asks for what libclrt %s does not know", what,
                       clrt_version());
 }
+
+// CMakeLists.txt defines the version.
+const char *clrt_version(void)
+{
+    return CLRT_VERSION;
+}

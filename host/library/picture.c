@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renderer, scene and the caller's settings -> the caller's floats, written tile by tile.
 #include "library/check.h"
-#include "library/renderer_handle.h"
+#include "library/handles.h"
 #include "scene/camera.h"
 
 // The side of a tile, in pixels; the picture does not depend on it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every scene uses the general kernels, which are compiled once per renderer.
-#include "library/renderer_handle.h"
+#include "library/handles.h"
 
 #include "accel/compile.h"
 #include "base/processors.h"

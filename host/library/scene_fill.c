@@ -2,8 +2,7 @@
 // The caller's numbers -> the elements of a scene other than meshes.
 #include "base/limits.h"
 #include "library/check.h"
-#include "library/scene_handle.h"
-#include "scene/define.h"
+#include "library/handles.h"
 
 static Vec3 vector_of(const double vector[3])
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ClrtScene: a Scene and its state, which every change increases.
-#include "library/scene_handle.h"
+#include "library/handles.h"
 
 #include "library/check.h"
 #include "scene/scn.h"

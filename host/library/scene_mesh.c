@@ -2,7 +2,7 @@
 // The caller's arrays -> a mesh of a scene.
 #include "base/limits.h"
 #include "library/check.h"
-#include "library/scene_handle.h"
+#include "library/handles.h"
 
 #include <string.h>
 

@@ -6,6 +6,14 @@
 
 #include "base/child_process.h"
 
+// The extensions of mesh files that Assimp reads, in alphabetical order. The extension alone
+// decides, because most of these formats have no magic bytes.
+extern const char *const foreign_endings[];
+extern const size_t foreign_ending_count;
+
+// Returns whether the path ends in one of them, in either case.
+bool foreign_format_is(const char *path);
+
 typedef struct {
     const char *program; // NULL: the program that belongs to this build
     ChildLimits limits;

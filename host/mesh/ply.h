@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Reads a PLY file into a Mesh: ascii, or binary of either byte order. Format: Greg Turk, "The PLY
+// Reads a PLY file into a Mesh: ascii, or binary of either byte order. Writes a Mesh as binary PLY,
+// which ply_parse reads fastest and with the same bits. Format: Greg Turk, "The PLY
 // Polygon File Format", Stanford 1994.
 #pragma once
 
 #include "base/error.h"
 #include "mesh/mesh.h"
+
+#include <stdbool.h>
+#include <stdio.h>
 
 // Fills mesh from the size bytes of a PLY file. Messages call the file `name`. The parser reads
 // vertex x y z nx ny nz and face vertex_indices (or vertex_index), and skips all other elements
@@ -18,3 +22,10 @@ PlyParse ply_parse;
 // ply_parse for geometry checks: counts coordinates and normals that are not finite or out of
 // range in mesh, and the triangles dropped with them.
 PlyParse ply_parse_tolerantly;
+
+// Returns the number of bytes that ply_write writes.
+size_t ply_write_size(const Mesh *mesh);
+
+// Writes the mesh. Positions are floats if all fit exactly, else doubles. Returns false if the
+// stream has failed.
+bool ply_write(const Mesh *mesh, FILE *stream);

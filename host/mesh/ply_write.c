@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the file in its own byte order, regardless of the machine's.
-#include "mesh/ply_write.h"
+#include "mesh/ply.h"
 
 #include <endian.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 // table with each channel's name and the source of its values.
 #pragma once
 
-#include "image/layers.h"
+#include "image/framebuffer.h"
 #include "scene/normalize.h"
 
 // The input for one pixel's channels.

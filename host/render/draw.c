@@ -2,7 +2,7 @@
 // Keeps two tiles in flight, each in its own queue.  One is traced while the other is read back or
 // waits for its last work-groups.  All tiles use the same padded grid with offset 0, because PoCL
 // compiles a kernel again for each local size and grid kind.
-#include "render/draw.h"
+#include "render/renderer.h"
 
 #include "render/tile.h"
 

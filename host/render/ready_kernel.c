@@ -4,7 +4,7 @@
 #include "render/ready_kernel.h"
 
 #include "base/clock.h"
-#include "render/draw.h"
+#include "render/renderer.h"
 #include "render/sampler.h"
 
 #include <string.h>
@@ -87,4 +87,42 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
     program_key(setup->device, &setup->source, traits, key);
     return ready->handle != NULL && strcmp(ready->key, key) == 0 &&
            ready->group_width == group[0] && ready->group_height == group[1];
+}
+
+// Measured compile times, and the core time that packets save per sample in scenes with fewer
+// triangles than FEW_TRIANGLES.
+#define PACKET_COMPILE_SECONDS 1.25
+#define QUICK_COMPILE_SECONDS  0.8
+#define FEW_TRIANGLES          20000
+#define SAVED_PER_SAMPLE       0.3e-6
+
+// Returns setup with another kernel choice.
+static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
+{
+    RendererSetup other = *setup;
+    other.source.choice = choice;
+    return other;
+}
+
+static double seconds_lost(const RendererSetup *setup, const QuickKernelRun *run)
+{
+    return run->samples * SAVED_PER_SAMPLE / setup->device->compute_units;
+}
+
+// Packets are compiled once a run would lose more time without them than compiling takes.
+bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
+                         KernelChoice *choice)
+{
+    const SceneTraits traits = traits_general(false);
+    const RendererSetup quick =
+        setup_with(setup, (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32});
+    // Kernels under development never count as compiled.
+    if (setup->source.choice.family != FAMILY_PACKET || setup->source.kernel_folder != NULL ||
+        run->triangles >= FEW_TRIANGLES || ready_kernel_is_compiled(setup, &traits))
+        return false;
+    const double saved = ready_kernel_is_compiled(&quick, &traits) ? 0 : QUICK_COMPILE_SECONDS;
+    if (seconds_lost(setup, run) > PACKET_COMPILE_SECONDS - saved)
+        return false;
+    *choice = quick.source.choice;
+    return true;
 }

@@ -3,7 +3,7 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
-#include "device/upload.h"
+#include "device/device.h"
 
 #include <assert.h>
 #include <string.h>

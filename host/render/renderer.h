@@ -91,3 +91,6 @@ void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 // progress in renderer->progress; the observer may have stopped the picture.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
+
+// Runs the kernel once over an empty tile, because some drivers finish compiling at the first run.
+bool draw_warm_up(Renderer *renderer, Error *error);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Converts a Viewpoint to CameraData: the origin of a picture's rays and the step of their
-// directions, in the normalized frame.
+// directions, in the normalized frame. Also turns viewpoints, as on a turntable.
 #pragma once
 
 #include "scene/normalize.h"
+#include "scene/scene.h"
 
 // Returns the course's pinhole camera: an image plane at distance 1, 2 tan(fov / 2) high. Pixels
 // are square, so the height in pixels determines the step. samples is the number of sub-pixels per
@@ -13,3 +14,7 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
 
 // Moves all samples right and down, by fractions of the distance between two.
 void camera_shift(CameraData *camera, double right, double down);
+
+// Returns the viewpoint with its eye turned by degrees about up: around the point it looks at or,
+// for the course's viewpoints, around the origin. At 0 the bits are unchanged.
+Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);

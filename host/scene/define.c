@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Reads material definitions. Missing properties have the course's values for the material's kind.
-#include "scene/define.h"
+#include "scene/statements.h"
 
 #include "base/limits.h"
 #include "base/number.h"
 #include "base/word.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-// Exponents up to this are computed by squaring, with the same bits on every device.
-#define LARGEST_INTEGER_EXPONENT 1024
 
 static bool read_color(Tokens *tokens, float color[3])
 {
@@ -31,14 +27,6 @@ static bool read_factor(Tokens *tokens, float *factor, double largest)
         return false;
     *factor = (float)value;
     return true;
-}
-
-void material_set_shininess(Material *material, float shininess)
-{
-    const bool by_squaring =
-        shininess <= LARGEST_INTEGER_EXPONENT && shininess == floorf(shininess);
-    material->shininess = shininess;
-    material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
 }
 
 static bool read_shininess(Tokens *tokens, Material *material)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Counts, allocates once and copies.
-#include "scene/mesh_join.h"
+#include "scene/scn.h"
 
 #include "base/array.h"
 #include "base/limits.h"

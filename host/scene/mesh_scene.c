@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Derives the camera distance and the lights from the bounding sphere of the mesh's bounds.
-#include "scene/mesh_scene.h"
+#include "scene/mesh_load.h"
 
 #include "base/clock.h"
-#include "scene/foreign_mesh.h"
-#include "scene/ply_mesh.h"
 
 #include <string.h>
 

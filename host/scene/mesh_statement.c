@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Adds a file's meshes and applies the transforms in the written order, in fp64.
-#include "scene/mesh_statement.h"
+#include "scene/statements.h"
 
 #include "base/clock.h"
-#include "base/trigonometry.h"
-#include "mesh/foreign_format.h"
-#include "scene/foreign_mesh.h"
-#include "scene/ply_mesh.h"
+#include "mesh/foreign_process.h"
 
 #include <stdlib.h>
 #include <string.h>

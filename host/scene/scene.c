@@ -2,13 +2,14 @@
 // The constants of the UvA course "Graphics and Game Technology", and a scene's memory.
 #include "scene/scene.h"
 
-#include "base/trigonometry.h"
-
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
+
+// Exponents up to this are computed by squaring, with the same bits on every device.
+#define LARGEST_INTEGER_EXPONENT 1024
 
 Material material_of_shader(Shader shader)
 {
@@ -149,4 +150,83 @@ void scene_free(Scene *scene)
     free(scene->material_names.memory);
     free(scene->viewpoints.memory);
     *scene = (Scene){0};
+}
+
+void material_set_shininess(Material *material, float shininess)
+{
+    const bool by_squaring =
+        shininess <= LARGEST_INTEGER_EXPONENT && shininess == floorf(shininess);
+    material->shininess = shininess;
+    material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
+}
+
+// Silhouettes and perfect mirrors need no light.
+static bool is_shaded(const Scene *scene, uint32_t material)
+{
+    const Material *used = &scene->materials.data[material];
+    return used->shader != SHADER_SILHOUETTE && used->reflectivity < 1;
+}
+
+static bool has_shaded(const Scene *scene)
+{
+    for (size_t i = 0; i < scene->spheres.count; i++)
+        if (is_shaded(scene, scene->spheres.data[i].material))
+            return true;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        if (object->mesh.triangle_count > 0 && is_shaded(scene, object->material))
+            return true;
+    }
+    return false;
+}
+
+MissingPart scene_missing(const Scene *scene)
+{
+    if (scene->spheres.count == 0 && scene_triangle_count(scene) == 0)
+        return (MissingPart){"nothing_to_draw", "there is nothing to draw: it has no triangles "
+                                                "and no spheres"};
+    if (scene->lights.count == 0 && has_shaded(scene))
+        return (MissingPart){"no_lights", "it has no lights: its surfaces show ambient light only"};
+    return (MissingPart){0};
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static double largest_reflectivity(const Scene *scene)
+{
+    double largest = 0;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        const uint32_t material = scene->spheres.data[i].material;
+        largest = larger(largest, (double)scene->materials.data[material].reflectivity);
+    }
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        if (object->mesh.triangle_count > 0)
+            largest = larger(largest, (double)scene->materials.data[object->material].reflectivity);
+    }
+    return largest;
+}
+
+// A ray's weight is the product of the reflectivities on its path. It is at most a power of the
+// largest reflectivity in use.
+double truncation_bound(const Scene *scene, uint32_t max_level)
+{
+    const double reflectivity = largest_reflectivity(scene);
+    double weight = 1;
+    for (uint32_t level = 0; level < max_level && weight > 0; level++)
+        weight *= reflectivity;
+    return weight;
+}
+
+uint32_t truncation_level(const Scene *scene, double bound)
+{
+    const double reflectivity = largest_reflectivity(scene);
+    double weight = 1;
+    uint32_t level = 0;
+    for (; level < MAX_LEVEL_LIMIT && weight > bound; level++)
+        weight *= reflectivity;
+    return level;
 }

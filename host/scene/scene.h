@@ -94,3 +94,22 @@ const char *viewpoint_fault(const Viewpoint *viewpoint);
 
 // Returns the material of a define statement that gives only its kind.
 Material material_of_shader(Shader shader);
+
+void material_set_shininess(Material *material, float shininess);
+
+typedef struct {
+    const char *kind; // a name for programs; NULL if nothing is missing
+    const char *text; // a clause for messages
+} MissingPart;
+
+// Returns the first missing part: anything to render, or lights on surfaces that need them.
+MissingPart scene_missing(const Scene *scene);
+
+// Colors are at most 1, so the error of a maximum level is at most the remaining weight of a ray of
+// that level.
+
+// Returns the largest error of any color if rays of max_level return the background.
+double truncation_bound(const Scene *scene, uint32_t max_level);
+
+// Returns the smallest max_level whose error is at most bound; MAX_LEVEL_LIMIT if none is smaller.
+uint32_t truncation_level(const Scene *scene, double bound);

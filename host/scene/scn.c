@@ -6,10 +6,9 @@
 #include "base/file.h"
 #include "base/limits.h"
 #include "base/word.h"
-#include "mesh/foreign_format.h"
-#include "scene/define.h"
-#include "scene/mesh_scene.h"
-#include "scene/mesh_statement.h"
+#include "mesh/foreign_process.h"
+#include "scene/mesh_load.h"
+#include "scene/statements.h"
 #include "scene/tokens.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a statement for everything that scene text can describe. A statement about objects
 // precedes the first object with its value.
-#include "scene/scn_write.h"
+#include "scene/scn.h"
 
 #include "base/number.h"
 

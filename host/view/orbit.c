@@ -2,8 +2,6 @@
 // The constants are the course's.
 #include "view/orbit.h"
 
-#include "base/trigonometry.h"
-
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
 #define WHEEL_FACTOR       0.9

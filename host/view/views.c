@@ -3,8 +3,8 @@
 // traced picture covers its colors.
 #include "view/views.h"
 
-#include "image/encode.h"
-#include "view/draw/normals.h"
+#include "image/image_file.h"
+#include "view/draw/boxes.h"
 
 static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 

@@ -4,12 +4,10 @@
 
 #include "view/draw/boxes.h"
 #include "view/draw/canvas.h"
-#include "view/draw/line_view.h"
+#include "view/draw/model_views.h"
 #include "view/draw/ray_view.h"
-#include "view/draw/sphere_view.h"
 #include "view/draw/target.h"
 #include "view/draw/text_view.h"
-#include "view/draw/triangle_view.h"
 #include "view/state.h"
 
 typedef struct {

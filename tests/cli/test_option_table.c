@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of options against itself and against its readers.
-#include "cli/help.h"
+#include "cli/commands.h"
 #include "cli/options/table.h"
 #include "unit/cmocka_all.h"
 

@@ -3,8 +3,8 @@
 // of 90 degrees, so that the ray through pixel (2, 2) goes straight to the camera's aim, and those
 // beside it lean by 0.4 or 0.8.  The floor is a square of two triangles, 0 below its diagonal from
 // (-10, -10) to (10, 10) and 1 above.
+#include "explain/explainer.h"
 #include "image/picture.h"
-#include "scene/names.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>

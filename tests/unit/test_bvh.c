@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests the guarantees of both builders for any set of triangles.
 #include "accel/bvh.h"
-#include "accel/levels.h"
 
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
@@ -152,7 +151,7 @@ static void levels_count_the_inner_nodes_of_every_depth(void **state)
     Bvh bvh = built(&triangles, &settings[0], 1);
     uint32_t expected[BVH_MAX_DEPTH] = {0}, counts[BVH_MAX_DEPTH], sum = 0;
     count_inner(&bvh, 0, 0, expected);
-    levels_count(&bvh, counts);
+    bvh_count_levels(&bvh, counts);
     assert_memory_equal(counts, expected, sizeof counts);
     for (int depth = 0; depth < BVH_MAX_DEPTH; depth++)
         sum += counts[depth];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Quotas of control groups, in trees of files like the system's.
-#include "base/cgroup.h"
+#include "base/processors.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Differences of pictures small enough to do by hand, and the limits on them.
-#include "compare/difference_picture.h"
+#include "compare/difference.h"
 #include "compare/limits.h"
 
 #include "unit/cmocka_all.h"

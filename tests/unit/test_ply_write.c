@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A mesh that is written and read again is the same, bit for bit, and is as long as announced.
 #include "mesh/ply.h"
-#include "mesh/ply_write.h"
 
 #include "unit/cmocka_all.h"
 

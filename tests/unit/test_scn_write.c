@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A scene that is written as text and read again is the same, to the last bit of every number.
-#include "scene/define.h"
 #include "scene/scn.h"
-#include "scene/scn_write.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fixed sine and cosine against the C library's long double.
-#include "base/trigonometry.h"
+#include "base/vec.h"
 
 #include "unit/cmocka_all.h"
 

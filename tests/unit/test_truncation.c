@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How many levels of rays a scene needs.
-#include "scene/truncation.h"
+#include "scene/scene.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>

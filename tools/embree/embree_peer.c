@@ -2,7 +2,7 @@
 // The same picture as clrt, drawn with Embree 3: how fast tools/bench measures clrt against.
 // Prints what it measured as JSON.
 #include "base/clock.h"
-#include "image/pfm.h"
+#include "image/formats.h"
 #include "peer_draw.h"
 
 #include <errno.h>

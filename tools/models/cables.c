@@ -4,7 +4,7 @@
 #include "cables.h"
 
 #include "base/array.h"
-#include "base/trigonometry.h"
+#include "base/vec.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt rejects options that would have no effect.
-#include "cli/options/check.h"
+#include "cli/options/option.h"
 
 #include "cli/options/table.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A row of the table of options.
+// A row of the table of options, the setters that rows name, and rules about combinations of
+// options.
 #pragma once
 
 #include "cli/options/options.h"
@@ -82,3 +83,21 @@ bool option_names_file(const Option *option);
 
 // Stores text in the option's field, or rejects it with a message that names the option.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
+
+// Rejects options that exclude each other, for any command.
+bool options_check_conflicts(const Options *options, Error *error);
+
+// Determines whether the picture goes to a file, and in which format, or to the window.  Rejects
+// options of the other.
+bool options_check_purpose(Options *options, Error *error);
+
+// The same for clrt compare, whose picture is optional.
+bool options_check_compare(Options *options, Error *error);
+
+// The same for clrt merge, which always writes a file.
+bool options_check_merge(Options *options, Error *error);
+
+// Setters of options whose values fit none of the kinds.
+SetOption set_output, set_format, set_aov, set_expect_hash, set_crop, set_max_level, set_error,
+    set_time, set_no_bvh, set_frames, set_part, set_list_devices, set_stats, set_reference,
+    set_reference_samples, set_explain_pixel, set_fail, set_json;

@@ -126,3 +126,6 @@ static inline bool options_read_input(const Options *options)
 {
     return strcmp(options->scene_path, "-") == 0;
 }
+
+// Parses the command line into options, or fails with a message.
+bool options_parse(Options *options, int count, char **words, Error *error);

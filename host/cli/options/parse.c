@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // getopt splits the command line, the table stores the values, and check.c checks their
 // combination.
-#include "cli/options/parse.h"
+#include "cli/options/options.h"
 
 #include "base/word.h"
-#include "cli/options/check.h"
 #include "cli/options/command.h"
+#include "cli/options/option.h"
 #include "cli/options/table.h"
 
 #include <assert.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In the order of the table.
-#include "cli/options/setters.h"
+#include "cli/options/option.h"
 
 #include "base/number.h"
 

@@ -2,7 +2,7 @@
 // The table itself, in the order of --help.
 #include "cli/options/table.h"
 
-#include "cli/options/setters.h"
+#include "cli/options/option.h"
 
 #include <assert.h>
 #include <string.h>

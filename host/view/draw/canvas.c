@@ -2,7 +2,7 @@
 // Passes alternate between two layers.
 #include "view/draw/canvas.h"
 
-#include "image/encode.h"
+#include "image/image_file.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Each box is an instance of a cube's edges or of its diagonal.
-#include "view/draw/line_view.h"
+#include "view/draw/model_views.h"
 
-#include "view/draw/cube.h"
+#include "view/draw/shader.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The course's lines are 0.15 long.  Its scenes are 2 to 4 large, and 1 to 2 large in the
 // normalized frame.
-#include "view/draw/normals.h"
+#include "view/draw/boxes.h"
 
 #define LINE_LENGTH 0.075
 

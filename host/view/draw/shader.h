@@ -18,3 +18,12 @@ GLuint shader_build(const char *text, const char *const *attributes, Error *erro
 void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
+
+// Cubes: faces from -1 to 1, edges from 0 to 1.
+#define CUBE_FACE_VERTICES 36
+#define CUBE_EDGE_VERTICES 24 // followed by the two of a diagonal
+
+// Makes a buffer of triangles or lines, with three floats per vertex, and binds it to the attribute
+// of the current vertex array.
+GLuint cube_make_faces(GLuint attribute);
+GLuint cube_make_edges(GLuint attribute);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Computes each sphere's position relative to the eye in fp64 for every frame.  For a ground sphere
 // of radius 1e9, float would have no bits left for it.
-#include "view/draw/sphere_view.h"
+#include "view/draw/model_views.h"
 
-#include "view/draw/cube.h"
+#include "view/draw/shader.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles share vertices as in the meshes, and each object takes one draw call.
-#include "view/draw/triangle_view.h"
+#include "view/draw/model_views.h"
 
 #include <stddef.h>
 #include <stdlib.h>

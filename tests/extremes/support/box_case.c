@@ -2,7 +2,7 @@
 // Intervals of t as fractions: comparing them by cross-multiplication needs no rounding.
 #include "box_case.h"
 
-#include "accel/flat_pair.h"
+#include "accel/flat_parts.h"
 #include "check.h"
 #include "ray_order.h"
 

@@ -3,7 +3,7 @@
 // same shapes.
 #include "shapes.h"
 
-#include "base/trigonometry.h"
+#include "base/vec.h"
 #include "check.h"
 
 Mesh shape_unfilled(size_t vertices, size_t triangles)

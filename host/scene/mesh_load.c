@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Materials are named FILE:NAME, so that two files' materials do not collide.
-#include "scene/foreign_mesh.h"
+// Moves meshes into the scene's objects. Materials are named FILE:NAME, so that two files'
+// materials do not collide.
+#include "scene/mesh_load.h"
 
 #include "mesh/foreign_process.h"
 #include "mesh/foreign_stream.h"
-#include "scene/define.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -103,5 +103,19 @@ bool foreign_mesh_add(Scene *scene, const char *path, const MeshOrder *order, Er
     file_free(&stream);
     const bool ok = parsed && add_model(scene, &model, path, order, error);
     foreign_model_free(&model);
+    return ok;
+}
+
+bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshOrder *order,
+                  Error *error)
+{
+    MeshObject object = order->object;
+    object.input = (uint32_t)scene->inputs.count;
+    scene_hash_mesh(scene, file->bytes, file->size);
+    const bool ok = order->parse(&object.mesh, file->bytes, file->size, path, error) &&
+                    scene_add_input(scene, path, error) &&
+                    array_push(&scene->objects, object, error);
+    if (!ok)
+        mesh_free(&object.mesh);
     return ok;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The handlers stay installed while the picture is written, so that one signal never loses traced
 // tiles. Nothing waits for the driver's compiler, which cannot be interrupted.
-#include "base/stop.h"
+#include "cli/process.h"
 
 #include <signal.h>
 #include <stdbool.h>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The statements `define` and `material`: named materials beside the course's four numbered ones.
+// The statements of scene text with files of their own: `define` and `material` name materials
+// beside the course's four numbered ones; `mesh` and `ply_file` add a transformed mesh file.
 #pragma once
 
+#include "scene/mesh_load.h"
 #include "scene/scene.h"
 #include "scene/tokens.h"
 
@@ -16,4 +18,6 @@ bool materials_define(Scene *scene, Tokens *tokens);
 // course, any number but 0 to 3 selects the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
 
-void material_set_shininess(Material *material, float shininess);
+// Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to
+// the scene file's folder.
+bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Adds the slack in fp64, where the sum is nearly exact, and rounds once, outward.
-#include "accel/slack.h"
+#include "accel/box.h"
 
 #include <math.h>
 
@@ -23,7 +23,7 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-Box slack_grow(const Box *box)
+Box box_grow(const Box *box)
 {
     const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
     Box grown;

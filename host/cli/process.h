@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What the program arranges for itself: signals that stop it, crashes, and stacks.
+#pragma once
+
+// The signals that stop rendering. Before the first tile there is nothing to write, so a signal
+// ends the process. Afterwards the first signal requests that finished tiles are written, and the
+// second ends the process at once.
+
+// Installs handlers for SIGINT and SIGTERM, unless they are ignored, for the life of the process.
+// Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its
+// number.
+void stop_watch(void);
+
+// Call before rendering the first tile. The first signal is then only reported by stop_signal.
+void stop_wait_for_tiles(void);
+
+// Returns the signal that requested the stop, 0 if none did.
+int stop_signal(void);
+
+// Crashes of drivers and libraries: one message and EXIT_DEVICE instead of a signal.
+//
+// Installs handlers for crash signals, and for exit(), which LLVM calls on a full disk.  A crash in
+// clrt's own code still ends it by its signal, after a message.  From here on main must end by
+// _exit.
+void crash_watch(void);
+
+// Stacks large enough for compilers, regardless of `ulimit -s`.
+//
+// Calls work(context) and returns when it does.  If the stack limit is below the usual one, work
+// runs on a new thread, and threads that drivers start get larger stacks, too.
+void stack_run(void (*work)(void *context), void *context);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Loads mesh files into a scene, as its objects or in its place.
+#pragma once
+
+#include "base/file.h"
+#include "mesh/ply.h"
+#include "scene/scene.h"
+
+// How to load a file.
+typedef struct {
+    MeshObject object;        // properties of its objects beside their meshes
+    bool takes_own_materials; // instead of the object's, if the file has any
+    bool is_plain_ply;        // PLY only, without transforms
+    PlyParse *parse;          // the mesh reader
+} MeshOrder;
+
+// Adds an object with the mesh of the file read from path, and adds the file to the inputs.
+bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshOrder *order,
+                  Error *error);
+
+// Adds an object for each part of the file at path, its materials if requested, and all files that
+// it was read from. Returns false with a message that names the file.
+bool foreign_mesh_add(Scene *scene, const char *path, const MeshOrder *order, Error *error);
+
+// A mesh that replaces a scene is framed by cameras of its own, lit and two-sided.
+
+// Returns whether a file's bytes are a mesh and not scene text.
+bool mesh_scene_is_mesh(const char *bytes, size_t size);
+
+// Fills scene from a PLY file called name, read by parse. Viewpoints: three-quarter, front, right,
+// back, left and top, with z up.
+bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
+                      Error *error);
+
+// Fills scene from a file at path in another format, with the file's own materials.
+bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error);
