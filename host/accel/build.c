@@ -12,7 +12,7 @@
 typedef struct {
     BuildTask task;
     uint32_t array;
-} Waiting;
+} StackedTask;
 
 typedef struct {
     const Build *build;
@@ -78,12 +78,12 @@ static void move_halves(const BuildItem *items, BuildItem *other, uint32_t count
 }
 
 // Returns the number of items of the left child, 0 if the node is a leaf.
-static uint32_t divide(const Subtree *subtree, const Waiting *waiting)
+static uint32_t divide(const Subtree *subtree, const StackedTask *stacked)
 {
-    const BuildTask *task = &waiting->task;
+    const BuildTask *task = &stacked->task;
     const uint32_t first = task->first - subtree->first;
-    const BuildItem *items = subtree->items[waiting->array] + first;
-    BuildItem *other = subtree->items[!waiting->array] + first;
+    const BuildItem *items = subtree->items[stacked->array] + first;
+    BuildItem *other = subtree->items[!stacked->array] + first;
     const Measure measure = build_measure(items, task->count);
     subtree->build->bvh->nodes[task->node].box = bounds_box(&measure.box);
     const BuildRange range = {.items = items,
@@ -108,11 +108,11 @@ static uint32_t divide(const Subtree *subtree, const Waiting *waiting)
     return task->count / 2;
 }
 
-static void make_leaf(const Subtree *subtree, const Waiting *waiting)
+static void make_leaf(const Subtree *subtree, const StackedTask *stacked)
 {
     Bvh *bvh = subtree->build->bvh;
-    const BuildTask *task = &waiting->task;
-    const BuildItem *items = subtree->items[waiting->array] + (task->first - subtree->first);
+    const BuildTask *task = &stacked->task;
+    const BuildItem *items = subtree->items[stacked->array] + (task->first - subtree->first);
     BuildCounts *counts = subtree->counts;
     bvh->nodes[task->node].first = task->first;
     bvh->nodes[task->node].count = task->count;
@@ -159,12 +159,12 @@ void build_count_leaves(Bvh *bvh, uint32_t number)
 void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, BuildCounts *counts)
 {
     const Subtree subtree = {build, {items, items + root->count}, root->first, counts};
-    Waiting waiting[BVH_STACK_SIZE] = {{*root, 0}};
+    StackedTask stacked[BVH_STACK_SIZE] = {{*root, 0}};
     uint32_t child = 2 * root->first + 1;
     make_items(&subtree, root->count);
     for (uint32_t count = 1; count > 0;) {
         BuildTask children[2];
-        const Waiting next = waiting[--count];
+        const StackedTask next = stacked[--count];
         assert(next.task.depth <= BVH_MAX_DEPTH);
         const uint32_t left = divide(&subtree, &next);
         if (left == 0) {
@@ -172,8 +172,8 @@ void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, 
             continue;
         }
         build_inner(build, &next.task, left, child, children);
-        waiting[count++] = (Waiting){children[1], !next.array};
-        waiting[count++] = (Waiting){children[0], !next.array};
+        stacked[count++] = (StackedTask){children[1], !next.array};
+        stacked[count++] = (StackedTask){children[0], !next.array};
         counts->node_count += 2;
         child += 2;
     }

@@ -12,7 +12,7 @@
 
 typedef struct {
     uint32_t cell, number;
-} Keyed;
+} CellEntry;
 
 // Cell along an axis = (doubled center - origin) * scale.
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
 typedef struct {
     CellSource source;
     Grid grid;
-    Keyed *keyed[2];
+    CellEntry *entries[2];
     Bounds *centers;            // of each chunk
     uint32_t (*places)[DIGITS]; // of each chunk: the count of each digit, later its destination
     uint32_t *cell_counts;      // of each chunk: cells that begin there, later the cells before it
@@ -79,7 +79,7 @@ static void key_chunk(void *context, uint32_t chunk, uint32_t worker)
         const Float4 place = (box.low - box.negated_high - grid->origin) * grid->scale;
         const uint32_t cell =
             (uint32_t)place[0] + (uint32_t)place[1] * grid->row + (uint32_t)place[2] * grid->layer;
-        sorting->keyed[0][i] = (Keyed){cell, number};
+        sorting->entries[0][i] = (CellEntry){cell, number};
     }
 }
 
@@ -92,7 +92,7 @@ static void count_chunk(void *context, uint32_t chunk, uint32_t worker)
     for (uint32_t digit = 0; digit < DIGITS; digit++)
         counts[digit] = 0;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
-        counts[sorting->keyed[0][i].cell >> sorting->shift & (DIGITS - 1)]++;
+        counts[sorting->entries[0][i].cell >> sorting->shift & (DIGITS - 1)]++;
 }
 
 static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
@@ -102,8 +102,8 @@ static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
     uint32_t *places = sorting->places[chunk];
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
-        const Keyed keyed = sorting->keyed[0][i];
-        sorting->keyed[1][places[keyed.cell >> sorting->shift & (DIGITS - 1)]++] = keyed;
+        const CellEntry entry = sorting->entries[0][i];
+        sorting->entries[1][places[entry.cell >> sorting->shift & (DIGITS - 1)]++] = entry;
     }
 }
 
@@ -128,15 +128,15 @@ static void sort(Sorting *sorting, Crew *crew)
         crew_run(crew, chunks, count_chunk, sorting);
         place_digits(sorting);
         crew_run(crew, chunks, move_chunk, sorting);
-        Keyed *sorted = sorting->keyed[1];
-        sorting->keyed[1] = sorting->keyed[0];
-        sorting->keyed[0] = sorted;
+        CellEntry *sorted = sorting->entries[1];
+        sorting->entries[1] = sorting->entries[0];
+        sorting->entries[0] = sorted;
     }
 }
 
-static bool begins_cell(const Keyed *keyed, uint32_t place)
+static bool begins_cell(const CellEntry *entries, uint32_t place)
 {
-    return place == 0 || keyed[place - 1].cell != keyed[place].cell;
+    return place == 0 || entries[place - 1].cell != entries[place].cell;
 }
 
 static void count_cells(void *context, uint32_t chunk, uint32_t worker)
@@ -146,23 +146,23 @@ static void count_cells(void *context, uint32_t chunk, uint32_t worker)
     uint32_t count = 0;
     (void)worker;
     for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
-        count += begins_cell(sorting->keyed[0], i);
+        count += begins_cell(sorting->entries[0], i);
     sorting->cell_counts[chunk] = count;
 }
 
 // Makes the cell that begins at a position, and returns the start of the next one.
 static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t first)
 {
-    const Keyed *keyed = sorting->keyed[0];
+    const CellEntry *entries = sorting->entries[0];
     BuildItem *item = &sorting->cells->items[number];
     uint32_t place = first;
     Bounds bounds = bounds_empty();
     do {
-        const Bounds triangle = bounds_of(sorting, keyed[place].number);
+        const Bounds triangle = bounds_of(sorting, entries[place].number);
         bounds_unite(&bounds, &triangle);
-        sorting->cells->numbers[place] = keyed[place].number;
+        sorting->cells->numbers[place] = entries[place].number;
         place++;
-    } while (place < sorting->source.count && keyed[place].cell == keyed[first].cell);
+    } while (place < sorting->source.count && entries[place].cell == entries[first].cell);
     item->bounds = bounds;
     item->number = number;
     item->weight = place - first;
@@ -177,7 +177,7 @@ static void make_cells(void *context, uint32_t chunk, uint32_t worker)
     uint32_t number = sorting->cell_counts[chunk];
     uint32_t place = chunk * CHUNK_ELEMENTS;
     (void)worker;
-    while (place < end && !begins_cell(sorting->keyed[0], place))
+    while (place < end && !begins_cell(sorting->entries[0], place))
         place++;
     while (place < end)
         place = make_cell(sorting, number++, place);
@@ -206,12 +206,12 @@ static bool gather_cells(Sorting *sorting, Crew *crew, Error *error)
 static bool allocate(Sorting *sorting, Error *error)
 {
     const uint32_t chunks = chunk_count(sorting->source.count);
-    sorting->keyed[0] = memory_raw(sorting->source.count, sizeof(Keyed), error);
-    sorting->keyed[1] = memory_raw(sorting->source.count, sizeof(Keyed), error);
+    sorting->entries[0] = memory_raw(sorting->source.count, sizeof(CellEntry), error);
+    sorting->entries[1] = memory_raw(sorting->source.count, sizeof(CellEntry), error);
     sorting->centers = memory_raw(chunks, sizeof *sorting->centers, error);
     sorting->places = memory_raw(chunks, sizeof *sorting->places, error);
     sorting->cell_counts = memory_raw(chunks, sizeof *sorting->cell_counts, error);
-    return sorting->keyed[0] != NULL && sorting->keyed[1] != NULL && sorting->centers != NULL &&
+    return sorting->entries[0] != NULL && sorting->entries[1] != NULL && sorting->centers != NULL &&
            sorting->places != NULL && sorting->cell_counts != NULL;
 }
 
@@ -233,8 +233,8 @@ bool cells_make(Cells *cells, const CellSource *source, Crew *crew, Error *error
     Sorting sorting = {.source = *source, .cells = cells};
     *cells = (Cells){0};
     const bool ok = allocate(&sorting, error) && sort_and_gather(&sorting, crew, error);
-    free(sorting.keyed[0]);
-    free(sorting.keyed[1]);
+    free(sorting.entries[0]);
+    free(sorting.entries[1]);
     free(sorting.centers);
     free(sorting.places);
     free(sorting.cell_counts);

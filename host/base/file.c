@@ -45,7 +45,7 @@ static bool cannot_open(const char *path, Error *error)
 }
 
 // Rejects devices, which may never end, and folders, whose read errors are less clear.
-static bool look_at(const char *path, struct stat *status, Error *error)
+static bool check_kind(const char *path, struct stat *status, Error *error)
 {
     if (stat(path, status) != 0)
         return cannot_open(path, error);
@@ -56,14 +56,15 @@ static bool look_at(const char *path, struct stat *status, Error *error)
 bool file_check(const char *path, Error *error)
 {
     struct stat status;
-    return look_at(path, &status, error) && (access(path, R_OK) == 0 || cannot_open(path, error));
+    return check_kind(path, &status, error) &&
+           (access(path, R_OK) == 0 || cannot_open(path, error));
 }
 
 bool file_read(File *file, const char *path, Error *error)
 {
     *file = (File){0};
     struct stat status;
-    if (!look_at(path, &status, error))
+    if (!check_kind(path, &status, error))
         return false;
     FILE *stream = fopen(path, "rb");
     if (stream == NULL)

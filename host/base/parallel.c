@@ -57,7 +57,7 @@ static uint32_t await_generation(Crew *crew, uint32_t known)
     return known + 1;
 }
 
-static void *live(void *context)
+static void *run_worker(void *context)
 {
     Worker *worker = context;
     Crew *crew = worker->crew;
@@ -93,7 +93,7 @@ Crew *crew_open(uint32_t threads)
     for (uint32_t i = 0; i < others; i++) {
         crew->workers[i].crew = crew;
         crew->workers[i].number = i + 1;
-        if (pthread_create(&crew->workers[i].thread, NULL, live, &crew->workers[i]) != 0)
+        if (pthread_create(&crew->workers[i].thread, NULL, run_worker, &crew->workers[i]) != 0)
             break;
         crew->worker_count++;
     }

@@ -43,7 +43,7 @@ typedef struct {
     Star *stars; // by point
     size_t step; // only every step-th aim is kept
     size_t seen;
-} Maker;
+} AimBuilder;
 
 static Vec3 point_of(const Triangles *triangles, uint32_t vertex)
 {
@@ -92,28 +92,28 @@ static double angle_at(const Triangles *triangles, uint32_t triangle, int corner
 }
 
 // Returns whether the next aim is kept.
-static bool is_chosen(Maker *maker)
+static bool is_chosen(AimBuilder *builder)
 {
-    return maker->seen++ % maker->step == 0;
+    return builder->seen++ % builder->step == 0;
 }
 
-static void keep(Maker *maker, Vec3 point, const Star *star)
+static void keep(AimBuilder *builder, Vec3 point, const Star *star)
 {
-    maker->aims->aims[maker->aims->count++] = (Aim){.point = point,
-                                                    .outward = star->outward,
-                                                    .facing = star->facing,
-                                                    .size = star->size,
-                                                    .triangle = star->triangle};
+    builder->aims->aims[builder->aims->count++] = (Aim){.point = point,
+                                                        .outward = star->outward,
+                                                        .facing = star->facing,
+                                                        .size = star->size,
+                                                        .triangle = star->triangle};
 }
 
-static void sum_stars(const Maker *maker)
+static void sum_stars(const AimBuilder *builder)
 {
-    const AimSource *source = maker->source;
+    const AimSource *source = builder->source;
     for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
             Star *star =
-                &maker->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+                &builder->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
             const double angle = angle_at(source->triangles, triangle, corner);
             star->outward = vec3_add(star->outward, vec3_scale(normal, angle));
             star->triangle = triangle;
@@ -121,31 +121,31 @@ static void sum_stars(const Maker *maker)
     }
 }
 
-static void bound_stars(const Maker *maker)
+static void bound_stars(const AimBuilder *builder)
 {
-    const AimSource *source = maker->source;
+    const AimSource *source = builder->source;
     for (size_t point = 0; point < source->mesh->vertex_count; point++) {
-        maker->stars[point].outward = vec3_normalize(maker->stars[point].outward);
-        maker->stars[point].facing = 1;
-        maker->stars[point].size = INFINITY;
+        builder->stars[point].outward = vec3_normalize(builder->stars[point].outward);
+        builder->stars[point].facing = 1;
+        builder->stars[point].size = INFINITY;
     }
     for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
             Star *star =
-                &maker->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+                &builder->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
             star->facing = fmin(star->facing, vec3_dot(normal, star->outward));
             star->size = fmin(star->size, height_at(source->triangles, triangle, corner));
         }
     }
 }
 
-static void aim_at_points(Maker *maker)
+static void aim_at_points(AimBuilder *builder)
 {
-    const AimSource *source = maker->source;
+    const AimSource *source = builder->source;
     for (uint32_t point = 0; point < source->mesh->vertex_count; point++)
-        if (source->weld->points[point] == point && is_chosen(maker))
-            keep(maker, point_of(source->triangles, point), &maker->stars[point]);
+        if (source->weld->points[point] == point && is_chosen(builder))
+            keep(builder, point_of(source->triangles, point), &builder->stars[point]);
 }
 
 // Returns the star of the triangles at an edge.
@@ -164,31 +164,31 @@ static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t cou
     return star;
 }
 
-static void aim_at_edge(Maker *maker, uint32_t point, const EdgeSide *sides, size_t count)
+static void aim_at_edge(AimBuilder *builder, uint32_t point, const EdgeSide *sides, size_t count)
 {
-    const Triangles *triangles = maker->source->triangles;
+    const Triangles *triangles = builder->source->triangles;
     const Vec3 low = point_of(triangles, point), high = point_of(triangles, sides[0].high);
     const Vec3 along = vec3_sub(high, low);
     const Vec3 aim = vec3_add(low, vec3_scale(along, EDGE_PART));
-    const Star star = edge_star(maker->source, sides, count);
-    if (is_chosen(maker))
-        keep(maker, aim, &star);
-    if (count > 1 || !is_chosen(maker))
+    const Star star = edge_star(builder->source, sides, count);
+    if (is_chosen(builder))
+        keep(builder, aim, &star);
+    if (count > 1 || !is_chosen(builder))
         return;
     Vec3 away = vec3_normalize(vec3_cross(along, star.outward));
     if (vec3_dot(away, vec3_sub(point_of(triangles, sides[0].opposite), low)) > 0)
         away = vec3_scale(away, -1);
-    keep(maker, vec3_add(aim, vec3_scale(away, BEYOND * maker->aims->radius)), &star);
+    keep(builder, vec3_add(aim, vec3_scale(away, BEYOND * builder->aims->radius)), &star);
 }
 
-static void aim_at_edges(Maker *maker)
+static void aim_at_edges(AimBuilder *builder)
 {
-    const Edges *edges = maker->source->edges;
-    for (uint32_t point = 0; point < maker->source->mesh->vertex_count; point++) {
+    const Edges *edges = builder->source->edges;
+    for (uint32_t point = 0; point < builder->source->mesh->vertex_count; point++) {
         size_t place = edges->first[point];
         while (place < edges->first[point + 1]) {
             const size_t end = edges_end(edges, point, place);
-            aim_at_edge(maker, point, &edges->sides[place], end - place);
+            aim_at_edge(builder, point, &edges->sides[place], end - place);
             place = end;
         }
     }
@@ -225,19 +225,19 @@ bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error)
 {
     const size_t total = count_aims(source);
     *aims = (Aims){.total = total};
-    Maker maker = {.source = source, .aims = aims, .step = (total + most - 1) / most};
-    maker.stars = memory_zeroed(source->mesh->vertex_count, sizeof *maker.stars, error);
-    aims->aims = memory_raw(total / (maker.step + (total == 0)) + 1, sizeof *aims->aims, error);
-    const bool ok = maker.stars != NULL && aims->aims != NULL;
+    AimBuilder builder = {.source = source, .aims = aims, .step = (total + most - 1) / most};
+    builder.stars = memory_zeroed(source->mesh->vertex_count, sizeof *builder.stars, error);
+    aims->aims = memory_raw(total / (builder.step + (total == 0)) + 1, sizeof *aims->aims, error);
+    const bool ok = builder.stars != NULL && aims->aims != NULL;
     if (ok && total > 0) {
         find_sphere(aims, source->triangles);
-        sum_stars(&maker);
-        bound_stars(&maker);
-        aim_at_points(&maker);
-        aim_at_edges(&maker);
-        assert(maker.seen == total);
+        sum_stars(&builder);
+        bound_stars(&builder);
+        aim_at_points(&builder);
+        aim_at_edges(&builder);
+        assert(builder.seen == total);
     }
-    free(maker.stars);
+    free(builder.stars);
     if (!ok)
         aims_free(aims);
     return ok;

@@ -11,9 +11,9 @@ typedef struct {
     Bvh bvh;
     FlatScene flat;
     Aims aims;
-} Staged;
+} StagedMesh;
 
-static bool stage_mesh(Staged *staged, const RayCaster *caster, const LeakSetting *setting,
+static bool stage_mesh(StagedMesh *staged, const RayCaster *caster, const LeakSetting *setting,
                        Error *error)
 {
     const Scene *scene = &staged->scene;
@@ -31,7 +31,8 @@ static bool stage_mesh(Staged *staged, const RayCaster *caster, const LeakSettin
            flat_make(&staged->flat, &source, error);
 }
 
-static bool aim(Staged *staged, const Mesh *mesh, const LeakSetting *setting, Error *error)
+static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *setting,
+                      Error *error)
 {
     Weld weld = {0};
     Edges edges = {0};
@@ -51,32 +52,32 @@ typedef struct {
     AimRay *rays;
     uint32_t *targets;
     float *distances;
-} Volley;
+} RayBatch;
 
-static bool make_volley(Volley *volley, size_t count, Error *error)
+static bool make_batch(RayBatch *batch, size_t count, Error *error)
 {
-    *volley = (Volley){memory_raw(count, sizeof *volley->rays, error),
-                       memory_raw(count, sizeof *volley->targets, error),
-                       memory_raw(count, sizeof *volley->distances, error)};
-    return volley->rays != NULL && volley->targets != NULL && volley->distances != NULL;
+    *batch = (RayBatch){memory_raw(count, sizeof *batch->rays, error),
+                        memory_raw(count, sizeof *batch->targets, error),
+                        memory_raw(count, sizeof *batch->distances, error)};
+    return batch->rays != NULL && batch->targets != NULL && batch->distances != NULL;
 }
 
-static bool fire(Aims *aims, LeakCount *count, const RayCaster *caster, Error *error)
+static bool trace_aims(Aims *aims, LeakCount *count, const RayCaster *caster, Error *error)
 {
-    size_t (*const shoot[2])(Aims *, AimRay *, uint32_t *) = {aims_shoot_from_afar,
-                                                              aims_shoot_from_close};
-    Volley volley;
-    bool ok = make_volley(&volley, aims->count, error);
+    size_t (*const make_rays[2])(Aims *, AimRay *, uint32_t *) = {aims_shoot_from_afar,
+                                                                  aims_shoot_from_close};
+    RayBatch batch;
+    bool ok = make_batch(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
-        const size_t rays = shoot[from](aims, volley.rays, volley.targets);
-        ok = ray_caster_cast(caster, volley.rays, rays, volley.distances, error);
+        const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
+        ok = ray_caster_cast(caster, batch.rays, rays, batch.distances, error);
         if (ok)
-            aims_judge(aims, volley.targets, volley.distances, rays);
+            aims_judge(aims, batch.targets, batch.distances, rays);
         count->rays += rays;
     }
-    free(volley.rays);
-    free(volley.targets);
-    free(volley.distances);
+    free(batch.rays);
+    free(batch.targets);
+    free(batch.distances);
     return ok;
 }
 
@@ -95,13 +96,14 @@ static void sum_up(const Aims *aims, LeakCount *count)
 bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const LeakSetting *setting,
                  Error *error)
 {
-    Staged staged = {0};
+    StagedMesh staged = {0};
     MeshObject object = {.mesh = *mesh, .two_sided = true};
     *count = (LeakCount){0};
     bool ok =
         scene_init(&staged.scene, error) && array_push(&staged.scene.objects, object, error) &&
-        stage_mesh(&staged, caster, setting, error) && aim(&staged, mesh, setting, error) &&
-        ray_caster_load(caster, &staged.flat, error) && fire(&staged.aims, count, caster, error);
+        stage_mesh(&staged, caster, setting, error) && make_aims(&staged, mesh, setting, error) &&
+        ray_caster_load(caster, &staged.flat, error) &&
+        trace_aims(&staged.aims, count, caster, error);
     sum_up(&staged.aims, count);
     ray_caster_unload(caster);
     aims_free(&staged.aims);

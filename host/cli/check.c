@@ -61,7 +61,7 @@ static bool trace_leaks(Check *check, const Cache *cache, Error *error)
 }
 
 // Without a device all other checks still run, unless the options name a device or fp64.
-static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
+static bool find_leaks(Check *check, const Cache *cache, Error *error)
 {
     if (scene_triangle_count(&check->scene) == 0)
         return true;
@@ -127,7 +127,7 @@ static ExitCode run(Check *check, const Cache *cache, Error *error)
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
     print_notes(check->options, &check->scene);
-    if (!look_for_leaks(check, cache, error))
+    if (!find_leaks(check, cache, error))
         return EXIT_DEVICE;
     return report(check, start, error);
 }

@@ -66,45 +66,45 @@ static ExitCode perform(const Options *options, Error *error)
     return perform_run(options, picture_make, error);
 }
 
-static ExitCode perform_words(int count, char **words, Error *error)
+static ExitCode run_arguments(int count, char **arguments, Error *error)
 {
     Options options;
-    if (!options_parse(&options, count, words, error))
+    if (!options_parse(&options, count, arguments, error))
         return EXIT_USAGE;
     return command_files_check(&options, NULL, error) ? perform(&options, error) : EXIT_OUTPUT;
 }
 
 typedef struct {
     int count;
-    char **words;
+    char **arguments;
     ExitCode code;
-} Start;
+} CommandLine;
 
 static void run(void *context)
 {
-    Start *start = context;
+    CommandLine *line = context;
     Error error = {0};
-    start->code = perform_words(start->count, start->words, &error);
-    if (start->code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
+    line->code = run_arguments(line->count, line->arguments, &error);
+    if (line->code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
         error_set(&error, "standard output cannot be written");
-        start->code = EXIT_OUTPUT;
+        line->code = EXIT_OUTPUT;
     }
     if (error.text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", error.text);
 }
 
-int main(int count, char **words)
+int main(int count, char **arguments)
 {
-    Start start = {.count = count, .words = words};
+    CommandLine line = {.count = count, .arguments = arguments};
     // A closed pipe or a file size limit then fails the write, which is reported and cleaned up.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     // Sanitizers install their own handlers and check for leaks at exit.
     if (!CLRT_TIDY_EXIT)
         crash_watch();
-    stack_run(run, &start);
+    stack_run(run, &line);
     // The kernel frees at once what drivers and libraries need 0.1 s to free.
     if (!CLRT_TIDY_EXIT)
-        _exit((int)start.code);
-    return (int)start.code;
+        _exit((int)line.code);
+    return (int)line.code;
 }

@@ -29,8 +29,8 @@ static bool is_picture(const Merging *merging, const StoredTiles *tiles)
 }
 
 // Returns the property in which the part differs from the first one; NULL if they match.
-static const char *misfit_of(const Merging *merging, const StoredTiles *tiles,
-                             const StoredImage *image)
+static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
+                               const StoredImage *image)
 {
     static const struct {
         StoredText kind;
@@ -89,9 +89,9 @@ static bool take(Merging *merging, const StoredTiles *tiles, const StoredImage *
         return error_set(error, "%s: was stopped before its end", path);
     if (merging->paths == NULL && !begin(merging, tiles, image, path, error))
         return false;
-    const char *misfit = misfit_of(merging, tiles, image);
-    if (misfit != NULL)
-        return error_set(error, "%s: is of another %s than %s", path, misfit,
+    const char *mismatch = mismatch_of(merging, tiles, image);
+    if (mismatch != NULL)
+        return error_set(error, "%s: is of another %s than %s", path, mismatch,
                          merging->options->part_paths[0]);
     if (!note_part(merging, tiles, path, error))
         return false;

@@ -286,7 +286,7 @@ static void clear(Run *run)
 }
 
 // Sets the viewpoint of the frame with that number.
-static void look(Run *run, uint32_t number)
+static void set_view(Run *run, uint32_t number)
 {
     const Options *options = run->options;
     const uint32_t steps = options->frames.turntable;
@@ -338,7 +338,7 @@ static ExitCode finish(Run *run, double start, Error *error)
 static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error)
 {
     clear(run);
-    look(run, number);
+    set_view(run, number);
     if (!begin_picture(run, error))
         return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
     print_beginning(run);

@@ -103,7 +103,7 @@ double difference_psnr(const Difference *difference)
 
 #define FULL (64 / 255.0) // the difference that maps to 1
 
-static double shown(double difference)
+static double brighten(double difference)
 {
     return fmin(1, sqrt(difference / FULL));
 }
@@ -118,7 +118,7 @@ bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool f
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++) {
             const double off = fabs(image_pair_difference(pair, pixel, color));
-            picture->pixels[pixel][color] = (float)(for_the_eye ? shown(off) : off);
+            picture->pixels[pixel][color] = (float)(for_the_eye ? brighten(off) : off);
         }
     return true;
 }

@@ -153,14 +153,14 @@ static Notes notes_of(const Explainer *explainer, uint32_t level)
     return (Notes){explainer, level * level_values(explainer), level * level_words(explainer)};
 }
 
-static double noted(const Notes *notes, size_t place)
+static double number_at(const Notes *notes, size_t place)
 {
     return scalar_at(notes->explainer, notes->explainer->host_values, notes->value + place);
 }
 
-static Vec3 noted_vector(const Notes *notes, size_t place)
+static Vec3 vector_at(const Notes *notes, size_t place)
 {
-    return vec3(noted(notes, place), noted(notes, place + 1), noted(notes, place + 2));
+    return vec3(number_at(notes, place), number_at(notes, place + 1), number_at(notes, place + 2));
 }
 
 static uint32_t noted_word(const Notes *notes, size_t place)
@@ -182,26 +182,26 @@ static void take_light(ExplainedLight *light, const Notes *level, uint32_t index
                          level->word + LEVEL_WORDS + (size_t)index * LIGHT_WORDS};
     const Vec3 apart = vec3_sub(explainer->scene->lights.data[index].position, point);
     *light = (ExplainedLight){.state = (LightState)noted_word(&notes, LIGHT_STATE),
-                              .cosine = noted(&notes, LIGHT_COSINE),
+                              .cosine = number_at(&notes, LIGHT_COSINE),
                               .distance = length_of(apart),
                               .blocker = noted_word(&notes, LIGHT_BLOCKER)};
     if (light->state == LIGHT_BLOCKED)
-        light->blocker_distance = fmax(noted(&notes, LIGHT_BLOCKER_T), 0) * light->distance;
+        light->blocker_distance = fmax(number_at(&notes, LIGHT_BLOCKER_T), 0) * light->distance;
     if (light->state == LIGHT_SEEN) {
-        light->diffuse = noted(&notes, LIGHT_DIFFUSE);
-        light->specular = noted(&notes, LIGHT_SPECULAR);
+        light->diffuse = number_at(&notes, LIGHT_DIFFUSE);
+        light->specular = number_at(&notes, LIGHT_SPECULAR);
     }
 }
 
 static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *lights)
 {
     const Explainer *explainer = notes->explainer;
-    ray->point = denormalize_point(explainer->normalization, noted_vector(notes, LEVEL_POINT));
-    ray->normal = noted_vector(notes, LEVEL_NORMAL);
+    ray->point = denormalize_point(explainer->normalization, vector_at(notes, LEVEL_POINT));
+    ray->normal = vector_at(notes, LEVEL_NORMAL);
     ray->material = noted_word(notes, LEVEL_MATERIAL);
     ray->uses_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
-    ray->share = noted(notes, LEVEL_SHARE);
-    ray->shaded = noted_vector(notes, LEVEL_SHADED);
+    ray->share = number_at(notes, LEVEL_SHARE);
+    ray->shaded = vector_at(notes, LEVEL_SHADED);
     ray->lights = lights;
     for (uint32_t i = 0; ray->uses_lights && i < explainer->frame.light_count; i++)
         take_light(&lights[i], notes, i, ray->point);
@@ -210,18 +210,18 @@ static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *
 static void take_ray(Explainer *explainer, uint32_t level)
 {
     const Notes notes = notes_of(explainer, level);
-    const Vec3 direction = noted_vector(&notes, LEVEL_DIRECTION);
+    const Vec3 direction = vector_at(&notes, LEVEL_DIRECTION);
     const double unit = length_of(direction) / explainer->normalization->scale;
     ExplainedRay *ray = &explainer->rays[level];
     *ray = (ExplainedRay){
-        .origin = denormalize_point(explainer->normalization, noted_vector(&notes, LEVEL_ORIGIN)),
+        .origin = denormalize_point(explainer->normalization, vector_at(&notes, LEVEL_ORIGIN)),
         .direction = vec3_normalize(direction),
-        .weight = noted(&notes, LEVEL_WEIGHT),
+        .weight = number_at(&notes, LEVEL_WEIGHT),
         .primitive = noted_word(&notes, LEVEL_PRIMITIVE)};
     if (ray->primitive == NOTHING)
         return;
-    ray->distance = noted(&notes, LEVEL_T) * unit;
-    ray->error = noted(&notes, LEVEL_ERROR) * unit;
+    ray->distance = number_at(&notes, LEVEL_T) * unit;
+    ray->error = number_at(&notes, LEVEL_ERROR) * unit;
     take_surface(ray, &notes, explainer->lights + (size_t)level * explainer->frame.light_count);
 }
 

@@ -125,12 +125,12 @@ static size_t write_nothing(struct aiFile *interface, const char *bytes, size_t 
     return 0;
 }
 
-static size_t tell_place(struct aiFile *interface)
+static size_t file_position(struct aiFile *interface)
 {
     return reading_of(interface)->place;
 }
 
-static size_t tell_size(struct aiFile *interface)
+static size_t file_size(struct aiFile *interface)
 {
     return file_of(reading_of(interface))->size;
 }
@@ -180,8 +180,8 @@ static struct aiFile *open_reading(struct aiFileIO *interface, const char *path,
         return NULL;
     *reading = (Reading){.interface = {.ReadProc = read_pieces,
                                        .WriteProc = write_nothing,
-                                       .TellProc = tell_place,
-                                       .FileSizeProc = tell_size,
+                                       .TellProc = file_position,
+                                       .FileSizeProc = file_size,
                                        .SeekProc = seek,
                                        .FlushProc = flush_nothing,
                                        .UserData = (aiUserData)reading},

@@ -17,7 +17,7 @@ static FILE *take_output(void)
     return own >= 0 ? fdopen(own, "wb") : NULL;
 }
 
-int main(int count, char **words)
+int main(int count, char **arguments)
 {
     Files files;
     Error error = {0};
@@ -28,7 +28,7 @@ int main(int count, char **words)
     if (stream == NULL)
         return EXIT_FAILURE;
     // The path includes a folder, so that companion files are searched there.
-    char *path = file_path_beside("./", words[1], &error);
+    char *path = file_path_beside("./", arguments[1], &error);
     if (path == NULL)
         return EXIT_FAILURE;
     files_init(&files, path);

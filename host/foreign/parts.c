@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     double columns[3][3]; // normals are multiplied from the left
     bool is_identity, is_mirror;
-} Turn;
+} NormalMatrix;
 
 typedef struct {
     FILE *stream;
@@ -68,21 +68,21 @@ static bool is_identity(const Placement *placement)
 }
 
 // Normals are transformed by the cofactors, which equal the inverse transpose up to a factor.
-static Turn turn_of(const Placement *placement)
+static NormalMatrix normal_matrix_of(const Placement *placement)
 {
-    Turn turn = {.is_identity = is_identity(placement)};
+    NormalMatrix normal_matrix = {.is_identity = is_identity(placement)};
     const Vec3 x = column_of(placement, 0), y = column_of(placement, 1),
                z = column_of(placement, 2);
     const Vec3 cofactors[3] = {vec3_cross(y, z), vec3_cross(z, x), vec3_cross(x, y)};
     const double determinant = vec3_dot(x, cofactors[0]);
-    turn.is_mirror = determinant < 0;
+    normal_matrix.is_mirror = determinant < 0;
     for (int column = 0; column < 3; column++) {
-        const Vec3 c = vec3_scale(cofactors[column], turn.is_mirror ? -1 : 1);
-        turn.columns[column][0] = c.x;
-        turn.columns[column][1] = c.y;
-        turn.columns[column][2] = c.z;
+        const Vec3 c = vec3_scale(cofactors[column], normal_matrix.is_mirror ? -1 : 1);
+        normal_matrix.columns[column][0] = c.x;
+        normal_matrix.columns[column][1] = c.y;
+        normal_matrix.columns[column][2] = c.z;
     }
-    return turn;
+    return normal_matrix;
 }
 
 static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
@@ -101,13 +101,14 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
 }
 
 // Normals are shortened before the transform, so that no product exceeds the range of float.
-static void turn_normal(const struct aiVector3D *given, const Turn *turn, float normal[3])
+static void transform_normal(const struct aiVector3D *given, const NormalMatrix *normal_matrix,
+                             float normal[3])
 {
     const Vec3 unit = vec3_normalize(vec3((double)given->x, (double)given->y, (double)given->z));
     Vec3 turned = {0, 0, 0};
     const double parts[3] = {unit.x, unit.y, unit.z};
     for (int i = 0; i < 3; i++) {
-        const double *c = turn->columns[i];
+        const double *c = normal_matrix->columns[i];
         turned = vec3_add(turned, vec3_scale(vec3(c[0], c[1], c[2]), parts[i]));
     }
     turned = vec3_normalize(turned);
@@ -116,18 +117,19 @@ static void turn_normal(const struct aiVector3D *given, const Turn *turn, float 
     normal[2] = (float)turned.z;
 }
 
-static void place_normals(const Sender *sender, const struct aiMesh *mesh, const Turn *turn)
+static void place_normals(const Sender *sender, const struct aiMesh *mesh,
+                          const NormalMatrix *normal_matrix)
 {
     float(*normals)[3] = sender->part.mesh.normals + sender->part.mesh.vertex_count;
     for (size_t i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D none = {0, 0, 0};
         const struct aiVector3D *given = mesh->mNormals != NULL ? &mesh->mNormals[i] : &none;
-        if (turn->is_identity || (given->x == 0 && given->y == 0 && given->z == 0)) {
+        if (normal_matrix->is_identity || (given->x == 0 && given->y == 0 && given->z == 0)) {
             normals[i][0] = given->x;
             normals[i][1] = given->y;
             normals[i][2] = given->z;
         } else {
-            turn_normal(given, turn, normals[i]);
+            transform_normal(given, normal_matrix, normals[i]);
         }
     }
 }
@@ -220,7 +222,7 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
 {
     Mesh *part = &sender->part.mesh;
     const uint32_t material = number_of_material(sender, mesh);
-    const Turn turn = turn_of(placement);
+    const NormalMatrix normal_matrix = normal_matrix_of(placement);
     const bool has_normals = sender->keeps_normals && mesh->mNormals != NULL;
     const bool fits = part->vertex_count + mesh->mNumVertices < (size_t)MESH_COUNT_MOST;
     if ((material != sender->part.material || !fits) && !send_part_so_far(sender))
@@ -228,10 +230,10 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
     sender->part.material = material;
     if (!reserve_vertices(sender, mesh->mNumVertices, has_normals))
         return false;
-    place_vertices(sender, mesh, placement, turn.is_identity);
+    place_vertices(sender, mesh, placement, normal_matrix.is_identity);
     if (has_normals)
-        place_normals(sender, mesh, &turn);
-    if (!add_triangles(sender, mesh, turn.is_mirror))
+        place_normals(sender, mesh, &normal_matrix);
+    if (!add_triangles(sender, mesh, normal_matrix.is_mirror))
         return false;
     part->vertex_count += mesh->mNumVertices;
     return true;

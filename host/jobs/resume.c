@@ -100,8 +100,8 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
     }
 }
 
-static bool go_on(Resume *resume, const Provenance *own, RenderSettings *settings,
-                  Framebuffer *framebuffer, Error *error)
+static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings *settings,
+                          Framebuffer *framebuffer, Error *error)
 {
     uint64_t key[2];
     make_key(own, settings, key);
@@ -129,7 +129,7 @@ bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings
     if (resume->path == NULL)
         return true;
     resume->tile = memory_raw(tile_size(&largest), 1, error);
-    return resume->tile != NULL && go_on(resume, own, settings, framebuffer, error);
+    return resume->tile != NULL && restore_tiles(resume, own, settings, framebuffer, error);
 }
 
 bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,

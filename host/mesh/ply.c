@@ -25,7 +25,7 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
 }
 
 // Returns the replacement for a bad value. NaN marks the vertex until its triangles are dropped.
-static double tolerated(Loader *loader, PlyRole role, double value)
+static double replace_bad_value(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;
     Mesh *mesh = loader->mesh;
@@ -49,7 +49,7 @@ static bool read_component(Loader *loader, const PlyProperty *property)
     if (!ply_reader_read_number(reader, property->type, &value))
         return false;
     if (reader->is_tolerant)
-        value = tolerated(loader, property->role, value);
+        value = replace_bad_value(loader, property->role, value);
     if (property->role <= PLY_Z) {
         if (!(fabs(value) < PLY_COORDINATE_BOUND) && !reader->is_tolerant)
             return ply_reader_fail(reader, "%s is %g, not a finite number below 1e30 in size", name,

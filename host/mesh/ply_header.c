@@ -264,7 +264,7 @@ static bool has_roles(const PlyElement *element, unsigned bits)
 }
 
 // Ignores normals with missing components.
-static void forget_normals(PlyHeader *header, const PlyElement *element)
+static void ignore_normals(PlyHeader *header, const PlyElement *element)
 {
     for (size_t index = 0; index < element->property_count; index++) {
         PlyRole *role = &header->properties.data[element->first_property + index].role;
@@ -280,7 +280,7 @@ static bool check_element(PlyHeader *header, PlyReader *reader, const PlyElement
         header->vertex_count = element->count;
         header->has_normals = has_roles(element, ROLE_BITS(PLY_NORMAL_X, PLY_NORMAL_Z));
         if (!header->has_normals)
-            forget_normals(header, element);
+            ignore_normals(header, element);
         if (element->count > 0 && !has_roles(element, ROLE_BITS(PLY_X, PLY_Z)))
             return ply_reader_fail(reader, "element vertex lacks x, y or z");
     }

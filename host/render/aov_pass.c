@@ -177,7 +177,7 @@ bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *
             return false;
         take_tile(pass, &tile, layers);
         progress.tiles_done++;
-        wanted = observer == NULL || observer->tile_done(observer->context, &progress);
+        wanted = render_observer_continues(observer, &progress);
     }
     return true;
 }

@@ -181,7 +181,7 @@ bool certifier_certify(const Certifier *certifier, const CameraData *camera,
             return false;
         take_tile(certifier, &tile, picture);
         progress.tiles_done++;
-        wanted = observer == NULL || observer->tile_done(observer->context, &progress);
+        wanted = render_observer_continues(observer, &progress);
     }
     return true;
 }

@@ -145,12 +145,6 @@ static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
     return true;
 }
 
-static bool observed(const RenderObserver *observer, const RenderProgress *progress)
-{
-    return observer == NULL || observer->tile_done == NULL ||
-           observer->tile_done(observer->context, progress);
-}
-
 static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObserver *observer,
                        Error *error)
 {
@@ -172,7 +166,7 @@ static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObs
         Slot *oldest = &drawing->slots[renderer->progress.tiles_done % SLOTS];
         if (!finish_tile(drawing, oldest, error))
             return false;
-        wanted = observed(observer, &renderer->progress) && wanted;
+        wanted = render_observer_continues(observer, &renderer->progress) && wanted;
     }
     return true;
 }

@@ -62,6 +62,14 @@ typedef struct {
     void *context;
 } RenderObserver;
 
+// Returns whether to continue after a finished tile.  Both pointers of the observer may be NULL.
+static inline bool render_observer_continues(const RenderObserver *observer,
+                                             const RenderProgress *progress)
+{
+    return observer == NULL || observer->tile_done == NULL ||
+           observer->tile_done(observer->context, progress);
+}
+
 typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;

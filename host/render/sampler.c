@@ -135,12 +135,6 @@ static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
     return cl_succeeded(status, "trace samples", error);
 }
 
-static bool observed(const RenderObserver *observer, const RenderProgress *progress)
-{
-    return observer == NULL || observer->tile_done == NULL ||
-           observer->tile_done(observer->context, progress);
-}
-
 static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
 {
     RenderProgress *progress = &sampling->renderer->progress;
@@ -155,7 +149,7 @@ static bool run_launches(Sampling *sampling, const RenderObserver *observer, Err
                 return false;
         if (!finish_launch(sampling, finished++, error))
             return false;
-        wanted = observed(observer, progress) && wanted;
+        wanted = render_observer_continues(observer, progress) && wanted;
     }
     return true;
 }

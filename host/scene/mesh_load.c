@@ -61,17 +61,17 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
 }
 
 // Moves the parts' meshes into objects.
-static bool add_parts(Scene *scene, ForeignModel *model, const MeshOrder *order,
+static bool add_parts(Scene *scene, ForeignModel *model, const MeshLoadOptions *options,
                       uint32_t first_material, Error *error)
 {
-    MeshObject object = order->object;
+    MeshObject object = options->object;
     object.number_before = 0;
     for (size_t i = 0; i < model->parts.count; i++) {
         ForeignPart *part = &model->parts.data[i];
         object.mesh = part->mesh;
-        object.material = order->takes_own_materials && part->material != FOREIGN_NO_MATERIAL
+        object.material = options->takes_own_materials && part->material != FOREIGN_NO_MATERIAL
                               ? first_material + part->material
-                              : order->object.material;
+                              : options->object.material;
         if (!array_push(&scene->objects, object, error))
             return false;
         part->mesh = (Mesh){0};
@@ -80,39 +80,39 @@ static bool add_parts(Scene *scene, ForeignModel *model, const MeshOrder *order,
     return true;
 }
 
-static bool add_model(Scene *scene, ForeignModel *model, const char *path, const MeshOrder *order,
-                      Error *error)
+static bool add_model(Scene *scene, ForeignModel *model, const char *path,
+                      const MeshLoadOptions *options, Error *error)
 {
-    MeshOrder here = *order;
+    MeshLoadOptions here = *options;
     here.object.input = (uint32_t)scene->inputs.count;
     const uint32_t first_material = (uint32_t)scene->materials.count;
     return (model->note == NULL || scene_add_note(scene, path, model->note, error)) &&
            add_files(scene, model, path, error) &&
-           (!order->takes_own_materials || add_materials(scene, model, path, error)) &&
+           (!options->takes_own_materials || add_materials(scene, model, path, error)) &&
            add_parts(scene, model, &here, first_material, error);
 }
 
-bool foreign_mesh_add(Scene *scene, const char *path, const MeshOrder *order, Error *error)
+bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
     File stream;
     ForeignModel model = {0};
     if (!foreign_process_run(&stream, &foreign_reader, path, error))
         return false;
     const ForeignStream bytes = {stream.bytes, stream.size};
-    const bool parsed = foreign_stream_parse(&model, bytes, path, order->parse, error);
+    const bool parsed = foreign_stream_parse(&model, bytes, path, options->parse, error);
     file_free(&stream);
-    const bool ok = parsed && add_model(scene, &model, path, order, error);
+    const bool ok = parsed && add_model(scene, &model, path, options, error);
     foreign_model_free(&model);
     return ok;
 }
 
-bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshOrder *order,
+bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
                   Error *error)
 {
-    MeshObject object = order->object;
+    MeshObject object = options->object;
     object.input = (uint32_t)scene->inputs.count;
     scene_hash_mesh(scene, file->bytes, file->size);
-    const bool ok = order->parse(&object.mesh, file->bytes, file->size, path, error) &&
+    const bool ok = options->parse(&object.mesh, file->bytes, file->size, path, error) &&
                     scene_add_input(scene, path, error) &&
                     array_push(&scene->objects, object, error);
     if (!ok)

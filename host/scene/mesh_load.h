@@ -12,15 +12,15 @@ typedef struct {
     bool takes_own_materials; // instead of the object's, if the file has any
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the mesh reader
-} MeshOrder;
+} MeshLoadOptions;
 
 // Adds an object with the mesh of the file read from path, and adds the file to the inputs.
-bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshOrder *order,
+bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
                   Error *error);
 
 // Adds an object for each part of the file at path, its materials if requested, and all files that
 // it was read from. Returns false with a message that names the file.
-bool foreign_mesh_add(Scene *scene, const char *path, const MeshOrder *order, Error *error);
+bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
 // A mesh that replaces a scene is framed by cameras of its own, lit and two-sided.
 

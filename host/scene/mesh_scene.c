@@ -55,11 +55,11 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
 }
 
 // A mesh that replaces a scene is visible from both sides.
-static MeshOrder order_of(PlyParse *parse)
+static MeshLoadOptions options_of(PlyParse *parse)
 {
-    return (MeshOrder){.object = {.material = 1, .two_sided = true, .smooth = true},
-                       .takes_own_materials = true,
-                       .parse = parse};
+    return (MeshLoadOptions){.object = {.material = 1, .two_sided = true, .smooth = true},
+                             .takes_own_materials = true,
+                             .parse = parse};
 }
 
 // Adds the parts that a scene of objects lacks. Frees the scene on failure.
@@ -78,18 +78,18 @@ static bool complete(Scene *scene, bool ok, Error *error)
 bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
                       Error *error)
 {
-    const MeshOrder order = order_of(parse);
+    const MeshLoadOptions options = options_of(parse);
     const double start = clock_seconds();
-    const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &order, error);
+    const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
     return complete(scene, ok, error);
 }
 
 bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error)
 {
-    const MeshOrder order = order_of(parse);
+    const MeshLoadOptions options = options_of(parse);
     const double start = clock_seconds();
-    const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &order, error);
+    const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
     return complete(scene, ok, error);
 }

@@ -135,19 +135,20 @@ static bool positions_are_kept(const Tokens *tokens, Objects objects)
     return true;
 }
 
-static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Error *cause,
+static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *options, Error *cause,
                     Error *error)
 {
     File file;
     if (!file_read(&file, path, cause))
         return false;
-    const bool ok = ply_mesh_add(scene, &file, path, order, error);
+    const bool ok = ply_mesh_add(scene, &file, path, options, error);
     file_free(&file);
     return ok;
 }
 
 // The message names the scene's line if the file's own message has no position.
-static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
+static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
+                        const MeshLoadOptions *options)
 {
     Error *error = tokens->error;
     Error cause = {0};
@@ -156,9 +157,9 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const Me
         return false;
     memcpy(relative, path.text, path.length);
     char *full = file_path_beside(tokens->name, relative, error);
-    const bool ok = full != NULL && (!order->is_plain_ply && foreign_format_is(full)
-                                         ? foreign_mesh_add(scene, full, order, &cause)
-                                         : add_ply(scene, full, order, &cause, error));
+    const bool ok = full != NULL && (!options->is_plain_ply && foreign_format_is(full)
+                                         ? foreign_mesh_add(scene, full, options, &cause)
+                                         : add_ply(scene, full, options, &cause, error));
     if (cause.text[0] != '\0')
         error_set(error, "%s:%u:%u: %s", tokens->name, path.line, path.column, cause.text);
     free(full);
@@ -166,7 +167,7 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const Me
     return ok;
 }
 
-bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order)
+bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshLoadOptions *options)
 {
     const size_t count = scene->objects.count;
     const Token path = tokens_next(tokens);
@@ -175,9 +176,9 @@ bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order)
     if (memchr(path.text, '\0', path.length) != NULL)
         return tokens_fail(tokens, path, "expected a path without a zero byte");
     const double start = clock_seconds();
-    const bool loaded = add_objects(scene, tokens, path, order);
+    const bool loaded = add_objects(scene, tokens, path, options);
     scene->mesh_seconds += clock_seconds() - start;
-    if (!loaded || order->is_plain_ply)
+    if (!loaded || options->is_plain_ply)
         return loaded;
     const Objects added = {scene->objects.data + count, scene->objects.count - count};
     return read_transforms(tokens, added) && positions_are_kept(tokens, added);

@@ -61,12 +61,12 @@ static bool read_define(Parser *parser)
 
 static bool read_mesh_file(Parser *parser, bool is_plain_ply)
 {
-    MeshOrder order = {.object = parser->object,
-                       .is_plain_ply = is_plain_ply,
-                       .takes_own_materials = parser->material == MATERIAL_OWN,
-                       .parse = parser->parse_mesh};
-    order.object.material = plain_material(parser);
-    return mesh_statement_read(parser->scene, &parser->tokens, &order);
+    MeshLoadOptions options = {.object = parser->object,
+                               .is_plain_ply = is_plain_ply,
+                               .takes_own_materials = parser->material == MATERIAL_OWN,
+                               .parse = parser->parse_mesh};
+    options.object.material = plain_material(parser);
+    return mesh_statement_read(parser->scene, &parser->tokens, &options);
 }
 
 static bool read_mesh(Parser *parser)

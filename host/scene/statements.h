@@ -20,4 +20,4 @@ bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to
 // the scene file's folder.
-bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshOrder *order);
+bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshLoadOptions *options);

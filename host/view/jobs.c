@@ -69,7 +69,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
 // Updates the measured cost of a sample.  The first measurement replaces the guess.  Later ones
 // count for at most twice the previous cost, because busy processors may have slowed down a single
 // picture.
-static void learn(Worker *worker, const Pass *pass, double seconds, double part)
+static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
     if (pass->kind == PASS_COUNT || samples < 1)
@@ -99,7 +99,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
 {
     const RenderProgress *progress = tracer_progress(&worker->tracer, &job->pass);
     const bool whole = progress->tiles_done == progress->tiles;
-    learn(worker, &job->pass, seconds, (double)progress->tiles_done / (double)progress->tiles);
+    update_sample_cost(worker, &job->pass, seconds,
+                       (double)progress->tiles_done / (double)progress->tiles);
     const bool shows = whole && job->pass.kind != PASS_COUNT;
     (shows ? canvas_finish : canvas_drop)(worker->setup.canvas, layer);
     WorkerStatus *status = begin_update(worker);
@@ -116,7 +117,7 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
 }
 
 // Gives up a picture that cannot be traced; a different request will be tried.
-static void give_up(Worker *worker, const Job *job, const Error *error)
+static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
     status->reached = (PlanReached){job->request.subject, 1, job->request.samples, true};
@@ -141,7 +142,7 @@ void jobs_trace(Worker *worker, const Job *job)
     }
     if (layer != NULL)
         canvas_drop(worker->setup.canvas, layer);
-    give_up(worker, job, &error);
+    report_failure(worker, job, &error);
 }
 
 // Records that the renderer was made, or failed with error.

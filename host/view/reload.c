@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#define LOOK_SECONDS 0.2
+#define POLL_SECONDS 0.2
 
 static bool add_folder(Reload *reload, const char *path, Error *error)
 {
@@ -33,13 +33,13 @@ bool reload_follow_kernels(Reload *reload, const char *folder, Error *error)
     return folder == NULL || watch_add(&reload->kernels, folder, error);
 }
 
-unsigned reload_look(Reload *reload, double now)
+unsigned reload_poll(Reload *reload, double now)
 {
-    if (now - reload->looked < LOOK_SECONDS)
+    if (now - reload->polled < POLL_SECONDS)
         return 0;
-    reload->looked = now;
-    return (watch_look(&reload->scene) ? RELOAD_SCENE : 0) |
-           (watch_look(&reload->kernels) ? RELOAD_KERNELS : 0);
+    reload->polled = now;
+    return (watch_poll(&reload->scene) ? RELOAD_SCENE : 0) |
+           (watch_poll(&reload->kernels) ? RELOAD_KERNELS : 0);
 }
 
 void reload_free(Reload *reload)

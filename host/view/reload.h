@@ -7,7 +7,7 @@
 
 typedef struct {
     Watch scene, kernels;
-    double looked; // time of the latest check
+    double polled; // time of the latest check
 } Reload;
 
 typedef enum { RELOAD_SCENE = 1, RELOAD_KERNELS = 2 } ReloadBits;
@@ -21,5 +21,5 @@ bool reload_follow(Reload *reload, const Scene *scene, const char *path, bool ha
 bool reload_follow_kernels(Reload *reload, const char *folder, Error *error);
 
 // Checks the files if it is time, and returns the ReloadBits of the changed ones.
-unsigned reload_look(Reload *reload, double now);
+unsigned reload_poll(Reload *reload, double now);
 void reload_free(Reload *reload);

@@ -72,7 +72,7 @@ static bool *switch_of(State *state, int key)
     }
 }
 
-static void expose(State *state, int step)
+static void change_exposure(State *state, int step)
 {
     state->exposure = limited(state->exposure + step, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
 }
@@ -95,7 +95,7 @@ static void apply_key(State *state, const StateScene *scene, int key)
     if (key == ']' || key == '[')
         change_level(state, scene, key == ']' ? 1 : -1);
     if (key == '+' || key == '=' || key == '-')
-        expose(state, key == '-' ? -1 : 1);
+        change_exposure(state, key == '-' ? -1 : 1);
     if (key >= '1' && key <= '9')
         choose_view(state, scene, (uint32_t)(key - '0'));
     apply_arrow(state, key);

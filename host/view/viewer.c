@@ -24,7 +24,7 @@ static void print_camera(const Viewer *viewer)
     fflush(stdout);
 }
 
-static bool obey(Viewer *viewer, unsigned commands, Error *error)
+static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
 {
     if (commands & COMMAND_CAMERA)
         print_camera(viewer);
@@ -39,7 +39,7 @@ static bool take_event(Viewer *viewer, const Event *event, Error *error)
 {
     viewer->is_dirty = true;
     viewer->notice[0] = '\0';
-    return obey(viewer, state_apply(&viewer->state, event, &viewer->scene), error);
+    return run_commands(viewer, state_apply(&viewer->state, event, &viewer->scene), error);
 }
 
 static bool take_events(Viewer *viewer, Error *error)
@@ -101,7 +101,7 @@ static void post_request(Viewer *viewer)
 }
 
 // Returns how long the loop may sleep, in seconds.
-static double rest(const Viewer *viewer)
+static double idle_seconds(const Viewer *viewer)
 {
     const bool plays = script_is_running(&viewer->script) && viewer_is_settled(viewer);
     const bool turns = viewer->state.turning && !viewer->state.traced;
@@ -110,7 +110,7 @@ static double rest(const Viewer *viewer)
 
 static bool step(Viewer *viewer, Error *error)
 {
-    window_wait(&viewer->window, rest(viewer));
+    window_wait(&viewer->window, idle_seconds(viewer));
     if (!viewer_follow_worker(viewer, error) || !take_events(viewer, error) ||
         !viewer_take_drop(viewer, error) || !play_script(viewer, error))
         return false;

@@ -83,7 +83,7 @@ bool viewer_take_drop(Viewer *viewer, Error *error)
 
 void viewer_follow_files(Viewer *viewer)
 {
-    const unsigned changed = reload_look(&viewer->reload, clock_seconds());
+    const unsigned changed = reload_poll(&viewer->reload, clock_seconds());
     if (changed & RELOAD_SCENE)
         viewer->request.loads++;
     if (changed & RELOAD_KERNELS)

@@ -10,16 +10,16 @@
 #include <xxhash.h>
 
 // A missing file has a signature, too.
-static uint64_t look_of(const struct stat *status)
+static uint64_t stamp_of_status(const struct stat *status)
 {
     const uint64_t numbers[] = {(uint64_t)status->st_mtim.tv_sec, (uint64_t)status->st_mtim.tv_nsec,
                                 (uint64_t)status->st_size, (uint64_t)status->st_ino};
     return XXH3_64bits(numbers, sizeof numbers);
 }
 
-static uint64_t look_inside(const char *folder)
+static uint64_t stamp_of_folder(const char *folder)
 {
-    uint64_t look = 0;
+    uint64_t stamp = 0;
     DIR *entries = opendir(folder);
     if (entries == NULL)
         return 0;
@@ -27,18 +27,18 @@ static uint64_t look_inside(const char *folder)
         struct stat status;
         // The sum does not depend on the order of entries, which may change.
         if (fstatat(dirfd(entries), entry->d_name, &status, 0) == 0 && S_ISREG(status.st_mode))
-            look += look_of(&status);
+            stamp += stamp_of_status(&status);
     }
     closedir(entries);
-    return look;
+    return stamp;
 }
 
-static uint64_t look_at(const char *path)
+static uint64_t stamp_of_path(const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0)
         return 1;
-    return S_ISDIR(status.st_mode) ? look_inside(path) : look_of(&status);
+    return S_ISDIR(status.st_mode) ? stamp_of_folder(path) : stamp_of_status(&status);
 }
 
 void watch_begin(Watch *watch)
@@ -63,7 +63,7 @@ bool watch_add(Watch *watch, const char *path, Error *error)
         return true;
     }
     const size_t size = strlen(path) + 1;
-    const Watched file = {.path = memory_raw(size, 1, error), .accepted = look_at(path)};
+    const Watched file = {.path = memory_raw(size, 1, error), .accepted = stamp_of_path(path)};
     if (file.path == NULL || !array_push(&watch->files, file, error)) {
         free(file.path);
         return false;
@@ -84,13 +84,13 @@ void watch_end(Watch *watch)
     watch->files.count = kept;
 }
 
-bool watch_look(Watch *watch)
+bool watch_poll(Watch *watch)
 {
     uint64_t all = 0;
     bool differs = false;
     for (size_t i = 0; i < watch->files.count; i++) {
         Watched *file = &watch->files.data[i];
-        file->seen = look_at(file->path);
+        file->seen = stamp_of_path(file->path);
         const uint64_t pair[] = {all, file->seen};
         all = XXH3_64bits(pair, sizeof pair);
         differs = differs || file->seen != file->accepted;

@@ -27,6 +27,6 @@ void watch_end(Watch *watch);
 
 // Checks the files.  Returns true if they have changed and then stayed the same between two checks,
 // so that no half-written file is read.
-bool watch_look(Watch *watch);
+bool watch_poll(Watch *watch);
 
 void watch_free(Watch *watch);

@@ -203,17 +203,17 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     assert_true(watch_add(&watched.watch, watched.path, &error) &&
                 watch_add(&watched.watch, watched.folder, &error));
     for (int look = 0; look < 3; look++)
-        assert_false(watch_look(&watched.watch));
+        assert_false(watch_poll(&watched.watch));
     set_time(watched.path, 1);
-    assert_false(watch_look(&watched.watch)); // perhaps it is still being written
-    assert_true(watch_look(&watched.watch));
-    assert_false(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch)); // perhaps it is still being written
+    assert_true(watch_poll(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
     unlink(watched.path);
-    assert_false(watch_look(&watched.watch));
-    assert_true(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
+    assert_true(watch_poll(&watched.watch));
     write_text(watched.path, "two");
-    assert_false(watch_look(&watched.watch));
-    assert_true(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
+    assert_true(watch_poll(&watched.watch));
     watched_free(&watched);
 }
 
@@ -231,8 +231,8 @@ static void watching_other_files_too_loses_no_change(void **state)
                 watch_add(&watched.watch, "other", &error));
     watch_end(&watched.watch);
     assert_int_equal(watched.watch.files.count, 2);
-    assert_false(watch_look(&watched.watch));
-    assert_true(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
+    assert_true(watch_poll(&watched.watch));
     watched_free(&watched);
 }
 
@@ -242,10 +242,10 @@ static void a_folder_is_watched_for_what_is_in_it(void **state)
     Error error = {0};
     WatchedFolder watched = watched_make();
     assert_true(watch_add(&watched.watch, watched.folder, &error));
-    assert_false(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
     write_text(watched.path, "new");
-    assert_false(watch_look(&watched.watch));
-    assert_true(watch_look(&watched.watch));
+    assert_false(watch_poll(&watched.watch));
+    assert_true(watch_poll(&watched.watch));
     watched_free(&watched);
 }
 

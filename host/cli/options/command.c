@@ -50,7 +50,7 @@ bool command_takes(const Command *command, const Option *option)
     return (option->uses & (command != NULL ? command->use : FOR_PICTURE)) != 0;
 }
 
-static size_t add_taker(const char *name, char *text, size_t size, size_t length)
+static size_t append_command(const char *name, char *text, size_t size, size_t length)
 {
     if (length >= size)
         return length;
@@ -64,8 +64,8 @@ void command_list_takers(const Option *option, char *text, size_t size)
     text[0] = '\0';
     for (size_t i = 0; i < command_count; i++)
         if (command_takes(&command_table[i], option))
-            length = add_taker(command_table[i].name, text, size, length);
+            length = append_command(command_table[i].name, text, size, length);
     for (size_t i = 0; i < SILENT_COMMANDS; i++)
         if (command_takes(&silent_commands[i], option))
-            length = add_taker(silent_commands[i].name, text, size, length);
+            length = append_command(silent_commands[i].name, text, size, length);
 }

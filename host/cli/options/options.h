@@ -128,4 +128,4 @@ static inline bool options_read_input(const Options *options)
 }
 
 // Parses the command line into options, or fails with a message.
-bool options_parse(Options *options, int count, char **words, Error *error);
+bool options_parse(Options *options, int count, char **arguments, Error *error);

@@ -57,7 +57,7 @@ static size_t option_of(int found)
 
 // Settings may be repeated, and the last one counts.  A second file would be lost, so clrt rejects
 // it.
-static bool note_given(Options *options, size_t row, Error *error)
+static bool mark_given(Options *options, size_t row, Error *error)
 {
     const Option *option = &option_table[row];
     const uint64_t bit = (uint64_t)1 << row;
@@ -82,26 +82,26 @@ static bool check_purposes(const Options *options, const Command *command, Error
     return true;
 }
 
-static bool read_two(Options *options, const Command *command, int count, char **words,
+static bool read_two(Options *options, const Command *command, int count, char **arguments,
                      Error *error)
 {
     if (optind + 2 != count)
         return error_set(error, "clrt %s wants %s", command->name, command->two_operands);
-    options->scene_path = words[optind];
-    options->other_path = words[optind + 1];
+    options->scene_path = arguments[optind];
+    options->other_path = arguments[optind + 1];
     return options->action != ACTION_COMPARE || options_check_compare(options, error);
 }
 
-static bool read_parts(Options *options, int count, char **words, Error *error)
+static bool read_parts(Options *options, int count, char **arguments, Error *error)
 {
     if (optind >= count)
         return error_set(error, "clrt merge wants the names of all parts of a picture");
-    options->part_paths = words + optind;
+    options->part_paths = arguments + optind;
     options->part_count = count - optind;
     return options_check_merge(options, error);
 }
 
-static bool read_scene(Options *options, int count, char **words, Error *error)
+static bool read_scene(Options *options, int count, char **arguments, Error *error)
 {
     if (optind >= count && options->action == ACTION_WARM)
         return kernel_check_request(&options->kernel, error);
@@ -111,14 +111,14 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
         return error_set(error,
                          "one scene at a time: '%s' comes after '%s' (values of --aa and --stats "
                          "need an equals sign)",
-                         words[optind + 1], words[optind]);
-    options->scene_path = words[optind];
+                         arguments[optind + 1], arguments[optind]);
+    options->scene_path = arguments[optind];
     return kernel_check_request(&options->kernel, error) &&
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
 // Reads all options and leaves optind at the first operand.
-static bool read_options(Options *options, int count, char **words, Error *error)
+static bool read_options(Options *options, int count, char **arguments, Error *error)
 {
     struct option longs[OPTIONS_MOST + 1];
     char shorts[2 * OPTIONS_MOST + 2];
@@ -126,22 +126,22 @@ static bool read_options(Options *options, int count, char **words, Error *error
     opterr = 0;
     optind = 0;
     for (;;) {
-        const char *word = words[optind > 0 ? optind : 1];
-        const int found = getopt_long(count, words, shorts, longs, NULL);
+        const char *word = arguments[optind > 0 ? optind : 1];
+        const int found = getopt_long(count, arguments, shorts, longs, NULL);
         if (found == -1)
             return options_check_conflicts(options, error);
         if (found == ':')
-            return error_set(error, "%s wants a value", words[optind - 1]);
+            return error_set(error, "%s wants a value", arguments[optind - 1]);
         if (found == '?')
-            return unknown_option(word != NULL && optind > 1 ? words[optind - 1] : word, error);
+            return unknown_option(word != NULL && optind > 1 ? arguments[optind - 1] : word, error);
         const size_t row = option_of(found);
-        if (!note_given(options, row, error) ||
+        if (!mark_given(options, row, error) ||
             !option_store(&option_table[row], options, optarg, error))
             return false;
     }
 }
 
-bool options_parse(Options *options, int count, char **words, Error *error)
+bool options_parse(Options *options, int count, char **arguments, Error *error)
 {
     *options = (Options){.samples = 1,
                          .view = 1,
@@ -151,14 +151,14 @@ bool options_parse(Options *options, int count, char **words, Error *error)
                          .uses_bvh = true,
                          .tile_width = OPTIONS_TILE,
                          .tile_height = OPTIONS_TILE};
-    if (!read_options(options, count, words, error))
+    if (!read_options(options, count, arguments, error))
         return false;
     if (command_of_action(options->action) != NULL)
         return check_purposes(options, command_of_action(options->action), error) &&
-               read_scene(options, count, words, error);
+               read_scene(options, count, arguments, error);
     if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
         return true;
-    const Command *command = optind < count ? command_named(words[optind]) : NULL;
+    const Command *command = optind < count ? command_named(arguments[optind]) : NULL;
     if (command != NULL) {
         optind++;
         options->action = command->action;
@@ -166,8 +166,8 @@ bool options_parse(Options *options, int count, char **words, Error *error)
     if (!check_purposes(options, command, error))
         return false;
     if (options->action == ACTION_MERGE)
-        return read_parts(options, count, words, error);
+        return read_parts(options, count, arguments, error);
     return command != NULL && command->two_operands != NULL
-               ? read_two(options, command, count, words, error)
-               : read_scene(options, count, words, error);
+               ? read_two(options, command, count, arguments, error)
+               : read_scene(options, count, arguments, error);
 }
