@@ -11,7 +11,7 @@
 
 // Assimp 5's file extensions. The list omits .ply, which clrt reads itself, .scn, which is clrt's
 // own, and plain .xml, which identifies no format.
-const char *const foreign_endings[] = {
+static const char *const endings[] = {
     "3d",      "3ds", "3mf",   "ac",   "ac3d",     "acc", "amf",    "ase",     "ask",
     "assbin",  "b3d", "blend", "bsp",  "bvh",      "cob", "csm",    "dae",     "dxf",
     "enff",    "fbx", "glb",   "gltf", "hmp",      "ifc", "ifczip", "iqm",     "irr",
@@ -21,15 +21,14 @@ const char *const foreign_endings[] = {
     "sib",     "smd", "step",  "stl",  "stp",      "ter", "uc",     "vrm",     "vta",
     "x",       "x3d", "x3db",  "xgl",  "zae",      "zgl",
 };
-const size_t foreign_ending_count = sizeof foreign_endings / sizeof foreign_endings[0];
 
 bool foreign_format_is(const char *path)
 {
     const size_t length = strlen(path);
-    for (size_t i = 0; i < foreign_ending_count; i++) {
-        const size_t ending = strlen(foreign_endings[i]);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t ending = strlen(endings[i]);
         if (length > ending && path[length - ending - 1] == '.' &&
-            strcasecmp(path + length - ending, foreign_endings[i]) == 0)
+            strcasecmp(path + length - ending, endings[i]) == 0)
             return true;
     }
     return false;

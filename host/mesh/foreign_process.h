@@ -6,12 +6,8 @@
 
 #include "base/child_process.h"
 
-// The extensions of mesh files that Assimp reads, in alphabetical order. The extension alone
-// decides, because most of these formats have no magic bytes.
-extern const char *const foreign_endings[];
-extern const size_t foreign_ending_count;
-
-// Returns whether the path ends in one of them, in either case.
+// Returns whether the path has the extension of a mesh format that Assimp reads, in either case.
+// The extension alone decides, because most of these formats have no magic bytes.
 bool foreign_format_is(const char *path);
 
 typedef struct {
