@@ -36,7 +36,7 @@ CORE = ["base", "mesh", "scene", "accel"]
 FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
 # The one file that starts threads, for all of the core.
-THREADS = ("base/parallel.c", "pthread.h")
+THREADS = ("base/thread_pool.c", "pthread.h")
 
 # Host and kernels share one header, and one host file brings it in for all floors above.
 SHARED = "../kernels/shared.h"

@@ -12,7 +12,7 @@
 
 typedef struct {
     Build build;
-    Crew *crew;
+    ThreadPool *pool;
     Upper upper;
     BuildItem *items;    // buffer for subtrees, one per worker
     BuildCounts *counts; // of each subtree
@@ -56,11 +56,11 @@ static bool build_subtrees(Whole *whole, Error *error)
 {
     const uint32_t count = (uint32_t)whole->upper.subtrees.count;
     whole->counts = memory_zeroed(count, sizeof *whole->counts, error);
-    whole->items = memory_raw(2 * SUBTREE_TRIANGLES * (size_t)crew_size(whole->crew),
+    whole->items = memory_raw(2 * SUBTREE_TRIANGLES * (size_t)thread_pool_size(whole->pool),
                               sizeof *whole->items, error);
     if (whole->counts == NULL || whole->items == NULL || !build_large(whole, error))
         return false;
-    crew_run(whole->crew, count, build_small, whole);
+    thread_pool_run(whole->pool, count, build_small, whole);
     return true;
 }
 
@@ -109,15 +109,15 @@ static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
     bvh->order = memory_raw(total, sizeof *bvh->order, error);
     if (bvh->nodes == NULL || bvh->order == NULL)
         return false;
-    crew_run(whole->crew, chunk_count(total), number_chunk, whole);
+    thread_pool_run(whole->pool, chunk_count(total), number_chunk, whole);
     // The midpoint split keeps its definition, on triangles only.
     const bool ok = builder == BVH_MIDPOINT
                         ? array_push(&whole->upper.subtrees, root, error)
-                        : upper_divide(&whole->upper, &whole->build, whole->crew, error);
+                        : upper_divide(&whole->upper, &whole->build, whole->pool, error);
     return ok && build_subtrees(whole, error) && finish(whole, error);
 }
 
-bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
+bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, ThreadPool *pool,
                Error *error)
 {
     *bvh = (Bvh){0};
@@ -128,7 +128,7 @@ bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings
                   .triangles = triangles,
                   .split = settings->builder == BVH_MIDPOINT ? split_midpoint : split_sah,
                   .leaves = settings->leaves},
-        .crew = crew};
+        .pool = pool};
     const bool ok = build_all(&whole, settings->builder, error);
     upper_free(&whole.upper);
     free(whole.items);

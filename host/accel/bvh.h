@@ -41,7 +41,7 @@ typedef struct {
 } Bvh;
 
 // Builds the tree. Without triangles it has no nodes.
-bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
+bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, ThreadPool *pool,
                Error *error);
 void bvh_free(Bvh *bvh);
 

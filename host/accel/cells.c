@@ -121,13 +121,13 @@ static void place_digits(Sorting *sorting)
         }
 }
 
-static void sort(Sorting *sorting, Crew *crew)
+static void sort(Sorting *sorting, ThreadPool *pool)
 {
     const uint32_t chunks = chunk_count(sorting->source.count);
     for (sorting->shift = 0; sorting->shift < 2 * DIGIT_BITS; sorting->shift += DIGIT_BITS) {
-        crew_run(crew, chunks, count_chunk, sorting);
+        thread_pool_run(pool, chunks, count_chunk, sorting);
         place_digits(sorting);
-        crew_run(crew, chunks, move_chunk, sorting);
+        thread_pool_run(pool, chunks, move_chunk, sorting);
         CellEntry *sorted = sorting->entries[1];
         sorting->entries[1] = sorting->entries[0];
         sorting->entries[0] = sorted;
@@ -183,11 +183,11 @@ static void make_cells(void *context, uint32_t chunk, uint32_t worker)
         place = make_cell(sorting, number++, place);
 }
 
-static bool gather_cells(Sorting *sorting, Crew *crew, Error *error)
+static bool gather_cells(Sorting *sorting, ThreadPool *pool, Error *error)
 {
     Cells *cells = sorting->cells;
     const uint32_t chunks = chunk_count(sorting->source.count);
-    crew_run(crew, chunks, count_cells, sorting);
+    thread_pool_run(pool, chunks, count_cells, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++) {
         const uint32_t count = sorting->cell_counts[chunk];
         sorting->cell_counts[chunk] = cells->count;
@@ -198,7 +198,7 @@ static bool gather_cells(Sorting *sorting, Crew *crew, Error *error)
     cells->numbers = memory_raw(sorting->source.count, sizeof *cells->numbers, error);
     if (cells->items == NULL || cells->starts == NULL || cells->numbers == NULL)
         return false;
-    crew_run(crew, chunks, make_cells, sorting);
+    thread_pool_run(pool, chunks, make_cells, sorting);
     cells->starts[cells->count] = sorting->source.count;
     return true;
 }
@@ -215,24 +215,24 @@ static bool allocate(Sorting *sorting, Error *error)
            sorting->places != NULL && sorting->cell_counts != NULL;
 }
 
-static bool sort_and_gather(Sorting *sorting, Crew *crew, Error *error)
+static bool sort_and_gather(Sorting *sorting, ThreadPool *pool, Error *error)
 {
     const uint32_t chunks = chunk_count(sorting->source.count);
     Bounds centers = bounds_empty();
-    crew_run(crew, chunks, measure_chunk, sorting);
+    thread_pool_run(pool, chunks, measure_chunk, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++)
         bounds_unite(&centers, &sorting->centers[chunk]);
     sorting->grid = grid_of(&centers);
-    crew_run(crew, chunks, key_chunk, sorting);
-    sort(sorting, crew);
-    return gather_cells(sorting, crew, error);
+    thread_pool_run(pool, chunks, key_chunk, sorting);
+    sort(sorting, pool);
+    return gather_cells(sorting, pool, error);
 }
 
-bool cells_make(Cells *cells, const CellSource *source, Crew *crew, Error *error)
+bool cells_make(Cells *cells, const CellSource *source, ThreadPool *pool, Error *error)
 {
     Sorting sorting = {.source = *source, .cells = cells};
     *cells = (Cells){0};
-    const bool ok = allocate(&sorting, error) && sort_and_gather(&sorting, crew, error);
+    const bool ok = allocate(&sorting, error) && sort_and_gather(&sorting, pool, error);
     free(sorting.entries[0]);
     free(sorting.entries[1]);
     free(sorting.centers);

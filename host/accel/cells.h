@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/bounds.h"
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 
 typedef struct {
     BuildItem *items;  // of each cell that is not empty: its bounds, number and weight
@@ -22,5 +22,5 @@ typedef struct {
 
 // Makes the cells. Triangles keep their order within a cell. If all centers are equal, one cell
 // holds all triangles.
-bool cells_make(Cells *cells, const CellSource *source, Crew *crew, Error *error);
+bool cells_make(Cells *cells, const CellSource *source, ThreadPool *pool, Error *error);
 void cells_free(Cells *cells);

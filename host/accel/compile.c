@@ -12,11 +12,11 @@ bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error
                                .bvh = tree,
                                .normalization = source->normalization,
                                .layout = source->layout,
-                               .crew = source->crew};
+                               .pool = source->pool};
     *tree = (Bvh){0};
     const bool ok =
-        triangles_make(&triangles, source->scene, source->normalization, source->crew, error) &&
-        (!source->has_tree || bvh_build(tree, &triangles, &settings, source->crew, error)) &&
+        triangles_make(&triangles, source->scene, source->normalization, source->pool, error) &&
+        (!source->has_tree || bvh_build(tree, &triangles, &settings, source->pool, error)) &&
         flat_make(flat, &stages, error);
     triangles_free(&triangles);
     bvh_free(&own);

@@ -9,8 +9,8 @@ typedef struct {
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     BvhBuilder builder;
-    bool has_tree; // otherwise rays test every triangle
-    Crew *crew;    // shares the work; NULL for none
+    bool has_tree;    // otherwise rays test every triangle
+    ThreadPool *pool; // shares the work; NULL for none
 } CompileSource;
 
 // Fills flat, which the caller frees.  Leaves the tree in *bvh, which the caller frees too, unless

@@ -35,7 +35,7 @@ typedef struct {
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    Crew *crew; // threads for the work, NULL for none
+    ThreadPool *pool; // threads for the work, NULL for none
 } FlatSource;
 
 // Returns the leaf unit that suits a layout.

@@ -149,7 +149,7 @@ bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
         ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
                              smooth ? flat->normals + flat->normals_count : NULL,
                              flat->normals_count};
-        crew_run(source->crew, chunk_count(count), make_chunk, &looks);
+        thread_pool_run(source->pool, chunk_count(count), make_chunk, &looks);
         first += count;
         flat->normals_count += smooth ? count : 0;
     }

@@ -264,20 +264,20 @@ static bool allocate(FlatScene *flat, Error *error)
 
 static bool collapse_tree(Collapse *collapse, Error *error)
 {
-    Crew *crew = collapse->source->crew;
+    ThreadPool *pool = collapse->source->pool;
     // Without upper levels the root is a branch. Even a single block needs a node.
     const Part root = part_of(collapse->source->bvh, 0);
     Walk upper = {.collapse = collapse, .is_upper = true};
     if (!count_node(&upper, &root, error))
         return false;
     const uint32_t branches = (uint32_t)collapse->branches.count;
-    crew_run(crew, branches, count_branch, collapse);
+    thread_pool_run(pool, branches, count_branch, collapse);
     place_branches(collapse, upper.next);
     if (!allocate(collapse->flat, error))
         return false;
     upper.next = (Extent){0};
     write_node(&upper, &root);
-    crew_run(crew, branches, write_branch, collapse);
+    thread_pool_run(pool, branches, write_branch, collapse);
     return true;
 }
 
@@ -296,7 +296,8 @@ static bool write_list(Collapse *collapse, Error *error)
     flat->block_count = (flat->triangle_count + WIDE - 1) / WIDE;
     if (!allocate(flat, error))
         return false;
-    crew_run(collapse->source->crew, chunk_count(flat->triangle_count), write_list_chunk, collapse);
+    thread_pool_run(collapse->source->pool, chunk_count(flat->triangle_count), write_list_chunk,
+                    collapse);
     return true;
 }
 
@@ -316,6 +317,6 @@ bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
                                                 : write_list(&collapse, error);
     free(collapse.branches.memory);
     if (ok)
-        crew_run(source->crew, chunk_count(flat->triangle_count), unmark_chunk, flat);
+        thread_pool_run(source->pool, chunk_count(flat->triangle_count), unmark_chunk, flat);
     return ok;
 }

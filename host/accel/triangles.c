@@ -77,7 +77,7 @@ static void store_corners(void *context, uint32_t chunk, uint32_t worker)
 }
 
 static void store_mesh(Triangles *triangles, const Mesh *mesh, const Normalization *normalization,
-                       Crew *crew)
+                       ThreadPool *pool)
 {
     Storing storing = {mesh,
                        normalization,
@@ -85,8 +85,8 @@ static void store_mesh(Triangles *triangles, const Mesh *mesh, const Normalizati
                        triangles->corners + triangles->count,
                        triangles->orders + triangles->count,
                        (uint32_t)triangles->point_count};
-    crew_run(crew, chunk_count((uint32_t)mesh->vertex_count), store_points, &storing);
-    crew_run(crew, chunk_count((uint32_t)mesh->triangle_count), store_corners, &storing);
+    thread_pool_run(pool, chunk_count((uint32_t)mesh->vertex_count), store_points, &storing);
+    thread_pool_run(pool, chunk_count((uint32_t)mesh->triangle_count), store_corners, &storing);
     triangles->point_count += mesh->vertex_count;
     triangles->count += mesh->triangle_count;
 }
@@ -100,7 +100,7 @@ static size_t vertex_count(const Scene *scene)
 }
 
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
-                    Crew *crew, Error *error)
+                    ThreadPool *pool, Error *error)
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
@@ -117,7 +117,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
         return false;
     }
     for (size_t i = 0; i < scene->objects.count; i++)
-        store_mesh(triangles, &scene->objects.data[i].mesh, normalization, crew);
+        store_mesh(triangles, &scene->objects.data[i].mesh, normalization, pool);
     return true;
 }
 

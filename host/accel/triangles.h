@@ -3,7 +3,7 @@
 // points give equal floats, as watertightness and the builders require.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "scene/normalize.h"
 
 #include <stdbool.h>
@@ -30,7 +30,7 @@ typedef struct {
 
 // The n-th triangle is the scene's n-th in file order.
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
-                    Crew *crew, Error *error);
+                    ThreadPool *pool, Error *error);
 void triangles_free(Triangles *triangles);
 
 static inline const CornerOrder *triangles_order(const Triangles *triangles, size_t triangle)

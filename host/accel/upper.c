@@ -100,12 +100,12 @@ static bool divide(const Division *division, const CellTask *node, Error *error)
            divide(division, &left, error) && divide(division, &right, error);
 }
 
-static bool divide_node(Upper *upper, const Build *build, const BuildTask *task, Crew *crew,
+static bool divide_node(Upper *upper, const Build *build, const BuildTask *task, ThreadPool *pool,
                         Error *error)
 {
     Division division = {.build = build, .upper = upper};
     const CellSource source = {build->triangles, build->bvh->order + task->first, task->count};
-    if (!cells_make(&division.cells, &source, crew, error))
+    if (!cells_make(&division.cells, &source, pool, error))
         return false;
     const uint32_t count = division.cells.count;
     const CellTask node = {*task, 0, count, 0};
@@ -126,7 +126,7 @@ static int compare_subtrees(const void *first, const void *second)
     return a->first < b->first ? -1 : 1;
 }
 
-bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error)
+bool upper_divide(Upper *upper, const Build *build, ThreadPool *pool, Error *error)
 {
     const BuildTask root = {.count = (uint32_t)build->triangles->count, .depth = 1};
     if (root.count <= USUAL_TRIANGLES)
@@ -134,7 +134,7 @@ bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error)
     bool ok = array_push(&upper->tasks, root, error);
     while (ok && upper->tasks.count > 0) {
         const BuildTask task = upper->tasks.data[--upper->tasks.count];
-        ok = divide_node(upper, build, &task, crew, error);
+        ok = divide_node(upper, build, &task, pool, error);
     }
     if (ok)
         qsort(upper->subtrees.data, upper->subtrees.count, sizeof(BuildTask), compare_subtrees);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/build.h"
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 
 // Subtrees have at most this many triangles, except those that nothing divides well.
 #define SUBTREE_TRIANGLES 65536
@@ -17,5 +17,5 @@ typedef struct {
 
 // Sorts the numbers in the tree's order so that each subtree's are adjacent. upper must be empty.
 // The caller frees it in both cases.
-bool upper_divide(Upper *upper, const Build *build, Crew *crew, Error *error);
+bool upper_divide(Upper *upper, const Build *build, ThreadPool *pool, Error *error);
 void upper_free(Upper *upper);

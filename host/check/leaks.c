@@ -23,11 +23,11 @@ static bool stage_mesh(StagedMesh *staged, const RayCaster *caster, const LeakSe
                                .bvh = &staged->bvh,
                                .normalization = setting->normalization,
                                .layout = caster->nodes,
-                               .crew = setting->crew};
-    return triangles_make(&staged->triangles, scene, setting->normalization, setting->crew,
+                               .pool = setting->pool};
+    return triangles_make(&staged->triangles, scene, setting->normalization, setting->pool,
                           error) &&
            (!setting->uses_bvh ||
-            bvh_build(&staged->bvh, &staged->triangles, &tree, setting->crew, error)) &&
+            bvh_build(&staged->bvh, &staged->triangles, &tree, setting->pool, error)) &&
            flat_make(&staged->flat, &source, error);
 }
 

@@ -20,7 +20,7 @@ typedef struct {
 typedef struct {
     const Normalization *normalization;
     const Closedness *closedness; // of the mesh
-    Crew *crew;
+    ThreadPool *pool;
     BvhBuilder builder;
     bool uses_bvh;
 } LeakSetting;

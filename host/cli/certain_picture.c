@@ -16,9 +16,9 @@ static bool flatten(const Run *run, FlatScene *flat, Error *error)
                                   .layout = certifier_choice().nodes,
                                   .builder = run->options->builder,
                                   .has_tree = true,
-                                  .crew = crew_open(threads_allowed(run->options->threads))};
+                                  .pool = thread_pool_open(threads_allowed(run->options->threads))};
     const bool ok = scene_compile(flat, NULL, &source, error);
-    crew_close(source.crew);
+    thread_pool_close(source.pool);
     return ok;
 }
 

@@ -25,13 +25,13 @@ typedef struct {
 static bool count_leaks(Check *check, RayCaster *caster, Error *error)
 {
     const Options *options = check->options;
-    Crew *crew = crew_open(threads_allowed(options->threads));
+    ThreadPool *pool = thread_pool_open(threads_allowed(options->threads));
     bool ok = true;
     for (size_t object = 0; ok && object < check->scene.objects.count; object++) {
         const LeakSetting setting = {
             .normalization = &check->normalization,
             .closedness = &check->census.meshes[object].closedness,
-            .crew = crew,
+            .pool = pool,
             .builder = options->builder,
             .uses_bvh = options->uses_bvh,
         };
@@ -39,7 +39,7 @@ static bool count_leaks(Check *check, RayCaster *caster, Error *error)
         if (mesh->triangle_count > 0)
             ok = leaks_count(&check->leaks[object], caster, mesh, &setting, error);
     }
-    crew_close(crew);
+    thread_pool_close(pool);
     return ok;
 }
 

@@ -45,12 +45,12 @@ static void count_tree(Run *run, const RefineTree *tree)
             run->samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
 }
 
-static bool draw_adaptively(Run *run, const CameraData *camera, Crew *crew,
+static bool draw_adaptively(Run *run, const CameraData *camera, ThreadPool *pool,
                             const RenderObserver *observer, Error *error)
 {
     Adaptive adaptive;
     const AdaptiveSetup setup = {&run->renderer, &run->flat,  camera,
-                                 crew,           &run->scene, &run->normalization};
+                                 pool,           &run->scene, &run->normalization};
     const bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
                     adaptive_refine(&adaptive, (float)run->options->contrast, observer, error);
     if (ok) {
@@ -72,14 +72,14 @@ static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *ou
     return error_left(run) <= 0 || goal_reach_error(ladder, error_left(run), outcome, error);
 }
 
-static bool draw_for_goal(Run *run, const CameraData *camera, Crew *crew,
+static bool draw_for_goal(Run *run, const CameraData *camera, ThreadPool *pool,
                           const RenderObserver *observer, Error *error)
 {
     Ladder ladder;
     GoalOutcome outcome = {0};
     Report *report = &run->report;
     const double start = clock_seconds();
-    const LadderSetup setup = {&run->renderer, camera, crew, &run->framebuffer, observer};
+    const LadderSetup setup = {&run->renderer, camera, pool, &run->framebuffer, observer};
     if (!ladder_open(&ladder, &setup, error))
         return false;
     const bool ok = refine(run, &ladder, start, &outcome, error);
@@ -98,9 +98,9 @@ bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserv
 {
     if (!keep_counts(run, error))
         return false;
-    Crew *crew = crew_open(threads_allowed(run->options->threads));
-    const bool ok = run->options->contrast > 0 ? draw_adaptively(run, camera, crew, observer, error)
-                                               : draw_for_goal(run, camera, crew, observer, error);
-    crew_close(crew);
+    ThreadPool *pool = thread_pool_open(threads_allowed(run->options->threads));
+    const bool ok = run->options->contrast > 0 ? draw_adaptively(run, camera, pool, observer, error)
+                                               : draw_for_goal(run, camera, pool, observer, error);
+    thread_pool_close(pool);
     return ok;
 }

@@ -134,9 +134,9 @@ bool run_build_scene(Run *run, Error *error)
         .layout = layout,
         .builder = options->builder,
         .has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene)),
-        .crew = crew_open(threads_allowed(options->threads))};
+        .pool = thread_pool_open(threads_allowed(options->threads))};
     const bool ok = scene_compile(&run->flat, &bvh, &source, error);
-    crew_close(source.crew);
+    thread_pool_close(source.pool);
     run->report.build += run_lap(&moment);
     if (ok)
         report_count_scene(&run->report, &run->scene, &bvh);

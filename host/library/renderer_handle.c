@@ -78,9 +78,9 @@ static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
                                   .layout = renderer->setup.source.choice.nodes,
                                   .builder = BVH_SAH,
                                   .has_tree = true,
-                                  .crew = crew_open(renderer->threads)};
+                                  .pool = thread_pool_open(renderer->threads)};
     const bool ok = scene_compile(&renderer->flat, NULL, &source, cause);
-    crew_close(source.crew);
+    thread_pool_close(source.pool);
     return ok;
 }
 

@@ -143,7 +143,7 @@ static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *erro
 {
     const PixelWants wants = {&adaptive->pixel_contrasts, &adaptive->thin_parts, threshold};
     return cut_footprints(&adaptive->tree, &adaptive->footprints, error) &&
-           pixel_marks_take(&adaptive->tree, &wants, adaptive->crew, error);
+           pixel_marks_take(&adaptive->tree, &wants, adaptive->pool, error);
 }
 
 // Looks at the groups from `first` up to `end`.
@@ -159,7 +159,7 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
-    crew_run(adaptive->crew, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
+    thread_pool_run(adaptive->pool, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
     const bool ok = cut_groups(tree, &marking, error);
     free(marking.marks);
     return ok;
@@ -197,12 +197,12 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
                    Error *error)
 {
     Renderer *renderer = setup->renderer;
-    *adaptive = (Adaptive){.renderer = renderer, .crew = setup->crew, .frame = renderer->frame};
+    *adaptive = (Adaptive){.renderer = renderer, .pool = setup->pool, .frame = renderer->frame};
     FrameData *frame = &adaptive->frame;
     frame->camera = *setup->camera;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
-    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->crew};
+    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->pool};
     const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
                     footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
                     thin_parts_make(&adaptive->thin_parts, &thin, error) &&
@@ -229,7 +229,8 @@ static void store_rows(void *context, uint32_t task, uint32_t worker)
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 {
     Storing storing = {&adaptive->tree, framebuffer};
-    crew_run(adaptive->crew, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows, &storing);
+    thread_pool_run(adaptive->pool, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows,
+                    &storing);
 }
 
 void adaptive_close(Adaptive *adaptive)

@@ -3,7 +3,7 @@
 // on the whole picture and not on the order of work, so every device renders the same bits.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/footprint.h"
 #include "refine/pixel_contrast.h"
 #include "refine/thin_parts.h"
@@ -18,7 +18,7 @@
 
 typedef struct {
     Renderer *renderer; // of KERNEL_SAMPLES; borrowed
-    Crew *crew;         // borrowed
+    ThreadPool *pool;   // borrowed
     FrameData frame;
     RefineTree tree;
     PixelContrasts pixel_contrasts;
@@ -32,7 +32,7 @@ typedef struct {
     Renderer *renderer;       // of KERNEL_SAMPLES
     const FlatScene *flat;    // of the renderer
     const CameraData *camera; // made for REFINE_GRID samples
-    Crew *crew;               // threads for the work, NULL for none
+    ThreadPool *pool;         // threads for the work, NULL for none
     const Scene *scene;       // of the renderer, too
     const Normalization *normalization;
 } AdaptiveSetup;

@@ -77,7 +77,7 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
     Exchange exchange = {tree, first, places, samples};
     bool ok = places != NULL && samples != NULL;
     if (ok) {
-        crew_run(adaptive->crew, tasks, list_places, &exchange);
+        thread_pool_run(adaptive->pool, tasks, list_places, &exchange);
         for (size_t i = 0; i < search->asked.count; i++) {
             uint32_t place[2];
             seam_asks(&tree->seams.data[search->asked.data[i]], place);
@@ -86,11 +86,11 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
         ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     }
     if (ok && adaptive_is_whole(adaptive)) {
-        crew_run(adaptive->crew, tasks, take_samples, &exchange);
+        thread_pool_run(adaptive->pool, tasks, take_samples, &exchange);
         tree->traced = (uint32_t)tree->groups.count;
         adaptive->samples += count;
         ok = seam_search_take(search, tree, samples + cut, error) &&
-             seam_search_open(tree, first, tree->traced, adaptive->crew, error);
+             seam_search_open(tree, first, tree->traced, adaptive->pool, error);
     } else {
         refine_tree_uncut(tree, first);
     }
@@ -125,9 +125,9 @@ bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Err
     if (places == NULL)
         return false;
     Exchange exchange = {.tree = tree, .places = places};
-    crew_run(adaptive->crew, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
+    thread_pool_run(adaptive->pool, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
     const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     adaptive->samples = (uint64_t)tree->width * tree->height;
     free(places);
-    return ok && pixel_contrasts_make(&adaptive->pixel_contrasts, tree, adaptive->crew, error);
+    return ok && pixel_contrasts_make(&adaptive->pixel_contrasts, tree, adaptive->pool, error);
 }

@@ -15,10 +15,10 @@ typedef struct {
 } Measuring;
 
 // Calls work for groups of ROWS_OF_TASK rows.
-static void run_rows(const Measuring *measuring, Crew *crew, CrewWork *work)
+static void run_rows(const Measuring *measuring, ThreadPool *pool, ThreadPoolWork *work)
 {
     const uint32_t height = measuring->picture->height;
-    crew_run(crew, (height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, work, (void *)measuring);
+    thread_pool_run(pool, (height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, work, (void *)measuring);
 }
 
 static uint32_t last_row(const Measuring *measuring, uint32_t task)
@@ -97,14 +97,14 @@ static void spread_rows(void *context, uint32_t task, uint32_t worker)
             measuring->results[(size_t)y * width + x] = largest_around(measuring, x, y);
 }
 
-void bends_measure(const Framebuffer *picture, Crew *crew, float *bends)
+void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends)
 {
     const Measuring measuring = {picture, NULL, bends};
-    run_rows(&measuring, crew, measure_rows);
+    run_rows(&measuring, pool, measure_rows);
 }
 
-void bends_spread(const Framebuffer *picture, Crew *crew, const float *bends, float *nearby)
+void bends_spread(const Framebuffer *picture, ThreadPool *pool, const float *bends, float *nearby)
 {
     const Measuring measuring = {picture, bends, nearby};
-    run_rows(&measuring, crew, spread_rows);
+    run_rows(&measuring, pool, spread_rows);
 }

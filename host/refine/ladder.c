@@ -47,8 +47,8 @@ static bool enter_all(Ladder *ladder, Error *error)
     float *nearby = memory_raw(pixels, sizeof *nearby, error);
     if (nearby == NULL)
         return false;
-    bends_measure(ladder->picture, ladder->crew, ladder->features);
-    bends_spread(ladder->picture, ladder->crew, ladder->features, nearby);
+    bends_measure(ladder->picture, ladder->pool, ladder->features);
+    bends_spread(ladder->picture, ladder->pool, ladder->features, nearby);
     for (size_t pixel = 0; pixel < pixels; pixel++) {
         const double bend = (double)ladder->features[pixel];
         enter(ladder, pixel, strata_of_bend(bend, (double)nearby[pixel]), bend * bend);
@@ -75,7 +75,7 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
     PixelRequests *requests = &ladder->requests;
     *ladder = (Ladder){
         .requests = {.renderer = renderer, .frame = renderer->frame, .observer = setup->observer},
-        .crew = setup->crew,
+        .pool = setup->pool,
         .picture = picture,
         .statistics.pixels = (size_t)picture->width * picture->height};
     requests->frame.camera = *setup->camera;
@@ -276,7 +276,7 @@ static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, 
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
         take_fractions(&choosing, ladder, samples);
-        crew_run(ladder->crew, chunks, choose_chunk, &choosing);
+        thread_pool_run(ladder->pool, chunks, choose_chunk, &choosing);
         const uint64_t count = join_chunks(&choosing, chunks);
         ok = climb_chosen(ladder, choosing.pixels, count, error);
         *advanced += count;

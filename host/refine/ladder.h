@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/array.h"
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/pixel_requests.h"
 #include "refine/strata.h"
 
@@ -15,7 +15,7 @@
 
 typedef struct {
     PixelRequests requests;
-    Crew *crew;            // borrowed; NULL for none
+    ThreadPool *pool;      // borrowed; NULL for none
     Framebuffer *picture;  // borrowed; means of the pixels' samples
     float *features;       // of each pixel, for its stratum
     uint8_t *strata;       // of each pixel
@@ -29,7 +29,7 @@ typedef struct {
 typedef struct {
     Renderer *renderer;             // of KERNEL_LADDER
     const CameraData *camera;       // made for LADDER_GRID samples
-    Crew *crew;                     // threads for the work, NULL for none
+    ThreadPool *pool;               // threads for the work, NULL for none
     Framebuffer *picture;           // of the renderer's size; the ladder renders into it
     const RenderObserver *observer; // may stop it; or NULL
 } LadderSetup;

@@ -128,15 +128,15 @@ static bool sort_triangles(MeshPieces *pieces, const Joining *joining, Error *er
     return ok;
 }
 
-static bool find_pieces(MeshPieces *pieces, Joining *joining, Crew *crew, Error *error)
+static bool find_pieces(MeshPieces *pieces, Joining *joining, ThreadPool *pool, Error *error)
 {
     const uint32_t triangles = (uint32_t)joining->mesh->triangle_count;
-    crew_run(crew, chunk_count((uint32_t)joining->mesh->vertex_count), refer_to_themselves,
-             joining);
-    crew_run(crew, chunk_count(triangles), join_triangles, joining);
+    thread_pool_run(pool, chunk_count((uint32_t)joining->mesh->vertex_count), refer_to_themselves,
+                    joining);
+    thread_pool_run(pool, chunk_count(triangles), join_triangles, joining);
     // Vertices that no triangle has may be what is not joined.
     if (joining->joints + 1 < joining->mesh->vertex_count)
-        crew_run(crew, chunk_count(triangles), see_whether_many, joining);
+        thread_pool_run(pool, chunk_count(triangles), see_whether_many, joining);
     if (joining->are_many)
         return sort_triangles(pieces, joining, error);
     pieces->ends[0] = triangles;
@@ -144,7 +144,7 @@ static bool find_pieces(MeshPieces *pieces, Joining *joining, Crew *crew, Error 
     return true;
 }
 
-bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, Crew *crew, Error *error)
+bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, ThreadPool *pool, Error *error)
 {
     Joining joining = {.mesh = mesh};
     *pieces = (MeshPieces){0};
@@ -153,7 +153,7 @@ bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, Crew *crew, Error *e
     joining.lower = memory_raw(mesh->vertex_count, sizeof *joining.lower, error);
     pieces->ends = memory_raw(mesh->triangle_count, sizeof *pieces->ends, error);
     const bool ok =
-        joining.lower != NULL && pieces->ends != NULL && find_pieces(pieces, &joining, crew, error);
+        joining.lower != NULL && pieces->ends != NULL && find_pieces(pieces, &joining, pool, error);
     free(joining.lower);
     if (!ok)
         mesh_pieces_free(pieces);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/error.h"
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "mesh/mesh.h"
 
 // Pieces of fewer triangles are one.
@@ -16,5 +16,5 @@ typedef struct {
     uint32_t count;
 } MeshPieces;
 
-bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, Crew *crew, Error *error);
+bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, ThreadPool *pool, Error *error);
 void mesh_pieces_free(MeshPieces *pieces);

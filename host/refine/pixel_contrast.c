@@ -137,7 +137,7 @@ static void compare_rows(void *context, uint32_t task, uint32_t worker)
         compare_strip(comparing, left, top, bottom);
 }
 
-bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Crew *crew,
+bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, ThreadPool *pool,
                           Error *error)
 {
     Comparing comparing = {tree, contrasts};
@@ -146,7 +146,8 @@ bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Cre
         memory_raw((size_t)tree->width * tree->height, sizeof *contrasts->values, error);
     if (contrasts->values == NULL)
         return false;
-    crew_run(crew, (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, compare_rows, &comparing);
+    thread_pool_run(pool, (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, compare_rows,
+                    &comparing);
     return true;
 }
 

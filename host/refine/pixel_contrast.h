@@ -3,7 +3,7 @@
 // the picture is refined: neighbors of pixels never change.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/contrast.h"
 
 // In rows, as contrast_read reads them.
@@ -13,7 +13,7 @@ typedef struct {
 } PixelContrasts;
 
 // What differs from a neighbor that met another surface or light counts twice.
-bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Crew *crew,
+bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, ThreadPool *pool,
                           Error *error);
 void pixel_contrasts_free(PixelContrasts *contrasts);
 

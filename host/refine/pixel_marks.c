@@ -111,13 +111,13 @@ static bool take_list(RefineTree *tree, const MarkList *list, Error *error)
     return true;
 }
 
-bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, Crew *crew, Error *error)
+bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, ThreadPool *pool, Error *error)
 {
     const uint32_t tasks = (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK;
     Marking marking = {tree, wants, memory_zeroed(tasks, sizeof *marking.lists, error)};
     bool ok = marking.lists != NULL;
     if (ok)
-        crew_run(crew, tasks, mark_rows, &marking);
+        thread_pool_run(pool, tasks, mark_rows, &marking);
     for (uint32_t task = 0; marking.lists != NULL && task < tasks; task++) {
         ok = ok && take_list(tree, &marking.lists[task], error);
         free(marking.lists[task].marks.data);

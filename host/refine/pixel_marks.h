@@ -14,4 +14,4 @@ typedef struct {
 
 // Cuts pixels of thin parts and those with contrasts that seams would not settle, and opens the
 // seams of the others.
-bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, Crew *crew, Error *error);
+bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, ThreadPool *pool, Error *error);

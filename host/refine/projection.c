@@ -76,14 +76,15 @@ Projection projection_of(const FrameData *frame, const Normalization *normalizat
                         .height = (double)frame->height * REFINE_GRID};
 }
 
-bool projection_begin(Projection *projection, const MeshObject *object, Crew *crew, Error *error)
+bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
+                      Error *error)
 {
     const uint32_t count = (uint32_t)object->mesh.vertex_count;
     projection->object = object;
     projection->points = memory_raw(count, sizeof *projection->points, error);
     if (projection->points == NULL)
         return false;
-    crew_run(crew, chunk_count(count), project_points, projection);
+    thread_pool_run(pool, chunk_count(count), project_points, projection);
     return true;
 }
 

@@ -2,7 +2,7 @@
 // A mesh and a camera -> where its triangles are seen, cut to the picture and two pixels around it.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/outline.h"
 #include "scene/normalize.h"
 
@@ -23,7 +23,8 @@ typedef struct {
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
 // Projects a mesh's vertices, and forgets them.
-bool projection_begin(Projection *projection, const MeshObject *object, Crew *crew, Error *error);
+bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
+                      Error *error);
 void projection_end(Projection *projection);
 
 // The box around a triangle that is all inside, whichever side it shows; false for others.

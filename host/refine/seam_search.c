@@ -160,7 +160,7 @@ static void link_seams(void *context, uint32_t task, uint32_t worker)
     }
 }
 
-static bool append_parts(Opening *opening, uint32_t tasks, Crew *crew, Error *error)
+static bool append_parts(Opening *opening, uint32_t tasks, ThreadPool *pool, Error *error)
 {
     RefineTree *tree = opening->tree;
     size_t count = tree->seams.count;
@@ -174,7 +174,7 @@ static bool append_parts(Opening *opening, uint32_t tasks, Crew *crew, Error *er
                        error))
         return false;
     tree->seams.count = count;
-    crew_run(crew, tasks, link_seams, opening);
+    thread_pool_run(pool, tasks, link_seams, opening);
     return true;
 }
 
@@ -186,16 +186,17 @@ static bool all_opened(const Opening *opening, uint32_t tasks, Error *error)
     return true;
 }
 
-bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error)
+bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, ThreadPool *pool,
+                      Error *error)
 {
     const uint32_t tasks = tasks_of(end - first, GROUPS_OF_TASK);
     Opening opening = {tree, first, end, NULL};
     opening.parts = memory_zeroed(tasks, sizeof *opening.parts, error);
     if (opening.parts == NULL)
         return false;
-    crew_run(crew, tasks, open_groups, &opening);
+    thread_pool_run(pool, tasks, open_groups, &opening);
     const bool ok =
-        all_opened(&opening, tasks, error) && append_parts(&opening, tasks, crew, error);
+        all_opened(&opening, tasks, error) && append_parts(&opening, tasks, pool, error);
     for (uint32_t task = 0; task < tasks; task++)
         free(opening.parts[task].seams.data);
     free(opening.parts);

@@ -2,7 +2,7 @@
 // A refined picture -> its seams, and the samples that place them.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/refine_tree.h"
 
 // Seams that a sample is wanted for.
@@ -12,7 +12,8 @@ typedef struct {
 } SeamSearch;
 
 // Opens the seams of the groups from `first` up to `end`, which have all their samples.
-bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error);
+bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, ThreadPool *pool,
+                      Error *error);
 
 // Asks for the seams with a contrast above the threshold, of those asked before and of new ones.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);

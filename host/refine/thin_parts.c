@@ -242,10 +242,10 @@ static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker
     }
 }
 
-static void share_triangles(Search *search, CrewWork *work)
+static void share_triangles(Search *search, ThreadPoolWork *work)
 {
     const uint32_t tasks = (search->count + TRIANGLES_OF_TASK - 1) / TRIANGLES_OF_TASK;
-    crew_run(search->source->crew, tasks, work, search);
+    thread_pool_run(search->source->pool, tasks, work, search);
 }
 
 // How many levels can be cut for the samples that there are.
@@ -299,7 +299,7 @@ static bool search_piece(Search *search, uint32_t end, Error *error)
     share_triangles(search, cover_pixels_of_piece);
     const uint32_t rows = search->bottom > search->top ? search->bottom - search->top : 0;
     if (search->found && is_large(search))
-        crew_run(search->source->crew, rows, find_wide_pixels, search);
+        thread_pool_run(search->source->pool, rows, find_wide_pixels, search);
     const bool ok = search_levels(search, error);
     if (rows > 0)
         pixel_set_clear_rows(&search->covered[0], search->top, search->bottom);
@@ -315,8 +315,8 @@ static bool search_mesh(Search *search, const MeshObject *object, Error *error)
     search->first = 0;
     search->depths = memory_raw(mesh->triangle_count, sizeof *search->depths, error);
     bool ok = search->depths != NULL &&
-              projection_begin(&search->projection, object, source->crew, error) &&
-              mesh_pieces_make(&search->pieces, mesh, source->crew, error);
+              projection_begin(&search->projection, object, source->pool, error) &&
+              mesh_pieces_make(&search->pieces, mesh, source->pool, error);
     for (uint32_t i = 0; ok && i < search->pieces.count; i++)
         ok = search_piece(search, search->pieces.ends[i], error);
     mesh_pieces_free(&search->pieces);

@@ -16,7 +16,7 @@
 //   pixel of the picture: the deepest go first.
 #pragma once
 
-#include "base/parallel.h"
+#include "base/thread_pool.h"
 #include "refine/cell_set.h"
 #include "refine/refine_tree.h"
 #include "scene/normalize.h"
@@ -35,7 +35,7 @@ typedef struct {
     const FrameData *frame; // its camera is made for REFINE_GRID samples
     const Scene *scene;
     const Normalization *normalization; // of the scene
-    Crew *crew;                         // to share the work, NULL for none
+    ThreadPool *pool;                   // to share the work, NULL for none
 } ThinSource;
 
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);

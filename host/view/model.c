@@ -14,10 +14,10 @@ static bool load(Model *model, const char *path, uint32_t threads, Error *error)
     model->normalization = normalization_of(&model->scene);
     if (!normalization_check(&model->normalization, &model->scene, &cause))
         return error_set(error, "%s: %s", path, cause.text);
-    Crew *crew = crew_open(threads);
+    ThreadPool *pool = thread_pool_open(threads);
     const bool ok =
-        triangles_make(&model->triangles, &model->scene, &model->normalization, crew, error);
-    crew_close(crew);
+        triangles_make(&model->triangles, &model->scene, &model->normalization, pool, error);
+    thread_pool_close(pool);
     return ok;
 }
 
@@ -36,9 +36,9 @@ Model *model_load(const char *path, uint32_t threads, Error *error)
 
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error)
 {
-    Crew *crew = crew_open(threads);
-    const bool ok = bvh_build(&model->bvh, &model->triangles, settings, crew, error);
-    crew_close(crew);
+    ThreadPool *pool = thread_pool_open(threads);
+    const bool ok = bvh_build(&model->bvh, &model->triangles, settings, pool, error);
+    thread_pool_close(pool);
     return ok;
 }
 

@@ -50,15 +50,15 @@ static bool flatten(FlatScene *flat, const Tracer *tracer, const Model *model, b
                     Error *error)
 {
     const Bvh none = {0};
-    Crew *crew = crew_open(tracer->options->threads);
+    ThreadPool *pool = thread_pool_open(tracer->options->threads);
     const FlatSource source = {&model->scene,
                                &model->triangles,
                                uses_bvh ? &model->bvh : &none,
                                &model->normalization,
                                tracer->setup.source.choice.nodes,
-                               crew};
+                               pool};
     const bool ok = flat_make(flat, &source, error);
-    crew_close(crew);
+    thread_pool_close(pool);
     return ok;
 }
 

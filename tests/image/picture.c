@@ -97,8 +97,8 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
 {
     Adaptive adaptive;
     const PictureRequest *request = pipeline->request;
-    Crew *crew = crew_open(request->threads);
-    const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat,         camera, crew,
+    ThreadPool *pool = thread_pool_open(request->threads);
+    const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat,         camera, pool,
                                  &pipeline->scene,    &pipeline->normalization};
     const bool ok =
         adaptive_open(&adaptive, &setup, NULL, error) && refine(&adaptive, request, error);
@@ -107,7 +107,7 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
     if (ok && request->sample_count != NULL)
         *request->sample_count = adaptive.samples;
     adaptive_close(&adaptive);
-    crew_close(crew);
+    thread_pool_close(pool);
     return ok;
 }
 
@@ -117,15 +117,15 @@ static bool draw_for_goal(Pipeline *pipeline, const CameraData *camera, Framebuf
     Ladder ladder;
     GoalOutcome outcome;
     const PictureRequest *request = pipeline->request;
-    Crew *crew = crew_open(request->threads);
-    const LadderSetup setup = {&pipeline->renderer, camera, crew, framebuffer, NULL};
+    ThreadPool *pool = thread_pool_open(request->threads);
+    const LadderSetup setup = {&pipeline->renderer, camera, pool, framebuffer, NULL};
     const bool ok = ladder_open(&ladder, &setup, error) &&
                     goal_reach_error(&ladder, request->error_goal, &outcome, error) &&
                     (outcome.reached || error_set(error, "the goal is missed"));
     if (ok && request->sample_count != NULL)
         *request->sample_count = ladder.samples;
     ladder_close(&ladder);
-    crew_close(crew);
+    thread_pool_close(pool);
     return ok;
 }
 

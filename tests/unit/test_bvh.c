@@ -16,10 +16,10 @@ static Bvh built(const Triangles *triangles, const BvhSettings *how, uint32_t th
 {
     Bvh bvh;
     Error error = {0};
-    Crew *crew = crew_open(threads);
-    if (!bvh_build(&bvh, triangles, how, crew, &error))
+    ThreadPool *pool = thread_pool_open(threads);
+    if (!bvh_build(&bvh, triangles, how, pool, &error))
         fail_msg("%s", error.text);
-    crew_close(crew);
+    thread_pool_close(pool);
     return bvh;
 }
 

@@ -19,11 +19,11 @@ static Mesh mesh_of(uint32_t vertices, uint32_t triangles)
     return mesh;
 }
 
-static MeshPieces pieces_of(const Mesh *mesh, Crew *crew)
+static MeshPieces pieces_of(const Mesh *mesh, ThreadPool *pool)
 {
     Error error;
     MeshPieces pieces;
-    assert_true(mesh_pieces_make(&pieces, mesh, crew, &error));
+    assert_true(mesh_pieces_make(&pieces, mesh, pool, &error));
     return pieces;
 }
 
@@ -100,11 +100,11 @@ static void pieces_are_what_shared_vertices_join(void **state)
     static uint32_t lowest[VERTICES];
     find_lowest(&mesh, lowest);
     for (uint32_t threads = 1; threads <= 4; threads++) {
-        Crew *crew = crew_open(threads);
-        MeshPieces pieces = pieces_of(&mesh, crew);
+        ThreadPool *pool = thread_pool_open(threads);
+        MeshPieces pieces = pieces_of(&mesh, pool);
         expect_pieces(&mesh, &pieces, lowest);
         mesh_pieces_free(&pieces);
-        crew_close(crew);
+        thread_pool_close(pool);
     }
     free(mesh.triangles);
 }

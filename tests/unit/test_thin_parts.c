@@ -59,11 +59,11 @@ static void search(World *world, uint32_t threads)
     world->normalization = normalization_of(&world->scene);
     world->frame = (FrameData){.width = SIDE, .height = SIDE, .max_level = 1};
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, REFINE_GRID);
-    Crew *crew = crew_open(threads);
-    const ThinSource source = {&world->frame, &world->scene, &world->normalization, crew};
+    ThreadPool *pool = thread_pool_open(threads);
+    const ThinSource source = {&world->frame, &world->scene, &world->normalization, pool};
     Error error;
     assert_true(thin_parts_make(&world->parts, &source, &error));
-    crew_close(crew);
+    thread_pool_close(pool);
 }
 
 static void close_world(World *world)

@@ -5,21 +5,21 @@
 
 #include <stdint.h>
 
-typedef struct Crew Crew;
+typedef struct ThreadPool ThreadPool;
 
-// Runs one task. The worker's number, below crew_size, selects per-thread memory.
-typedef void CrewWork(void *context, uint32_t task, uint32_t worker);
+// Runs one task. The worker's number, below thread_pool_size, selects per-thread memory.
+typedef void ThreadPoolWork(void *context, uint32_t task, uint32_t worker);
 
 // Opens a pool of `threads` threads, including the caller's. NULL is a pool of the caller alone:
 // for one thread, and if the system grants none.
-Crew *crew_open(uint32_t threads);
-void crew_close(Crew *crew);
+ThreadPool *thread_pool_open(uint32_t threads);
+void thread_pool_close(ThreadPool *pool);
 
-uint32_t crew_size(const Crew *crew);
+uint32_t thread_pool_size(const ThreadPool *pool);
 
 // Calls work once for each task below count and returns when all are done. Low numbers start
 // first. work must not use the pool itself.
-void crew_run(Crew *crew, uint32_t count, CrewWork *work, void *context);
+void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, void *context);
 
 // Number of elements in a chunk, the unit of shared work.
 #define CHUNK_ELEMENTS 16384
