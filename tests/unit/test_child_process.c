@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// A child process answers, has no terminal, and takes nobody with it when it dies; it dies with its
+// parent.
+#include "base/child_process.h"
+
+#include "unit/cmocka_all.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void start(ChildProcess *child, ChildWork *work, const void *context)
+{
+    Error error = {0};
+    assert_true(child_fork(child, work, context, &error));
+}
+
+static void double_numbers(int socket, const void *context)
+{
+    int number;
+    (void)context;
+    while (child_receive(socket, &number, sizeof number)) {
+        number *= 2;
+        child_send(socket, &number, sizeof number);
+    }
+}
+
+static void a_child_answers_until_it_is_ended(void **state)
+{
+    ChildProcess child;
+    (void)state;
+    start(&child, double_numbers, NULL);
+    for (int number = 1; number < 1000; number++) {
+        int answer = 0;
+        assert_true(child_send(child.socket, &number, sizeof number));
+        assert_true(child_receive(child.socket, &answer, sizeof answer));
+        assert_int_equal(answer, 2 * number);
+    }
+    const int status = child_end(&child);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+static void send_much(int socket, const void *context)
+{
+    static char bytes[10000000];
+    memset(bytes, 7, sizeof bytes);
+    (void)context;
+    child_send(socket, bytes, sizeof bytes);
+}
+
+static void a_long_message_arrives_whole(void **state)
+{
+    static char bytes[10000000];
+    ChildProcess child;
+    (void)state;
+    start(&child, send_much, NULL);
+    assert_true(child_receive(child.socket, bytes, sizeof bytes));
+    for (size_t i = 0; i < sizeof bytes; i++)
+        assert_int_equal(bytes[i], 7);
+    assert_false(child_receive(child.socket, bytes, 1));
+    child_end(&child);
+}
+
+static void report_streams(int socket, const void *context)
+{
+    char letter;
+    (void)context;
+    const int empty = read(STDIN_FILENO, &letter, 1) == 0 && !isatty(STDOUT_FILENO);
+    child_send(socket, &empty, sizeof empty);
+}
+
+static void a_child_has_empty_streams(void **state)
+{
+    ChildProcess child;
+    int empty = 0;
+    (void)state;
+    start(&child, report_streams, NULL);
+    assert_true(child_receive(child.socket, &empty, sizeof empty));
+    child_end(&child);
+    assert_true(empty);
+}
+
+static void die(int socket, const void *context)
+{
+    (void)socket, (void)context;
+    raise(SIGKILL);
+}
+
+// A signal for a broken connection would end this process, too.
+static void messages_to_a_dead_child_fail(void **state)
+{
+    ChildProcess child;
+    char bytes[100] = "";
+    (void)state;
+    start(&child, die, NULL);
+    assert_false(child_receive(child.socket, bytes, sizeof bytes));
+    assert_false(child_send(child.socket, bytes, sizeof bytes));
+    child_end(&child);
+}
+
+static void ending_no_child_is_harmless(void **state)
+{
+    ChildProcess none = {0};
+    (void)state;
+    assert_int_equal(child_end(&none), 0);
+}
+
+static void sleep_long(int socket, const void *context)
+{
+    (void)context;
+    child_send(socket, "", 1);
+    sleep(60);
+}
+
+// The pipe's writing end stays open as long as any of the two processes lives.
+static void a_child_ends_with_its_parent(void **state)
+{
+    int ends[2];
+    (void)state;
+    assert_int_equal(pipe(ends), 0);
+    const pid_t parent = fork();
+    if (parent == 0) {
+        ChildProcess child;
+        Error error = {0};
+        char started;
+        _exit(child_fork(&child, sleep_long, NULL, &error) &&
+              child_receive(child.socket, &started, 1));
+    }
+    close(ends[1]);
+    struct pollfd end = {.fd = ends[0], .events = POLLIN};
+    assert_int_equal(poll(&end, 1, 20000), 1);
+    assert_int_not_equal(end.revents & POLLHUP, 0);
+    int status;
+    assert_int_equal(waitpid(parent, &status, 0), parent);
+    assert_int_equal(WEXITSTATUS(status), 1);
+    close(ends[0]);
+}
+
+static void sleep_confined(int socket, const void *context)
+{
+    confine_process(1);
+    sleep_long(socket, context);
+}
+
+static void a_confined_child_ends_after_its_time(void **state)
+{
+    ChildProcess child;
+    const ChildLimits limits = {.seconds = 60, .bytes = 10};
+    File output;
+    Error error = {0};
+    int signal;
+    (void)state;
+    start(&child, sleep_confined, NULL);
+    assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
+    assert_int_equal(signal, SIGALRM);
+    file_free(&output);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_child_answers_until_it_is_ended),
+        cmocka_unit_test(a_long_message_arrives_whole),
+        cmocka_unit_test(a_child_has_empty_streams),
+        cmocka_unit_test(messages_to_a_dead_child_fail),
+        cmocka_unit_test(ending_no_child_is_harmless),
+        cmocka_unit_test(a_child_ends_with_its_parent),
+        cmocka_unit_test(a_confined_child_ends_after_its_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
