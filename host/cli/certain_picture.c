@@ -22,8 +22,9 @@ static bool flatten(const Run *run, FlatScene *flat, Error *error)
     return ok;
 }
 
-static bool certify(Run *run, const CameraData *camera, const FlatScene *flat, Error *error)
+static bool certify(Picture *picture, const CameraData *camera, const FlatScene *flat, Error *error)
 {
+    Run *run = picture->run;
     Certifier certifier;
     RendererSetup setup = run->async_device.setup;
     setup.source.choice = certifier_choice();
@@ -31,26 +32,28 @@ static bool certify(Run *run, const CameraData *camera, const FlatScene *flat, E
         return false;
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const CertifiedPicture picture = {&run->framebuffer, &run->certainty};
-    const bool ok = certifier_certify(&certifier, camera, &observer, &picture, error);
-    run->stopped_by = progress_end(&progress);
+    const CertifiedPicture certified = {&picture->framebuffer, &picture->certainty};
+    const bool ok = certifier_certify(&certifier, camera, &observer, &certified, error);
+    picture->stopped_by = progress_end(&progress);
     certifier_close(&certifier);
     return ok;
 }
 
-bool certain_picture_make(Run *run, const CameraData *camera, Error *error)
+bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error)
 {
+    Run *run = picture->run;
     FlatScene flat = {0};
     double moment = clock_seconds();
     const RenderSettings *settings = &run->settings;
-    if (!certainty_map_make(&run->certainty, settings->width, settings->height, error))
+    if (!certainty_map_make(&picture->certainty, settings->width, settings->height, error))
         return false;
-    if (run->stopped_by != 0)
+    if (picture->stopped_by != 0)
         return true;
-    const bool ok = flatten(run, &flat, error) && certify(run, camera, &flat, error);
+    const bool ok = flatten(run, &flat, error) && certify(picture, camera, &flat, error);
     flat_free(&flat);
-    run->report.complete = run->report.complete && run->stopped_by == 0;
+    run->report.complete = run->report.complete && picture->stopped_by == 0;
     run->report.certainty.seconds = run_lap(&moment);
-    memcpy(run->report.certainty.pixels, run->certainty.counts, sizeof run->certainty.counts);
+    memcpy(run->report.certainty.pixels, picture->certainty.counts,
+           sizeof picture->certainty.counts);
     return ok;
 }

@@ -23,7 +23,7 @@
 
 // The observer's context.
 typedef struct {
-    Run *run;
+    Picture *picture;
     Progress progress;
     Error *error;
 } Watch;
@@ -31,34 +31,36 @@ typedef struct {
 static bool tile_done(void *context, const RenderProgress *render)
 {
     Watch *watch = context;
-    Run *run = watch->run;
-    return resume_keep(&run->resume, &run->settings, &run->framebuffer, render->tiles_done - 1,
-                       watch->error) &&
+    Picture *picture = watch->picture;
+    return resume_keep(&picture->resume, &picture->run->settings, &picture->framebuffer,
+                       render->tiles_done - 1, watch->error) &&
            progress_tile_done(&watch->progress, render);
 }
 
 // Draws the picture once; --repeat draws it again.
-static bool draw_frame(Run *run, const CameraData *camera, Error *error)
+static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 {
+    Run *run = picture->run;
     double moment = clock_seconds();
-    Watch watch = {run, progress_begin(run->options->quiet), error};
+    Watch watch = {picture, progress_begin(run->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
     const bool ok =
         options_are_adaptive(run->options)
-            ? refined_picture_draw(run, camera, &observer, error)
-            : renderer_draw(&run->renderer, camera, &observer, &run->framebuffer, error);
-    run->stopped_by = progress_end(&watch.progress);
+            ? refined_picture_draw(picture, camera, &observer, error)
+            : renderer_draw(&run->renderer, camera, &observer, &picture->framebuffer, error);
+    picture->stopped_by = progress_end(&watch.progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
     run->report.frame_seconds[run->report.frame_count++] = seconds;
-    return ok && !run->resume.is_broken;
+    return ok && !picture->resume.is_broken;
 }
 
-static CameraData camera_of(const Run *run, uint32_t samples)
+static CameraData camera_of(const Picture *picture, uint32_t samples)
 {
-    return camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings),
-                       samples);
+    const Run *run = picture->run;
+    return camera_make(&picture->viewpoint, &run->normalization,
+                       render_whole_height(&run->settings), samples);
 }
 
 // Returns the number of sample positions along a pixel's side.
@@ -84,12 +86,14 @@ static void count_samples(Run *run)
     report->samples = report->pixels * settings->samples * settings->samples;
 }
 
-static bool draw(Run *run, Error *error)
+static bool draw(Picture *picture, Error *error)
 {
-    const CameraData camera = camera_of(run, samples_across(run));
+    Run *run = picture->run;
+    const CameraData camera = camera_of(picture, samples_across(run));
     bool ok = true;
-    for (uint32_t frame = 0; ok && run->stopped_by == 0 && frame < run->options->repeat; frame++)
-        ok = draw_frame(run, &camera, error);
+    for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < run->options->repeat;
+         frame++)
+        ok = draw_frame(picture, &camera, error);
     run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
     run->report.tiles_done = done->tiles_done;
@@ -100,71 +104,79 @@ static bool draw(Run *run, Error *error)
     return ok;
 }
 
-static bool trace_layers(Run *run, const AovPass *pass, Error *error)
+static bool trace_layers(Picture *picture, const AovPass *pass, Error *error)
 {
+    Run *run = picture->run;
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = aov_pass_draw(pass, &observer, &run->layers, error);
-    run->stopped_by = progress_end(&progress);
-    run->report.complete = run->report.complete && run->stopped_by == 0;
+    const bool ok = aov_pass_draw(pass, &observer, &picture->layers, error);
+    picture->stopped_by = progress_end(&progress);
+    run->report.complete = run->report.complete && picture->stopped_by == 0;
     return ok;
 }
 
-static bool certify(Run *run, Error *error)
+static bool certify(Picture *picture, Error *error)
 {
-    const CameraData camera = camera_of(run, run->settings.samples);
+    Run *run = picture->run;
+    const CameraData camera = camera_of(picture, run->settings.samples);
     return !aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY) ||
-           certain_picture_make(run, &camera, error);
+           certain_picture_make(picture, &camera, error);
 }
 
 // Computes the channels beside the colors.  A stopped picture has none of their values.
-static bool draw_layers(Run *run, Error *error)
+static bool draw_layers(Picture *picture, Error *error)
 {
+    Run *run = picture->run;
     AovPass pass;
     const AovSet aovs = run->options->aovs;
     const RenderSettings *settings = &run->settings;
     const AovSource source = {.setup = &run->async_device.setup,
                               .renderer = &run->renderer,
-                              .camera = camera_of(run, settings->samples),
-                              .center = camera_of(run, 1),
-                              .samples = run->samples,
+                              .camera = camera_of(picture, settings->samples),
+                              .center = camera_of(picture, 1),
+                              .samples = picture->samples,
                               .scene = {&run->normalization, run->flat.light_count},
-                              .certainty = run->certainty.marks != NULL ? &run->certainty : NULL};
-    aov_name_layers(aovs, &run->layers);
-    reference_name_layer(run->options, &run->layers);
-    if (!layers_make(&run->layers, settings->width, settings->height, error))
+                              .certainty =
+                                  picture->certainty.marks != NULL ? &picture->certainty : NULL};
+    aov_name_layers(aovs, &picture->layers);
+    reference_name_layer(run->options, &picture->layers);
+    if (!layers_make(&picture->layers, settings->width, settings->height, error))
         return false;
-    if (aovs == 0 || run->stopped_by != 0)
+    if (aovs == 0 || picture->stopped_by != 0)
         return true;
     if (!aov_pass_open(&pass, aovs, &source, error))
         return false;
-    const bool ok = trace_layers(run, &pass, error);
+    const bool ok = trace_layers(picture, &pass, error);
     aov_pass_close(&pass);
     return ok;
 }
 
-static bool measure_error(Run *run, Error *error)
+static bool measure_error(Picture *picture, Error *error)
 {
+    Run *run = picture->run;
     if (!run->options->reference)
         return true;
-    const bool ok = reference_measure(run, error);
+    const bool ok = reference_measure(picture, error);
     if (ok && !run->options->quiet)
         report_write_error(&run->report, stderr);
     return ok;
 }
 
-static bool write_reference(const Run *run, Error *error)
+static bool write_reference(const Picture *picture, Error *error)
 {
+    const Run *run = picture->run;
     const char *path = run->options->reference_path;
-    return path == NULL || run->reference.pixels == NULL || reference_write(run, path, error);
+    return path == NULL || picture->reference.pixels == NULL ||
+           reference_write(picture, path, error);
 }
 
-static bool write_picture(Run *run, Error *error)
+static bool write_picture(Picture *picture, Error *error)
 {
+    Run *run = picture->run;
     Provenance provenance;
     const Options *options = run->options;
     double moment = clock_seconds();
-    framebuffer_hash(&run->framebuffer, run->report.pixel_hash);
+    framebuffer_hash(&picture->framebuffer, run->report.pixel_hash);
     report_fill_provenance(&provenance, &run->report);
     provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
@@ -175,8 +187,8 @@ static bool write_picture(Run *run, Error *error)
                                     .whole_height = render_whole_height(&run->settings),
                                     .texts = provenance.list,
                                     .text_count = options->no_metadata ? 0 : provenance.count,
-                                    .layers = run->layers.count > 0 ? &run->layers : NULL};
-    const bool ok = image_write(&run->framebuffer, run->output_path, &settings, error);
+                                    .layers = picture->layers.count > 0 ? &picture->layers : NULL};
+    const bool ok = image_write(&picture->framebuffer, picture->path, &settings, error);
     run->report.write = run_lap(&moment);
     return ok;
 }
@@ -214,12 +226,13 @@ static void describe(const Run *run)
             report->upload_size);
 }
 
-static void print_beginning(const Run *run)
+static void print_beginning(const Picture *picture)
 {
+    const Run *run = picture->run;
     if (!run->options->verbose)
         return;
     if (frames_are_many(&run->options->frames))
-        fprintf(stderr, "picture: %s\n", run->output_path);
+        fprintf(stderr, "picture: %s\n", picture->path);
     if (run->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
                 (unsigned long long)run->settings.ready_tiles,
@@ -239,15 +252,17 @@ static ExitCode goal_missed(const Run *run, Error *error)
 }
 
 // Finds errors that need no work to find.
-static ExitCode check_files(Run *run, Error *error)
+static ExitCode check_files(Picture *picture, Error *error)
 {
+    Run *run = picture->run;
     const Options *options = run->options;
     if (!provenance_check_date(error))
         return EXIT_USAGE;
     if (!output_file_check(options->output_path, error) ||
         (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
-    return options->resume && !resume_look(&run->resume, options, error) ? EXIT_SCENE : EXIT_DONE;
+    return options->resume && !resume_look(&picture->resume, options, error) ? EXIT_SCENE
+                                                                             : EXIT_DONE;
 }
 
 static void warn_of_goal(const Options *options)
@@ -273,45 +288,50 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees the previous picture.
-static void clear(Run *run)
+// Frees the previous frame.
+static void clear(Picture *picture)
 {
-    framebuffer_free(&run->framebuffer);
-    framebuffer_free(&run->reference);
-    layers_free(&run->layers);
-    certainty_map_free(&run->certainty);
-    free(run->samples);
-    run->samples = NULL;
+    Run *run = picture->run;
+    framebuffer_free(&picture->framebuffer);
+    framebuffer_free(&picture->reference);
+    layers_free(&picture->layers);
+    certainty_map_free(&picture->certainty);
+    free(picture->samples);
+    picture->samples = NULL;
     run->report.frame_count = 0;
 }
 
 // Sets the viewpoint of the frame with that number.
-static void set_view(Run *run, uint32_t number)
+static void set_view(Picture *picture, uint32_t number)
 {
+    Run *run = picture->run;
     const Options *options = run->options;
     const uint32_t steps = options->frames.turntable;
     run->report.view = steps > 0 ? options->view : number;
     run->report.turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
-    run->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
-                                    run->scene.has_course_views, run->report.turned);
+    picture->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
+                                        run->scene.has_course_views, run->report.turned);
 }
 
 // Makes a black picture with the tiles of an earlier run.
-static bool begin_picture(Run *run, Error *error)
+static bool begin_picture(Picture *picture, Error *error)
 {
+    Run *run = picture->run;
     Provenance own;
     RenderSettings *settings = &run->settings;
     report_fill_provenance(&own, &run->report);
-    const bool ok = framebuffer_make(&run->framebuffer, settings->width, settings->height, error) &&
-                    resume_open(&run->resume, &own, settings, &run->framebuffer, error);
+    const bool ok =
+        framebuffer_make(&picture->framebuffer, settings->width, settings->height, error) &&
+        resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
     run->renderer.settings.ready_tiles = settings->ready_tiles;
     return ok;
 }
 
-static ExitCode report_stopped(const Run *run, Error *error)
+static ExitCode report_stopped(const Picture *picture, Error *error)
 {
+    const Run *run = picture->run;
     const RenderProgress *progress = &run->renderer.progress;
-    const char *path = run->output_path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
+    const char *path = picture->path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
     if (run->report.complete)
         error_set(error, "stopped: %s is whole", name);
     else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
@@ -319,40 +339,42 @@ static ExitCode report_stopped(const Run *run, Error *error)
     else
         error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,
                   (unsigned long long)progress->tiles_done, (unsigned long long)progress->tiles);
-    return (ExitCode)(128 + run->stopped_by);
+    return (ExitCode)(128 + picture->stopped_by);
 }
 
-static ExitCode finish(Run *run, double start, Error *error)
+static ExitCode finish(Picture *picture, double start, Error *error)
 {
-    if (!write_picture(run, error) || !write_reference(run, error) ||
+    Run *run = picture->run;
+    if (!write_picture(picture, error) || !write_reference(picture, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
-    resume_close(&run->resume, run->report.complete);
-    if (run->stopped_by > 0)
-        return report_stopped(run, error);
+    resume_close(&picture->resume, run->report.complete);
+    if (picture->stopped_by > 0)
+        return report_stopped(picture, error);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
 }
 
-static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error)
+static ExitCode make_frame(Picture *picture, uint32_t number, double start, Error *error)
 {
-    clear(run);
-    set_view(run, number);
-    if (!begin_picture(run, error))
-        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
-    print_beginning(run);
+    clear(picture);
+    set_view(picture, number);
+    if (!begin_picture(picture, error))
+        return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
+    print_beginning(picture);
     stop_wait_for_tiles();
-    if (!draw(run, error))
-        return run->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
-    if (!certify(run, error) || !draw_layers(run, error) || !measure_error(run, error))
+    if (!draw(picture, error))
+        return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
+    if (!certify(picture, error) || !draw_layers(picture, error) || !measure_error(picture, error))
         return EXIT_DEVICE;
-    return finish(run, start, error);
+    return finish(picture, start, error);
 }
 
 // A frame that misses its goal does not keep the others from being drawn.
-static ExitCode make_frames(Run *run, double start, Error *error)
+static ExitCode make_frames(Picture *picture, double start, Error *error)
 {
+    Run *run = picture->run;
     ExitCode outcome = EXIT_DONE;
     const Frames *frames = &run->options->frames;
     const uint32_t count = frames_count(frames);
@@ -365,8 +387,8 @@ static ExitCode make_frames(Run *run, double start, Error *error)
         char *name = frames_name(run->options->output_path, number, error);
         if (name == NULL)
             return EXIT_OUTPUT;
-        run->output_path = name;
-        const ExitCode code = make_frame(run, number, start, error);
+        picture->path = name;
+        const ExitCode code = make_frame(picture, number, start, error);
         outcome = code > outcome ? code : outcome;
         free(name);
     }
@@ -377,14 +399,16 @@ ExitCode picture_make(Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
+    Picture picture = {.run = run, .path = options->output_path};
     stop_watch();
-    ExitCode code = check_files(run, error);
+    ExitCode code = check_files(&picture, error);
     if (code == EXIT_DONE)
         code = prepare(run, error);
-    if (code != EXIT_DONE)
-        return code;
-    if (frames_are_many(&options->frames))
-        return make_frames(run, start, error);
-    run->output_path = options->output_path;
-    return make_frame(run, options->view, start, error);
+    if (code == EXIT_DONE)
+        code = frames_are_many(&options->frames)
+                   ? make_frames(&picture, start, error)
+                   : make_frame(&picture, options->view, start, error);
+    clear(&picture);
+    resume_close(&picture.resume, false);
+    return code;
 }

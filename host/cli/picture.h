@@ -4,6 +4,22 @@
 #pragma once
 
 #include "cli/run.h"
+#include "jobs/resume.h"
+#include "render/certifier.h"
+
+// A picture while it is made, or one frame after another.  {0} is a valid empty value.
+typedef struct {
+    Run *run;         // the scene, the renderer and the report
+    const char *path; // of its file
+    Viewpoint viewpoint;
+    Framebuffer framebuffer;
+    Framebuffer reference;  // empty unless requested
+    Layers layers;          // beside the colors
+    uint32_t *samples;      // of each pixel, for the layers; NULL if all have the same number
+    CertaintyMap certainty; // empty unless requested
+    Resume resume;          // empty without --resume
+    int stopped_by;         // a signal; 0 if the picture is complete
+} Picture;
 
 // A reference is the same view drawn again in fp64, with many samples different from the picture's.
 
@@ -11,19 +27,19 @@
 // Does nothing unless the options request it and the file's format supports it.
 void reference_name_layer(const Options *options, Layers *layers);
 
-// Draws the reference of run's picture into run->reference, measures the difference and fills the
+// Draws the reference of a picture into its reference, measures the difference and fills the
 // error channel.  Its rays reach the level of the scene or of the picture's settings, whichever is
 // higher.  If the picture or its reference is stopped, nothing is measured.
-bool reference_measure(Run *run, Error *error);
+bool reference_measure(Picture *picture, Error *error);
 
 // Writes the reference, in the format of the path's ending.
-bool reference_write(const Run *run, const char *path, Error *error);
+bool reference_write(const Picture *picture, const char *path, Error *error);
 
-// Draws the run's picture and stores its cost in the report.
-bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserver *observer,
-                          Error *error);
+// Draws the picture and stores its cost in the report.
+bool refined_picture_draw(Picture *picture, const CameraData *camera,
+                          const RenderObserver *observer, Error *error);
 
 // Computes the certainty of each pixel and repairs pixels in fp64: fills the run's certainty,
 // repairs its finished picture and stores the counts in its report.  A stopped picture stays
 // unchanged, without any certified pixel.
-bool certain_picture_make(Run *run, const CameraData *camera, Error *error);
+bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error);

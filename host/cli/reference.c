@@ -21,6 +21,7 @@
 typedef struct {
     Options options;
     Run run;
+    Framebuffer pass;       // the latest one
     double (*halves[2])[3]; // sums of the passes
     Progress progress;
     uint32_t passes, passes_done;
@@ -50,20 +51,19 @@ static Options options_of(const Options *picture)
     return options;
 }
 
-static bool open_run(Reference *reference, const Run *picture, Error *error)
+static bool open_run(Reference *reference, const Run *original, Error *error)
 {
     Run *run = &reference->run;
-    reference->options = options_of(picture->options);
+    reference->options = options_of(original->options);
     run->options = &reference->options;
-    run->cache = picture->cache;
+    run->cache = original->cache;
     run_begin(run);
     if (!run_load_scene(run, error))
         return false;
-    run->viewpoint = picture->viewpoint;
     if (run->settings.max_level < run->scene.max_level)
         run->settings.max_level = run->scene.max_level;
     return run_prepare(run, error) == EXIT_DONE &&
-           framebuffer_make(&run->framebuffer, run->settings.width, run->settings.height, error);
+           framebuffer_make(&reference->pass, run->settings.width, run->settings.height, error);
 }
 
 // All passes share one progress.
@@ -77,31 +77,31 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return !reference->stopped;
 }
 
-static bool draw_pass(Reference *reference, uint32_t pass, Error *error)
+static bool draw_pass(Reference *reference, const Viewpoint *viewpoint, uint32_t pass, Error *error)
 {
     Run *run = &reference->run;
     const int half = (int)(pass % 2);
     const double place = pass / 2; // index in its half
     CameraData camera =
-        camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
+        camera_make(viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};
-    if (!renderer_draw(&run->renderer, &camera, &observer, &run->framebuffer, error))
+    if (!renderer_draw(&run->renderer, &camera, &observer, &reference->pass, error))
         return false;
-    const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
+    const size_t pixels = (size_t)reference->pass.width * reference->pass.height;
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++)
-            reference->halves[half][pixel][color] += (double)run->framebuffer.pixels[pixel][color];
+            reference->halves[half][pixel][color] += (double)reference->pass.pixels[pixel][color];
     return true;
 }
 
-static bool draw_passes(Reference *reference, Run *picture, Error *error)
+static bool draw_passes(Reference *reference, Picture *picture, Error *error)
 {
     bool ok = true;
-    reference->progress = progress_begin(picture->options->quiet);
+    reference->progress = progress_begin(picture->run->options->quiet);
     for (uint32_t pass = 0; ok && !reference->stopped && pass < reference->passes; pass++) {
-        ok = draw_pass(reference, pass, error);
+        ok = draw_pass(reference, &picture->viewpoint, pass, error);
         reference->passes_done++;
     }
     picture->stopped_by = progress_end(&reference->progress);
@@ -143,7 +143,7 @@ static float error_of(const float drawn[3], const float truth[3])
     return largest;
 }
 
-static void store_errors(Run *picture)
+static void store_errors(Picture *picture)
 {
     Layers *layers = &picture->layers;
     if (layers->count == 0 || strcmp(layers->list[layers->count - 1].name, ERROR_CHANNEL) != 0)
@@ -156,9 +156,9 @@ static void store_errors(Run *picture)
     }
 }
 
-static bool measure(Reference *reference, Run *picture, Error *error)
+static bool measure(Reference *reference, Picture *picture, Error *error)
 {
-    ReferenceResult *result = &picture->report.reference;
+    ReferenceResult *result = &picture->run->report.reference;
     const StoredImage drawn = stored_view(&picture->framebuffer);
     if (!framebuffer_make(&picture->reference, drawn.width, drawn.height, error))
         return false;
@@ -173,15 +173,16 @@ static bool measure(Reference *reference, Run *picture, Error *error)
     return true;
 }
 
-static bool draw_and_measure(Reference *reference, Run *picture, Error *error)
+static bool draw_and_measure(Reference *reference, Picture *picture, Error *error)
 {
-    const size_t pixels = (size_t)picture->settings.width * picture->settings.height;
+    const RenderSettings *settings = &picture->run->settings;
+    const size_t pixels = (size_t)settings->width * settings->height;
     for (int half = 0; half < 2; half++) {
         reference->halves[half] = memory_zeroed(pixels, sizeof *reference->halves[half], error);
         if (reference->halves[half] == NULL)
             return false;
     }
-    return open_run(reference, picture, error) && draw_passes(reference, picture, error) &&
+    return open_run(reference, picture->run, error) && draw_passes(reference, picture, error) &&
            (picture->stopped_by != 0 || measure(reference, picture, error));
 }
 
@@ -192,27 +193,29 @@ void reference_name_layer(const Options *options, Layers *layers)
         layers->list[layers->count++] = (LayerType){.name = ERROR_CHANNEL};
 }
 
-bool reference_measure(Run *run, Error *error)
+bool reference_measure(Picture *picture, Error *error)
 {
-    if (run->stopped_by != 0)
+    Run *run = picture->run;
+    if (picture->stopped_by != 0)
         return true;
     const double start = clock_seconds();
     Reference *reference = memory_zeroed(1, sizeof *reference, error);
     if (reference == NULL)
         return false;
     reference->passes = run->options->reference_samples;
-    const bool ok = draw_and_measure(reference, run, error);
+    const bool ok = draw_and_measure(reference, picture, error);
     run->report.reference.seconds = clock_seconds() - start;
     for (int half = 0; half < 2; half++)
         free(reference->halves[half]);
+    framebuffer_free(&reference->pass);
     run_free(&reference->run);
     free(reference);
     return ok;
 }
 
-bool reference_write(const Run *run, const char *path, Error *error)
+bool reference_write(const Picture *picture, const char *path, Error *error)
 {
     const ImageSettings settings = {.format = image_format_of_path(path),
-                                    .encoding = run->options->encoding};
-    return image_write(&run->reference, path, &settings, error);
+                                    .encoding = picture->run->options->encoding};
+    return image_write(&picture->reference, path, &settings, error);
 }

@@ -27,35 +27,37 @@ static double error_left(const Run *run)
 }
 
 // Keeps each pixel's sample count if channels may need it.
-static bool keep_counts(Run *run, Error *error)
+static bool keep_counts(Picture *picture, Error *error)
 {
-    const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
-    if (run->options->aovs == 0 || run->samples != NULL)
+    Run *run = picture->run;
+    const size_t pixels = (size_t)picture->framebuffer.width * picture->framebuffer.height;
+    if (run->options->aovs == 0 || picture->samples != NULL)
         return true;
-    run->samples = memory_raw(pixels, sizeof *run->samples, error);
-    return run->samples != NULL;
+    picture->samples = memory_raw(pixels, sizeof *picture->samples, error);
+    return picture->samples != NULL;
 }
 
-static void count_tree(Run *run, const RefineTree *tree)
+static void count_tree(Picture *picture, const RefineTree *tree)
 {
-    if (run->samples == NULL)
+    if (picture->samples == NULL)
         return;
     for (uint32_t y = 0; y < tree->height; y++)
         for (uint32_t x = 0; x < tree->width; x++)
-            run->samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
+            picture->samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
 }
 
-static bool draw_adaptively(Run *run, const CameraData *camera, ThreadPool *pool,
+static bool draw_adaptively(Picture *picture, const CameraData *camera, ThreadPool *pool,
                             const RenderObserver *observer, Error *error)
 {
+    Run *run = picture->run;
     Adaptive adaptive;
     const AdaptiveSetup setup = {&run->renderer, &run->flat,  camera,
                                  pool,           &run->scene, &run->normalization};
     const bool ok = adaptive_open(&adaptive, &setup, observer, error) &&
                     adaptive_refine(&adaptive, (float)run->options->contrast, observer, error);
     if (ok) {
-        adaptive_store(&adaptive, &run->framebuffer);
-        count_tree(run, &adaptive.tree);
+        adaptive_store(&adaptive, &picture->framebuffer);
+        count_tree(picture, &adaptive.tree);
     }
     run->report.contrast = run->options->contrast;
     run->report.samples = adaptive.samples;
@@ -72,14 +74,15 @@ static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *ou
     return error_left(run) <= 0 || goal_reach_error(ladder, error_left(run), outcome, error);
 }
 
-static bool draw_for_goal(Run *run, const CameraData *camera, ThreadPool *pool,
+static bool draw_for_goal(Picture *picture, const CameraData *camera, ThreadPool *pool,
                           const RenderObserver *observer, Error *error)
 {
+    Run *run = picture->run;
     Ladder ladder;
     GoalOutcome outcome = {0};
     Report *report = &run->report;
     const double start = clock_seconds();
-    const LadderSetup setup = {&run->renderer, camera, pool, &run->framebuffer, observer};
+    const LadderSetup setup = {&run->renderer, camera, pool, &picture->framebuffer, observer};
     if (!ladder_open(&ladder, &setup, error))
         return false;
     const bool ok = refine(run, &ladder, start, &outcome, error);
@@ -87,20 +90,22 @@ static bool draw_for_goal(Run *run, const CameraData *camera, ThreadPool *pool,
     report->bound = hypot(outcome.bound, truncation_of(run));
     report->goal_missed = !outcome.reached;
     report->samples = ladder.samples;
-    for (size_t pixel = 0; run->samples != NULL && pixel < ladder.statistics.pixels; pixel++)
-        run->samples[pixel] = ladder_pixel_samples(&ladder, pixel);
+    for (size_t pixel = 0; picture->samples != NULL && pixel < ladder.statistics.pixels; pixel++)
+        picture->samples[pixel] = ladder_pixel_samples(&ladder, pixel);
     ladder_close(&ladder);
     return ok;
 }
 
-bool refined_picture_draw(Run *run, const CameraData *camera, const RenderObserver *observer,
-                          Error *error)
+bool refined_picture_draw(Picture *picture, const CameraData *camera,
+                          const RenderObserver *observer, Error *error)
 {
-    if (!keep_counts(run, error))
+    Run *run = picture->run;
+    if (!keep_counts(picture, error))
         return false;
     ThreadPool *pool = thread_pool_open(threads_allowed(run->options->threads));
-    const bool ok = run->options->contrast > 0 ? draw_adaptively(run, camera, pool, observer, error)
-                                               : draw_for_goal(run, camera, pool, observer, error);
+    const bool ok = run->options->contrast > 0
+                        ? draw_adaptively(picture, camera, pool, observer, error)
+                        : draw_for_goal(picture, camera, pool, observer, error);
     thread_pool_close(pool);
     return ok;
 }

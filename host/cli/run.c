@@ -181,12 +181,6 @@ ExitCode run_prepare(Run *run, Error *error)
 
 void run_free(Run *run)
 {
-    framebuffer_free(&run->framebuffer);
-    framebuffer_free(&run->reference);
-    layers_free(&run->layers);
-    free(run->samples);
-    certainty_map_free(&run->certainty);
-    resume_close(&run->resume, false);
     async_device_wait_kernel(&run->async_device);
     if (CLRT_TIDY_EXIT) {
         renderer_close(&run->renderer);

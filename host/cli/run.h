@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a run, and its first stages, which all commands share.  Each stage borrows the
-// earlier ones' values and fills its own.  A zeroed Run is valid and freeing it is harmless, so
+// What lasts for a whole run, and its first stages, which all commands share.  Each stage borrows
+// the earlier ones' values and fills its own.  A zeroed Run is valid and freeing it is harmless, so
 // there is one cleanup path.
 #pragma once
 
@@ -8,9 +8,7 @@
 #include "cli/async_device.h"
 #include "cli/progress.h"
 #include "cli/report.h"
-#include "jobs/resume.h"
 #include "mesh/ply.h"
-#include "render/certifier.h"
 
 typedef struct {
     const Options *options;
@@ -21,16 +19,7 @@ typedef struct {
     AsyncDevice async_device;
     RenderSettings settings;
     Renderer renderer;
-    Framebuffer framebuffer;
-    Framebuffer reference;   // empty unless requested
-    Layers layers;           // beside the colors
-    uint32_t *samples;       // of each pixel, for the layers; NULL if all have the same number
-    CertaintyMap certainty;  // empty unless requested
-    const char *output_path; // of the picture being drawn
-    Viewpoint viewpoint;     // of that picture
-    Resume resume;           // empty without --resume
     Report report;
-    int stopped_by; // a signal; 0 if the picture is complete
 } Run;
 
 // Returns the seconds since *moment, and sets it to now.
