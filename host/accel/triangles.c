@@ -7,8 +7,8 @@
 
 #include <stdlib.h>
 
-// Bits of the index: the second corner precedes the first, the third the second, the third the
-// first. Indices 3 and 4 are contradictory.
+// Bit 0 of the index: the second corner precedes the first. Bit 1: the third precedes the second.
+// Bit 2: the third precedes the first. Indices 3 and 4 are contradictory.
 const CornerOrder corner_orders[8] = {
     [0] = {{0, 1, 2}, false}, [1] = {{1, 0, 2}, true},  [2] = {{0, 2, 1}, true},
     [5] = {{1, 2, 0}, false}, [6] = {{2, 0, 1}, false}, [7] = {{2, 1, 0}, true}};
@@ -28,17 +28,17 @@ uint8_t corner_order(const float *a, const float *b, const float *c)
     return (uint8_t)((b[0] < a[0]) | (c[0] < b[0]) << 1 | (c[0] < a[0]) << 2);
 }
 
-// A mesh, and the position of its vertices after those of earlier meshes.
+// A mesh, and where its points and triangles begin in the arrays of all meshes.
 typedef struct {
     const Mesh *mesh;
     const Normalization *normalization;
-    float (*points)[4];     // its own
-    uint32_t (*corners)[3]; // its own
-    uint8_t *orders;        // its own
-    uint32_t first_point;   // index among all points
+    float (*points)[4];     // the mesh's section of Triangles::points
+    uint32_t (*corners)[3]; // the mesh's section of Triangles::corners
+    uint8_t *orders;        // the mesh's section of Triangles::orders
+    uint32_t first_point;   // index of the mesh's first point
 } Storing;
 
-// Returns the value, with +0 for -0: equal points must have equal bits.
+// Turns -0 into +0, because equal points must have equal bits.
 static float without_negative_zero(float value)
 {
     return value + 0.0f;
@@ -104,7 +104,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
-    // Ids share 32 bits with the spheres' ids, and flags take two of them (kernels/shared.h).
+    // Triangles and spheres share one range of ids; flags take two bits (kernels/shared.h).
     if (count + scene->spheres.count >= 0x3fffffff)
         return error_set(error, "the scene has %zu triangles, more than 2^30 primitives", count);
     if (points > UINT32_MAX)

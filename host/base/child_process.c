@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PIECE ((size_t)1 << 16) // the least free space before each read
+#define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
 typedef enum { END_PARENT, END_CHILD } SocketEnd;
 

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Longer buckets use qsort, whose calls cost more than a few moves.
+// Longer buckets use qsort. For shorter ones, insertion sort is faster.
 #define FEW_SIDES 24
 
 typedef struct {
@@ -55,7 +55,7 @@ static void sort_sides(EdgeSide *sides, size_t count)
     }
 }
 
-// first[point] becomes the end of the sides of all points below it.
+// Sets first[point] to the end of the point's bucket.
 static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
@@ -68,7 +68,7 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
     }
 }
 
-// Fills each bucket from its end, so that first becomes its start.
+// Fills each bucket from its end. Afterwards, first[point] is the start of the point's bucket.
 static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
@@ -103,10 +103,10 @@ void edges_free(Edges *edges)
 
 typedef struct {
     uint32_t *vertices; // WELD_UNUSED in empty slots
-    size_t mask;        // slots less one; their number is a power of two
+    size_t mask;        // slots minus one; the number of slots is a power of two
 } Table;
 
-// Positive and negative zero are one coordinate.
+// Adding 0.0 turns negative zero into zero, so that both have the same bits.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -142,7 +142,7 @@ static bool make_table(Table *table, size_t count, Error *error)
     return table->vertices != NULL;
 }
 
-// Leaves WELD_UNUSED for unused vertices and stores another number for all others.
+// Stores WELD_UNUSED for unused vertices, and 0 for all others.
 static void mark_used(Weld *weld, const Mesh *mesh)
 {
     memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);

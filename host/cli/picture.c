@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pipeline from a scene file to a picture file.
+// Renders a scene file to picture files.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -18,10 +18,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Above this value of --error the user may have meant percent.
+// With a value of --error above this, the user may have meant percent.
 #define LARGE_ERROR 0.1
 
-// The observer's context.
+// The context of the render observer.
 typedef struct {
     Picture *picture;
     Progress progress;
@@ -37,7 +37,7 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// Draws the picture once; --repeat draws it again.
+// Draws the picture once and records its time.
 static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
@@ -71,7 +71,7 @@ static uint32_t samples_across(const Run *run)
     return options_are_adaptive(run->options) ? LADDER_GRID : run->settings.samples;
 }
 
-// Counts the samples of a picture; adaptive ones have counted theirs.
+// Stores the number of pixels, and the number of samples unless refining has already counted them.
 static void count_samples(Run *run)
 {
     Report *report = &run->report;
@@ -123,7 +123,7 @@ static bool certify(Picture *picture, Error *error)
            certain_picture_make(picture, &camera, error);
 }
 
-// Computes the channels beside the colors.  A stopped picture has none of their values.
+// Computes the channels besides the colors. If the picture was stopped, all their values are zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
     Run *run = picture->run;
@@ -251,7 +251,7 @@ static ExitCode goal_missed(const Run *run, Error *error)
     return EXIT_FAULTS;
 }
 
-// Finds errors that need no work to find.
+// Reports invalid dates and unwritable outputs before any work, and looks for an earlier run.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     Run *run = picture->run;
@@ -301,7 +301,7 @@ static void clear(Picture *picture)
     run->report.frame_count = 0;
 }
 
-// Sets the viewpoint of the frame with that number.
+// Sets the viewpoint of frame `number`.
 static void set_view(Picture *picture, uint32_t number)
 {
     Run *run = picture->run;
@@ -313,7 +313,7 @@ static void set_view(Picture *picture, uint32_t number)
                                         run->scene.has_course_views, run->report.turned);
 }
 
-// Makes a black picture with the tiles of an earlier run.
+// Creates a black picture and copies the finished tiles of an earlier run into it.
 static bool begin_picture(Picture *picture, Error *error)
 {
     Run *run = picture->run;
@@ -371,7 +371,7 @@ static ExitCode make_frame(Picture *picture, uint32_t number, double start, Erro
     return finish(picture, start, error);
 }
 
-// A frame that misses its goal does not keep the others from being drawn.
+// Draws all frames. If a frame misses its goal, the remaining frames are still drawn.
 static ExitCode make_frames(Picture *picture, double start, Error *error)
 {
     Run *run = picture->run;

@@ -13,10 +13,10 @@ typedef struct {
     const char *path; // of its file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
-    Framebuffer reference;  // empty unless requested
-    Layers layers;          // beside the colors
-    uint32_t *samples;      // of each pixel, for the layers; NULL if all have the same number
-    CertaintyMap certainty; // empty unless requested
+    Framebuffer reference;  // empty without --reference
+    Layers layers;          // the channels besides the colors
+    uint32_t *samples;      // samples per pixel, for the layers; NULL if all pixels have the same
+    CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // a signal; 0 if the picture is complete
 } Picture;

@@ -22,27 +22,27 @@ typedef struct {
     Report report;
 } Run;
 
-// Returns the seconds since *moment, and sets it to now.
+// Returns the seconds since *moment, and sets *moment to the current time.
 double run_lap(double *moment);
 
-// Starts opening the device and making the kernels on another thread.
+// Starts a thread that opens the device and makes the kernel.
 void run_begin(Run *run);
 
-// Reads the scene, and computes its normalized frame and the picture's settings.  On failure no
-// kernels are made.
+// Reads the scene, and computes its normalized coordinate frame and the picture's settings. On
+// failure, it cancels the making of the kernel.
 bool run_load_scene(Run *run, Error *error);
 
-// Waits for the device.  The device and the scene determine the kernels, which determine the
-// layout.
+// Waits for the device and chooses the kernels for device and scene. The kernels determine the
+// layout of nodes.
 bool run_await_device(Run *run, Error *error);
 
-// Flattens the scene into arrays.
+// Builds the tree and flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);
 
-// Runs these two stages and makes the renderer.  Returns the exit status.
+// Calls run_await_device and run_build_scene, and opens the renderer. Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);
 
-// Frees the values of all stages.
+// Frees the results of all stages.
 void run_free(Run *run);
 
 // Reads the scene on the command line, a file or standard input, with the contract of scn_load.

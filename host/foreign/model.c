@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assimp reads the model and triangulates its polygons. This file reports everything that depends
-// on the whole model.
+// Reads the model with Assimp, and sends its files, its parts and a note about omitted parts.
 #include "foreign/model.h"
 
 #include <assimp/cimport.h>
@@ -8,7 +7,8 @@
 #include <assimp/postprocess.h>
 #include <string.h>
 
-// Coordinates stay as in the file, without Assimp's change of the up axis and without skeletons.
+// Returns the model in the file's coordinates, or NULL on failure. The settings disable Assimp's
+// change of the up axis and its meshes for skeletons.
 static const struct aiScene *import(Files *files)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();

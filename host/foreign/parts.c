@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes with the product of their matrices in fp64. An identity passes
-// coordinates unchanged. A mirroring matrix reverses triangles, so that fronts stay fronts.
+// Walks the tree of nodes and multiplies their matrices in fp64. An identity leaves coordinates
+// unchanged. A mirroring matrix reverses the corner order, so that fronts stay fronts.
 #include "foreign/model.h"
 
 #include "base/limits.h"
@@ -15,7 +15,7 @@ typedef struct {
 } Placement;
 
 typedef struct {
-    double columns[3][3]; // normals are multiplied from the left
+    double columns[3][3]; // of the matrix that transforms normals
     bool is_identity, is_mirror;
 } NormalMatrix;
 
@@ -24,9 +24,9 @@ typedef struct {
     const struct aiScene *scene;
     bool keeps_normals;
     PartCounts *counts;
-    uint32_t *numbers; // of each of the scene's materials among those sent, 0 if unsent
+    uint32_t *numbers; // per scene material: 1 + its index among the sent ones, or 0 if unsent
     uint32_t sent_count;
-    ForeignPart part; // under construction
+    ForeignPart part; // the part being collected
     ARRAY(Triangle) triangles;
     size_t vertex_capacity, normal_capacity;
     Error *error;
@@ -57,7 +57,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Positive and negative zero are one number.
+// Negative zero counts as zero.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -67,7 +67,8 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Normals are transformed by the cofactors, which equal the inverse transpose up to a factor.
+// Normals are transformed by the cofactors, which equal the inverse transpose up to a positive
+// factor.
 static NormalMatrix normal_matrix_of(const Placement *placement)
 {
     NormalMatrix normal_matrix = {.is_identity = is_identity(placement)};
@@ -100,7 +101,7 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Normals are shortened before the transform, so that no product exceeds the range of float.
+// Normalizes before and after the transform, so that large values do not overflow.
 static void transform_normal(const struct aiVector3D *given, const NormalMatrix *normal_matrix,
                              float normal[3])
 {
@@ -134,7 +135,8 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// An index that Assimp failed to check would refer to another part's vertex.
+// Rejects indices that Assimp failed to check, because they would refer to vertices of another
+// mesh.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -198,8 +200,7 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves count more vertices in the part. Vertices of earlier meshes without normals get zero
-// normals.
+// Reserves memory for count more vertices. Vertices without a normal get a zero normal.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes record heads and their data.
+// Writes records: a head and its data.
 #include "foreign/model.h"
 
 #include "mesh/ply.h"

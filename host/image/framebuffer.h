@@ -23,7 +23,7 @@ void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH
 
 // A picture's channels beside its colors, with values of 32 bits: floats or unsigned integers.
 typedef struct {
-    const char *name; // of the channel in the file; borrowed
+    const char *name; // the channel's name in the file; borrowed
     bool is_integer;
 } LayerType;
 
@@ -33,10 +33,10 @@ typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;
     uint32_t width, height;
-    uint32_t *values; // height * width * count, top row first, floats as their bits; owned
+    uint32_t *values; // width * height * count values, top row first; floats are stored as their
 } Layers;
 
-// Allocates the values, all zero, of the layers already listed.
+// Allocates zeros as the values. The caller has set list and count.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two processes communicate over a pair of sockets. A request carries its strings and its
-// pixels; an answer comes back. Very large pictures are not worth a second copy and are written in
-// this process.
+// The parent sends a request with strings and pixels over a socket pair, and the child answers. The
+// parent writes pictures above LARGEST_SENT itself, to avoid a second copy.
 #include "image/image_process.h"
 
 #include "base/array.h"
@@ -16,7 +15,7 @@
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
-// Followed by zero-terminated strings, the pixels and the layers.
+// In the socket, zero-terminated strings, the pixels and the layers follow the request.
 typedef struct {
     uint64_t width, height, is_float, text_count;
     uint64_t left, top, whole_width, whole_height;
@@ -60,7 +59,7 @@ static size_t layer_size(const ImageModulePicture *picture)
            sizeof(uint32_t);
 }
 
-// Counts the path, the format, the texts and the layers' names, in this order.
+// Returns the number of strings in a request: path, format, texts and layer names, in this order.
 static size_t string_count(const ImageModulePicture *picture)
 {
     return 2 + 2 * picture->text_count + picture->layer_count;
@@ -98,7 +97,7 @@ static bool send_request(const ImageModulePicture *picture)
            child_send(writer.socket, picture->layers, request.layer_size);
 }
 
-// Points the picture's members into the strings. texts must have room for all of them.
+// Points the picture's members into strings. texts must have 2 * text_count entries.
 static void place_strings(ImageModulePicture *picture, const char *strings, const char **texts)
 {
     picture->path = strings;
@@ -166,7 +165,7 @@ static void serve(int socket, const void *context)
     Error failure = {0};
     Request request;
     (void)context;
-    // Only the parent handles these signals; it may still have its picture written here.
+    // Only the parent handles these signals. It may still send its picture afterwards.
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, &failure);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The child process reads the file and sends a header with its values or a message. The parent
-// checks the header as carefully as a file.
+// A child process with limited resources reads the file and sends a header and the values, or a
+// header with a message. The parent validates the header like a file.
 #include "base/child_process.h"
 #include "image/image_process.h"
 
@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define MEMORY_LIMIT ((rlim_t)12 << 30) // beside what is already mapped
-#define TIME_LIMIT   120                // seconds, of processor and wall time
+#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes beyond the memory already mapped
+#define TIME_LIMIT   120                // seconds of processor and of wall time
 
 typedef struct {
     int ok;
@@ -69,7 +69,7 @@ static void serve(int socket, const void *context)
         child_send(socket, content.values, value_count(&head) * size);
 }
 
-// Messages quote files, which may contain terminal escape sequences.
+// Messages may quote a hostile file, so control characters become spaces.
 static bool take_message(const Head *head, Error *cause)
 {
     char message[sizeof head->message];
@@ -80,7 +80,7 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-// Every field is checked before use.
+// Checks every field before use.
 static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
     if (!head->ok)

@@ -26,7 +26,8 @@ bool provenance_check_date(Error *error)
            error_set(error, "SOURCE_DATE_EPOCH must be seconds since 1970, not '%s'", text);
 }
 
-// Writes the date as EXIF, TIFF and EXR do, in UTC.
+// Writes the UTC date in the format of EXIF, TIFF and EXR. Returns false without a valid
+// SOURCE_DATE_EPOCH.
 static bool write_date(char *date, size_t size)
 {
     struct tm parts;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program is executed, not only forked, because other threads of this process may hold any
-// lock. It limits itself before it opens the file. This process limits the size and the time of
-// its output.
+// Runs clrt-foreign, and limits the time and size of its output. Uses posix_spawn instead of fork,
+// because other threads may hold locks. The program limits its own resources.
 #include "mesh/foreign_process.h"
 
 #include <errno.h>
@@ -34,11 +33,12 @@ bool foreign_format_is(const char *path)
     return false;
 }
 
-// Longer than the program's own limit: its message is better if it ends by its own alarm.
+// The time exceeds the program's own limit, so that normally the program's alarm ends the program
+// first.
 const ForeignReader foreign_reader = {.limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
 
 #ifdef CLRT_FOREIGN_FOLDER
-// Programs that use clrt's library find it in the configured installation folder.
+// Other programs that use clrt's library find clrt-foreign in the configured installation folder.
 static bool find_program(char path[COMPANION_PATH_SIZE], const char *model, Error *error)
 {
     if (file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0)

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Samples and their neighbors -> how far cells are from being known: the contrast in a cell times
-// its part of the pixel.  A smooth slope has none, since a sample at the middle is its mean.
+// Estimates the remaining error of a cell from its sample and neighboring samples: contrast times
+// the cell's fraction of the pixel. Colors that vary linearly have no contrast, because the center
+// sample equals their mean.
 #pragma once
 
 #include "refine/refine_tree.h"
 
 #include <math.h>
 
-// Of what a pixel and its neighbors saw: two may agree in color by chance where an outline runs
-// between them.
+// The weight of a color step between pixels on different surfaces. Their colors may be similar by
+// chance, although an outline runs between them.
 #define CONTRAST_OUTLINE_WEIGHT 2
 
-// Of one kind or the other as its neighbors show: colors that step say less of what is left.
+// If is_step, the color changes abruptly. A seam then locates the step, so that less contrast
+// remains.
 typedef struct {
     float value;
     bool is_step;
 } CellContrast;
 
-// Contrasts are kept as floats, with a sign where they are of steps.
+// Contrasts are stored as floats; steps are negative.
 static inline CellContrast contrast_read(float kept)
 {
     return (CellContrast){fabsf(kept), signbit(kept) != 0};
@@ -28,14 +30,14 @@ static inline float contrast_kept(CellContrast contrast)
     return contrast.is_step ? -contrast.value : contrast.value;
 }
 
-// What is left of a pixel's steps once its seams are placed.
+// Returns the contrast that remains of a pixel's step after its seams are located.
 float contrast_past_seams(float contrast);
 
-// Of a cell beside a group, across the side that they share; zero where all that meets there saw
-// the same.
+// Returns the contrast between a group and the cell beyond a side. other is that cell's sample,
+// level its level. The contrast is 0 if all samples along the side see the same surface.
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
                       uint32_t level);
 
-// Keeps those of a group that has its samples: of its cells, with no regard to which are cut, and
-// of those beyond its sides as they were when it was made.
+// Computes group->contrasts and group->across. The group must have all its samples. Later
+// subdivisions do not change the results.
 void contrast_keep(CellGroup *group);

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its pieces: triangles that are joined by the vertices they share.  Those of a few
-// triangles, as in files that share no vertices, count as one.
+// Divides a mesh into pieces: sets of triangles connected by shared vertices. Pieces of fewer than
+// PIECE_TRIANGLES triangles together form one piece, because some files share no vertices.
 #pragma once
 
 #include "base/error.h"
 #include "base/thread_pool.h"
 #include "mesh/mesh.h"
 
-// Pieces of fewer triangles are one.
 #define PIECE_TRIANGLES 8
 
 typedef struct {
-    uint32_t *order; // the triangles piece by piece; NULL for file order, where there is one piece
-    uint32_t *ends;  // of each piece, in that order
+    uint32_t *order; // triangles sorted by piece; NULL: a single piece, in file order
+    uint32_t *ends;  // the end of each piece in order
     uint32_t count;
 } MeshPieces;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh and a camera -> where its triangles are seen, cut to the picture and two pixels around it.
+// Projects a mesh's triangles into the picture, clipped to the picture and a margin of two pixels.
 #pragma once
 
 #include "base/thread_pool.h"
@@ -7,29 +7,31 @@
 #include "scene/normalize.h"
 
 typedef struct {
-    float x, y;       // in cells of the last level, where it is inside
-    uint32_t outside; // a bit for each plane that it is beyond
+    float x, y;       // in cells of the last level, if outside is 0
+    uint32_t outside; // bit i: the point is beyond clipping plane i
 } ProjectedPoint;
 
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // right and down give cells of the last level at depth 1
-    double width, height;           // of the picture, in cells of the last level
-    ProjectedPoint *points;         // of the mesh's vertices
+    Vec3 eye, right, down, forward; // dot products with right and down are in cells of the last
+    // level at depth 1
+    double width, height;   // of the picture, in cells of the last level
+    ProjectedPoint *points; // of the mesh's vertices
 } Projection;
 
-// By a frame's camera, made for REFINE_GRID samples, and of no mesh yet.
+// Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
-// Projects a mesh's vertices, and forgets them.
+// projection_begin projects the vertices of a mesh. projection_end frees them.
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
                       Error *error);
 void projection_end(Projection *projection);
 
-// The box around a triangle that is all inside, whichever side it shows; false for others.
+// Computes the box around a triangle, seen from either side. Returns false if a corner is beyond a
+// clipping plane.
 bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box);
 
-// False where nothing of the triangle can be seen: it is outside, edge on, or shows its back and
-// has but one side.
+// Computes the clipped outline of a triangle. Returns false if the triangle is outside, seen
+// edge-on, or one-sided and seen from behind.
 bool projection_outline(const Projection *projection, size_t triangle, Outline *outline);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces tiles one after the other, because a path costs about as much as a sample of the picture.
+// Traces one tile at a time. Two at a time, as in the picture, would gain little: most channels
+// take about as long as one sample per pixel.
 #include "render/aov_pass.h"
 
 #include "render/tile.h"
@@ -28,7 +29,8 @@ static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *f
     return cl_succeeded(status, "run a kernel for channels", error);
 }
 
-// Drivers finish compiling in the first run, over a tile without pixels.
+// Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
+// run.
 static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, cl_mem output,
                         Error *error)
 {

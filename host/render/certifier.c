@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program is the reference renderer's with one more kernel, so scene, settings and frame are
-// those of any renderer.  Tiles run one after the other: reading a pixel back is cheap beside
-// certifying it.
+// Uses an fp64 renderer whose program also contains the kernel certify_tile. Tiles do not overlap,
+// because reading a pixel back is cheap compared with certifying it.
 #include "render/certifier.h"
 
 #include "render/tile.h"
@@ -67,7 +66,8 @@ static bool make_room(Certifier *certifier, Error *error)
     return cl_succeeded(status, "allocate a tile's marks", error);
 }
 
-// Drivers finish compiling in the first run, over a tile without pixels.
+// Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
+// run.
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads material definitions. Missing properties have the course's values for the material's kind.
+// Reads material definitions. Missing properties get the course's values for the material's shader.
 #include "scene/statements.h"
 
 #include "base/limits.h"

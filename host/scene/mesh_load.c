@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Materials without highlights are matte.
+// Materials without highlights become matte.
 static Material material_of(const ForeignMaterial *given)
 {
     const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
@@ -46,7 +46,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// The caller adds the model's own path.
+// Adds the model's files to the inputs and hashes. File 0 is the model, which keeps the caller's
+// path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -60,7 +61,7 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
     return true;
 }
 
-// Moves the parts' meshes into objects.
+// Moves the parts' meshes into scene objects.
 static bool add_parts(Scene *scene, ForeignModel *model, const MeshLoadOptions *options,
                       uint32_t first_material, Error *error)
 {

@@ -15,8 +15,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Normals may have any length, and rotation may grow a component by the square root of three. Only
-// the ratios of their lengths count, so all normals of a mesh are shortened if one could overflow.
+// Returns the scale for a mesh's normals before a rotation, which can enlarge components by the
+// square root of 3. All normals have one scale, because only the ratios of their lengths count.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -43,7 +43,7 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
     }
 }
 
-// The objects that the statement has added.
+// The objects that the statement added.
 typedef struct {
     MeshObject *data;
     size_t count;
@@ -116,7 +116,7 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Repeated scaling could otherwise leave the range that the rest of the program requires.
+// Fails if the transforms leave [-1e30, 1e30], the range that the rest of the program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -146,7 +146,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *optio
     return ok;
 }
 
-// The message names the scene's line if the file's own message has no position.
+// Loads the mesh file. Failures without a position in this file are reported at the path in the
+// scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
                         const MeshLoadOptions *options)
 {

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Exponents up to this are computed by squaring, with the same bits on every device.
+// Powers with integer exponents up to this are computed by squaring, which gives the same bits on
+// every device.
 #define LARGEST_INTEGER_EXPONENT 1024
 
 Material material_of_shader(Shader shader)
@@ -38,7 +39,8 @@ bool scene_init(Scene *scene, Error *error)
            array_push(&scene->materials, mirror, error);
 }
 
-// Azimuth and rotation in degrees and distance from the origin, as in the course's viewer.
+// Returns a viewpoint of the course's viewer, from azimuth and rotation in degrees and the distance
+// from the origin.
 static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
 {
     const double level = distance * cosine_of_degrees(azimuth);

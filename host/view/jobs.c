@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker's jobs.  Each ends with a status update.
+// The worker's jobs. Each job ends with a status update.
 #include "view/worker_inside.h"
 
 #include "base/clock.h"
@@ -14,7 +14,7 @@ typedef struct {
     Layer *layer;
 } Tracing;
 
-// The status may be changed only between these two calls.
+// Locks the status. Only code between begin_update and end_update may change it.
 static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -35,7 +35,7 @@ static void report_busy(Worker *worker, const char *busy)
     end_update(worker);
 }
 
-// Returns whether the pass is still useful.
+// Returns whether the window still needs the pass.
 static bool is_current(Worker *worker, const Job *job)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -66,9 +66,9 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return is_current(worker, job);
 }
 
-// Updates the measured cost of a sample.  The first measurement replaces the guess.  Later ones
-// count for at most twice the previous cost, because busy processors may have slowed down a single
-// picture.
+// Updates the measured time per sample. part is the finished fraction of the pass. The first
+// measurement replaces the guess. Later measurements count as at most twice the previous time,
+// because other processes may have slowed the picture.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
@@ -80,7 +80,7 @@ static void update_sample_cost(Worker *worker, const Pass *pass, double seconds,
     worker->has_measured = true;
 }
 
-// Records a complete picture.  The caller holds the lock.
+// Records a complete picture. The caller holds the lock.
 static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
@@ -116,7 +116,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Gives up a picture that cannot be traced; a different request will be tried.
+// Reports that a picture cannot be traced, and marks it as reached, so that only a different
+// request is tried.
 static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -145,7 +146,7 @@ void jobs_trace(Worker *worker, const Job *job)
     report_failure(worker, job, &error);
 }
 
-// Records that the renderer was made, or failed with error.
+// Reports that the renderer is ready, or failed.
 static void report_taken(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -158,7 +159,7 @@ static void report_taken(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
-// Records that the scene was read, or failed with error.
+// Reports that the scene was read, or that reading failed.
 static void report_loaded(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -180,7 +181,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     return ok;
 }
 
-// Publishes the model for the window.  Its tree may still be missing.
+// Publishes the model for the window. The model's tree may still be missing (has_tree).
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);
@@ -217,7 +218,7 @@ static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
     end_update(worker);
 }
 
-// Publishes the first scene before the device is open and the tree is built.
+// Publishes the first scene before the device is open, so that the window opens early.
 bool jobs_begin(Worker *worker)
 {
     Error error = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each box is an instance of a cube's edges or of its diagonal.
+// Draws each box as an instance of a cube's edges or of a cube's diagonal.
 #include "view/draw/model_views.h"
 
 #include "view/draw/shader.h"

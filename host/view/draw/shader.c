@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of OpenGL 3.1 to 4.6 accept GLSL 1.40, in core profiles and others.
+// Uses GLSL 1.40, which OpenGL 3.1 to 4.6 accept in all profiles.
 #include "view/draw/shader.h"
 
 #define MESSAGE_SIZE 1024
@@ -88,7 +88,7 @@ static GLuint make_cube(GLuint attribute, const unsigned char *corners, int coun
 
 GLuint cube_make_faces(GLuint attribute)
 {
-    // Counter-clockwise seen from outside.
+    // The corners are counter-clockwise, seen from outside.
     static const unsigned char corners[CUBE_FACE_VERTICES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
                                                               0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
                                                               0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
