@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each pass marks the cells to be cut, threads sharing the marking; cuts them in order; and traces
-// all their samples as one list.  The groups it makes are what the next pass looks at.
+// Each pass marks cells in parallel, subdivides the marked cells in order, and traces their samples
+// as one list. The next pass examines the new groups.
 #include "refine/adaptive.h"
 
 #include "refine/adaptive_pass.h"
@@ -11,14 +11,14 @@
 #define ROWS_OF_TASK   16
 #define GROUPS_OF_TASK 512
 
-// What one marking works on.
+// The input of a marking pass and its result.
 typedef struct {
     const RefineTree *tree;
     const Footprints *footprints;
     const ThinParts *thin_parts;
     float threshold;
-    uint32_t first, end; // of groups
-    uint16_t *marks;     // a bit for each cell of a group and each side
+    uint32_t first, end; // range of groups
+    uint16_t *marks;     // of each group: a bit per cell, then a bit per side
 } Marking;
 
 static uint32_t tasks_of(size_t whole, uint32_t part)
@@ -32,8 +32,8 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
-// What a group's outer cells saw may reach into the cells around it: a bit for each side.  Cells
-// of the size that was cut stay as they were, or are cut.
+// Returns a bit for each side where the group differs from the cell beyond by more than the
+// threshold. The cell beyond has the size of the subdivided cell or is larger.
 static unsigned marks_around(const Marking *marking, const CellGroup *group)
 {
     unsigned marks = 0;
@@ -81,7 +81,7 @@ static bool cut_named(RefineTree *tree, const CellName *name, Error *error)
                             : refine_tree_cut_cell(tree, name->group, name->cell, error);
 }
 
-// Cuts the cells around a group that are marked; another group may have cut them by now.
+// Subdivides the marked cells around a group, unless another group has done so.
 static bool cut_around(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
 {
     for (CellSide side = 0; side < SIDE_COUNT; side++) {
@@ -94,7 +94,7 @@ static bool cut_around(RefineTree *tree, uint32_t number, unsigned marks, Error 
     return true;
 }
 
-// Cuts the cells of a group that are marked; a group beside it may have cut them by now.
+// Subdivides the marked cells of a group, unless a neighboring group has done so.
 static bool cut_inside(RefineTree *tree, uint32_t number, unsigned marks, Error *error)
 {
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
@@ -146,7 +146,7 @@ static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *erro
            pixel_marks_take(&adaptive->tree, &wants, adaptive->crew, error);
 }
 
-// Looks at the groups from `first` up to `end`.
+// Examines groups first to end - 1.
 static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t first, uint32_t end,
                                 Error *error)
 {

@@ -9,7 +9,7 @@
 #include "refine/thin_parts.h"
 #include "render/renderer.h"
 
-// Samples for subdividing a cell.
+// The number of new samples of a subdivided cell.
 #define ADAPTIVE_CUT (GROUP_CELLS - 1)
 
 // Seams are located to this fraction of the threshold. Halving a seam's interval takes one sample,

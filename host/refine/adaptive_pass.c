@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eight samples a group come first, in the order of the groups, and then one of each seam that
-// asks.
+// A list contains eight samples per new group, in the order of the groups, then one per seam that
+// needs a sample.
 #include "refine/adaptive_pass.h"
 
 #include "refine/contrast.h"
@@ -21,7 +21,7 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
-// What is handed to the device and taken back, group by group from `first` on.
+// The places and samples of the groups from first on, eight per group.
 typedef struct {
     RefineTree *tree;
     uint32_t first;
@@ -99,7 +99,7 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
     return ok;
 }
 
-// A task is a row of blocks.
+// Each task lists the pixels of one row of blocks.
 static void list_pixels(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bits of a pixel's cells begin with a word of their own, and so do those of a row of pixels.
+// The bits of a pixel's cells, and of a row of pixels, start at a word boundary.
 #include "refine/cell_set.h"
 
 #include <stdlib.h>
@@ -58,7 +58,7 @@ void cell_set_free(CellSet *set)
     *set = (CellSet){0};
 }
 
-// Where a cell's bit is.
+// The position of a cell's bit.
 typedef struct {
     size_t word;
     uint32_t mask;
@@ -113,7 +113,7 @@ void cell_set_clear_pixel(CellSet *set, uint32_t column, uint32_t row)
         atomic_store_explicit(&set->words[place.word + i], 0, memory_order_relaxed);
 }
 
-// The bits of a word, the one with that number in its row, that are from `first` to before `end`.
+// Returns the bits of a row's word that lie in columns first to end - 1.
 static uint32_t mask_of(uint32_t word, uint32_t first, uint32_t end)
 {
     const uint32_t start = word * WORD_BITS;
@@ -150,7 +150,7 @@ void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom)
     memset((char *)set->memory + top * row, 0, (bottom - top) * row);
 }
 
-// 64 pixels of a row: those of a word, with the half words before and after; none outside.
+// Returns 64 pixels of a row: a word between two half words. Pixels outside of the picture are 0.
 static uint64_t pixels_around(const CellSet *set, int64_t row, int64_t word)
 {
     uint32_t parts[3] = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets of a picture's cells of one level, a bit each, which threads may fill together.  Below
-// pixels there is room for the cells of those pixels alone that have a slot.
+// Sets of a picture's cells of one level, with a bit per cell. Threads may fill a set concurrently.
+// Sets of cells smaller than a pixel have room only for pixels with a slot.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Which pixels have a slot, and which: counted from 1, 0 for none.
+// The slots of pixels, numbered from 1; 0 if a pixel has none.
 typedef struct {
     uint32_t width, height;      // of the picture
     _Atomic uint32_t *of_pixels; // row by row
@@ -19,7 +19,7 @@ typedef struct {
 bool slots_make(Slots *slots, uint32_t width, uint32_t height, Error *error);
 void slots_free(Slots *slots);
 
-// Gives a pixel a slot.  Only one thread asks for one for the same pixel, and only once.
+// Gives a pixel a slot. Called at most once per pixel.
 void slots_add(Slots *slots, uint32_t column, uint32_t row);
 
 typedef struct {
@@ -32,36 +32,38 @@ typedef struct {
     size_t count, capacity; // of words
 } CellSet;
 
-// An empty set, without any room.
+// Returns an empty set without room.
 static inline CellSet cell_set_of(const Slots *slots, uint32_t scale)
 {
     return (CellSet){.slots = slots, .scale = scale};
 }
 
-// Makes room for all pixels, or for those that have a slot by now; what is there stays.
+// Makes room for all pixels if scale is 1, otherwise for all pixels with a slot. Keeps the set.
 bool cell_set_make_room(CellSet *set, Error *error);
 void cell_set_free(CellSet *set);
 
-// By column and row among the picture's cells; cells without room are in no set.
+// Returns whether the cell of that column and row is in the set. A cell without room is not.
 bool cell_set_has(const CellSet *set, uint32_t column, uint32_t row);
 
-// Adds a cell if there is room, and returns whether it is new.
+// Adds a cell if there is room. Returns whether the cell is new.
 bool cell_set_add(CellSet *set, uint32_t column, uint32_t row);
 
-// Takes all cells of a pixel out.
+// Removes all cells of a pixel.
 void cell_set_clear_pixel(CellSet *set, uint32_t column, uint32_t row);
 
-// Of sets of pixels: adds the pixels of a row from `first` to before `end`, which are in the
-// picture; and tells whether all of them are there.
+// The following functions require a set of pixels. Pixels first to end - 1 of the row must be
+// inside the picture.
 void pixel_set_add_range(CellSet *set, uint32_t row, uint32_t first, uint32_t end);
+
+// Returns whether the set contains the whole range.
 bool pixel_set_has_all(const CellSet *set, uint32_t row, uint32_t first, uint32_t end);
 
-// Of the 32 pixels of a row from `left` on, a multiple of 32, those in the set: a bit for each.
+// Returns a bit for each of the 32 pixels of a row from left on. left is a multiple of 32.
 uint32_t pixel_set_bits(const CellSet *set, uint32_t left, uint32_t row);
 
-// Takes out the pixels of rows from `top` to before `bottom`.
+// Removes the pixels of rows top to bottom - 1.
 void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom);
 
-// Makes a row of `wide` hold the pixels that have, or are beside one that has, a corner of which
-// all four pixels are in the set.
+// A corner is full if the set contains all four pixels around it. Sets a row of wide to the pixels
+// that have a full corner, or whose neighbor has one.
 void pixel_set_widen_row(CellSet *wide, const CellSet *set, uint32_t row);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Contrast is how far a sample lies off the line between the two beside it, doubled so that a step
-// between two even surfaces counts as what it is; and where the surfaces differ no less than the
-// difference itself.  In groups seams tell where steps lie, and contrast what they may have missed.
+// The contrast of a sample is twice its distance from the mean of its two neighbors, so that a step
+// between two plain surfaces counts in full. Between different surfaces it is at least their color
+// difference. In groups, seams locate the steps, and contrast is what seams may have missed.
 #include "refine/contrast.h"
 
-// Beside a seam, and in a pixel that has one.
+// Weights of contrasts next to a seam, and in a pixel with a seam.
 #define STEP_WEIGHT  0.5f
 #define BEND_WEIGHT  0.25f
 #define PIXEL_WEIGHT 0.5f
@@ -14,7 +14,7 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-// Off the line, where `before` weighs weight and `after` the rest.
+// Returns twice the distance of a sample from the weighted mean of its neighbors.
 static inline float bend(const SampleData *before, const SampleData *at, const SampleData *after,
                          float weight)
 {
@@ -26,7 +26,7 @@ static inline float bend(const SampleData *before, const SampleData *at, const S
     return 2 * most;
 }
 
-// Between samples that did not see the same.
+// Returns the color difference of samples on different surfaces.
 static float step(const SampleData *at, const SampleData *other)
 {
     float most = 0;
@@ -42,7 +42,7 @@ float contrast_past_seams(float contrast)
     return PIXEL_WEIGHT * contrast;
 }
 
-// What lies beyond a line is twice as far away.
+// The sample beyond an end of a line is twice as far from the next cell.
 static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellContrast found[])
 {
     static const float weights[GROUP_SIDE] = {1 / 3.0f, 0.5f, 2 / 3.0f};
@@ -59,7 +59,7 @@ static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellCon
     }
 }
 
-// Looks at cells `first` and those a stride apart.
+// Adds the contrasts of a line of cells, which starts at first and has the given stride.
 static void add_line(const CellGroup *group, uint32_t first, uint32_t stride,
                      CellContrast contrast[GROUP_CELLS])
 {
@@ -77,7 +77,7 @@ static void add_line(const CellGroup *group, uint32_t first, uint32_t stride,
     }
 }
 
-// Of a pixel, by level.
+// The area of a cell of each level, in pixels.
 static const float parts[REFINE_LEVELS + 1] = {1, 1 / 9.0f, 1 / 81.0f, 1 / 729.0f, 1 / 6561.0f};
 
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,

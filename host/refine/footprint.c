@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A disk holds the middle of some cell once the cells' diagonal is no longer than its diameter.  At
-// the last level that is a 57th of a pixel; what is smaller may still be missed.
+// A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
+// level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
 #include "refine/footprint.h"
 
 #include "base/vec.h"
@@ -15,7 +15,7 @@ static Vec3 vector_of(const float components[3])
     return (Vec3){components[0], components[1], components[2]};
 }
 
-// The sphere's place in cells; false where it is behind the eye, or as large as pixels.
+// Projects a sphere. Returns false if it is behind the eye or as large as a pixel.
 static bool project(const FrameData *frame, const SphereData *sphere, Footprint *footprint)
 {
     const CameraData *camera = &frame->camera;
@@ -37,7 +37,7 @@ static bool project(const FrameData *frame, const SphereData *sphere, Footprint 
     return true;
 }
 
-// The range of pixels along an axis that the disk reaches, cut to the picture.
+// Computes the range of pixels along an axis that the disk touches, clipped to the picture.
 static bool reach(float middle, float radius, uint32_t pixels, uint32_t range[2])
 {
     const double low = floor((middle - radius + 0.5) / REFINE_GRID);
@@ -94,7 +94,7 @@ void footprints_free(Footprints *footprints)
     *footprints = (Footprints){0};
 }
 
-// Whether a cell, of that side and with that middle, must be cut for a sphere to be met.
+// Returns whether the cell with that center and side must be subdivided to meet a sphere.
 static bool cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t side)
 {
     const double reach = side / 2.0 + footprint->outer;
@@ -103,7 +103,7 @@ static bool cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t 
            fabs((double)footprint->y - middle[1]) <= reach;
 }
 
-// The first that is not before the pixel.
+// Returns the first footprint at or after the pixel.
 static const Footprint *first_of(const Footprints *footprints, uint32_t pixel)
 {
     size_t low = 0, high = footprints->list.count;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every vertex refers to another of its piece with a lower number, or to itself if it has the
-// lowest.  Threads join pieces at once: only a vertex that refers to itself is ever made to refer
-// to another, and which is the lowest does not depend on who joins first.
+// A concurrent union-find over vertices. Each vertex refers to a lower vertex of its piece, or to
+// itself if it is the lowest. Threads redirect only vertices that refer to themselves, so that the
+// lowest vertex of a piece does not depend on the order of work.
 #include "refine/mesh_pieces.h"
 
 #include "base/array.h"
@@ -16,7 +16,7 @@ typedef struct {
     _Atomic bool are_many;
 } Joining;
 
-// Shortens the way for those who go it later.
+// Returns the lowest vertex of the piece, and shortens the path to it.
 static uint32_t lowest_of(_Atomic uint32_t *lower, uint32_t vertex)
 {
     uint32_t next = atomic_load_explicit(&lower[vertex], memory_order_relaxed);
@@ -91,7 +91,7 @@ static bool is_small(uint32_t triangles)
     return triangles > 0 && triangles < PIECE_TRIANGLES;
 }
 
-// Where each piece begins, by its lowest vertex; small ones come first, as one.
+// Computes the start of each piece by its lowest vertex. Small pieces come first, as one piece.
 static void lay_out(MeshPieces *pieces, const uint32_t *sizes, uint32_t *starts, size_t count)
 {
     uint32_t next = 0;
@@ -134,7 +134,7 @@ static bool find_pieces(MeshPieces *pieces, Joining *joining, Crew *crew, Error 
     crew_run(crew, chunk_count((uint32_t)joining->mesh->vertex_count), refer_to_themselves,
              joining);
     crew_run(crew, chunk_count(triangles), join_triangles, joining);
-    // Vertices that no triangle has may be what is not joined.
+    // The vertices that are not joined may belong to no triangle.
     if (joining->joints + 1 < joining->mesh->vertex_count)
         crew_run(crew, chunk_count(triangles), see_whether_many, joining);
     if (joining->are_many)

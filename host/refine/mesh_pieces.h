@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its pieces: triangles that are joined by the vertices they share.  Those of a few
-// triangles, as in files that share no vertices, count as one.
+// Divides a mesh into pieces: sets of triangles connected by shared vertices. All pieces with few
+// triangles together count as one, for files without shared vertices.
 #pragma once
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "mesh/mesh.h"
 
-// Pieces of fewer triangles are one.
+// Pieces with fewer triangles are united.
 #define PIECE_TRIANGLES 8
 
 typedef struct {
-    uint32_t *order; // the triangles piece by piece; NULL for file order, where there is one piece
-    uint32_t *ends;  // of each piece, in that order
+    uint32_t *order; // triangles sorted by piece; NULL if there is one piece, in file order
+    uint32_t *ends;  // the end of each piece in that order
     uint32_t count;
 } MeshPieces;
 

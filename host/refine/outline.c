@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a convex shape has between two horizontal lines, or on one, is convex too, so the cells of a
-// row that it touches follow each other: from the least to the largest x it has there.
+// The part of a convex polygon between two horizontal lines is convex. The cells of a row that it
+// touches are therefore consecutive, from its smallest to its largest x there.
 #include "refine/outline.h"
 
 #include <math.h>
@@ -56,8 +56,8 @@ static double perimeter_of(const Outline *outline)
     return perimeter;
 }
 
-// A triangle's area is half its perimeter times its inner radius; no convex shape's is more than
-// all of that, nor less than half.
+// The area of a triangle is its perimeter times half its inner radius. The area of any convex shape
+// is between that and twice that.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
     if (outline->box.high[0] - outline->box.low[0] < diameter ||
@@ -67,7 +67,7 @@ bool outline_is_thinner(const Outline *outline, double diameter)
     return (outline->count == 3 ? 4 : 2) * area < diameter * perimeter_of(outline);
 }
 
-// The least and the largest x where y is from `low` to `high`; false where there is nothing.
+// Computes the smallest and the largest x for y from low to high. Returns false if there is none.
 static bool find_extent(const Outline *outline, double low, double high, double extent[2])
 {
     extent[0] = INFINITY;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Convex polygons in the picture -> the cells they touch, those whose samples they hold, and how
-// thick they are.  Lengths are those of cells of the last level.
+// Convex polygons in the picture: which cells they touch, which cell centers they contain, and how
+// thick they are. The unit of length is a cell of the last level.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// A triangle that five planes cut has no more.
+// A triangle clipped by five planes has at most this many corners.
 #define OUTLINE_CORNERS 8
 
 typedef struct {
@@ -15,12 +15,12 @@ typedef struct {
 
 typedef struct {
     uint32_t count;
-    double corners[OUTLINE_CORNERS][2]; // in their order around it
+    double corners[OUTLINE_CORNERS][2]; // in order around the polygon
     double slopes[OUTLINE_CORNERS];     // of the sides from each to the next: x by y
     OutlineBox box;                     // around it
 } Outline;
 
-// A picture's cells of one level: squares, with their samples in the middle.
+// The square cells of one level of a picture. Their samples are at their centers.
 typedef struct {
     double side, per_length; // its inverse
     uint32_t counts[2];      // of columns and of rows
@@ -30,10 +30,10 @@ typedef struct {
     uint32_t first, end;
 } CellRange;
 
-// Finds slopes and box from the corners.
+// Computes slopes and box from the corners.
 void outline_complete(Outline *outline);
 
-// Of numbers no larger than pictures; the library's are calls.
+// Returns the floor of a number that fits into int64_t. Unlike floor(), it is inlined.
 static inline int64_t outline_floor(double value)
 {
     const int64_t whole = (int64_t)value;
@@ -45,21 +45,21 @@ static inline uint32_t outline_limit(int64_t value, uint32_t most)
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
 
-// The cells from the one with `low` to the one with `high`.
+// Returns the cells from the one that contains low to the one that contains high.
 static inline CellRange cells_touched(double low, double high, double per_length, uint32_t count)
 {
     return (CellRange){outline_limit(outline_floor(low * per_length), count),
                        outline_limit(outline_floor(high * per_length) + 1, count)};
 }
 
-// Those with their middles in between.
+// Returns the cells whose centers lie between low and high.
 static inline CellRange cells_sampled(double low, double high, double per_length, uint32_t count)
 {
     return (CellRange){outline_limit(-outline_floor(0.5 - low * per_length), count),
                        outline_limit(outline_floor(high * per_length - 0.5) + 1, count)};
 }
 
-// The cells that a box touches, and those whose samples it holds.
+// Return the cells that a box touches, and the cells whose centers it contains.
 static inline CellRange box_touched(const OutlineBox *box, const CellGrid *grid, int axis)
 {
     return cells_touched(box->low[axis], box->high[axis], grid->per_length, grid->counts[axis]);
@@ -70,13 +70,13 @@ static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid,
     return cells_sampled(box->low[axis], box->high[axis], grid->per_length, grid->counts[axis]);
 }
 
-// Twice its area: negative where its corners go counter-clockwise as seen, with y downward.
+// Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
 double outline_signed_area(const Outline *outline);
 
-// Whether no disk of that diameter fits into it.  Of what has more than three corners this may be
-// said where the largest disk is up to twice as wide.
+// Returns whether no disk of that diameter fits into the polygon. For more than three corners, it
+// may return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// The cells of a row that it touches, and those whose samples it holds.
+// Return the cells of a row that the polygon touches, and the cells whose centers it contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strips of rows are laid out channel by channel, so that processors compare several pixels at
-// once; the pixels beside those of a strip come with it, or at the picture's edge themselves.
+// Rows are copied in strips, channel by channel, so that compilers vectorize the comparisons. A
+// strip includes its neighbors on both sides. At the picture's edge a pixel is its own neighbor.
 #include "refine/pixel_contrast.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #define STRIP_SPAN   (STRIP + 2 * PACKET_SIDE)
 #define ROWS_OF_TASK 16
 
-// Of a row: those of a strip from PACKET_SIDE on, between those of the blocks beside it.
+// The pixels of a strip in one row start at PACKET_SIDE, between those of the neighboring blocks.
 typedef struct {
     float channels[3][STRIP_SPAN];
     uint32_t signatures[STRIP_SPAN];
@@ -39,7 +39,7 @@ static void copy_pixel(StripRow *row, uint32_t to, uint32_t from)
     row->signatures[to] = row->signatures[from];
 }
 
-// Lays out the pixels of a row around those from `left` on, which are `count`.
+// Copies count pixels of a row from left on, and the pixels around them.
 static void load_row(const RefineTree *tree, uint32_t left, uint32_t y, uint32_t count,
                      StripRow *row)
 {
@@ -57,7 +57,7 @@ static void load_row(const RefineTree *tree, uint32_t left, uint32_t y, uint32_t
         copy_pixel(row, PACKET_SIDE + count, PACKET_SIDE + count - 1);
 }
 
-// Adds the differences of a strip's pixels from those of another row, or `shift` further along.
+// Adds the differences of a strip's pixels from pixels of another row, shift places to the right.
 static void add_steps(const StripRow *row, const StripRow *other, int shift, float steps[STRIP])
 {
     for (int i = 0; i < STRIP; i++) {
@@ -71,8 +71,8 @@ static void add_steps(const StripRow *row, const StripRow *other, int shift, flo
     }
 }
 
-// How far pixels lie off the lines between those before and after them: those `shift` back and
-// further along in those rows.
+// Adds twice the distances of pixels from the means of two neighbors: shift places to the left in
+// the first row and to the right in the last row.
 static void add_bends(const StripRow *const rows[3], int shift, float bends[STRIP])
 {
     for (int channel = 0; channel < 3; channel++)
@@ -84,7 +84,7 @@ static void add_bends(const StripRow *const rows[3], int shift, float bends[STRI
         }
 }
 
-// Pixels at the picture's edges are on no line across it.
+// Pixels at the picture's edge have no opposite neighbors across it, and so no bend.
 static void compare_row(const Comparing *comparing, const StripRow *const rows[3], uint32_t left,
                         uint32_t y, uint32_t count)
 {
@@ -109,7 +109,7 @@ static void compare_row(const Comparing *comparing, const StripRow *const rows[3
     }
 }
 
-// The rows of a strip follow each other through three places.
+// Three buffers hold the rows around the current one, in turn.
 static void compare_strip(const Comparing *comparing, uint32_t left, uint32_t top, uint32_t bottom)
 {
     const RefineTree *tree = comparing->tree;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The first sample of every pixel -> how far each pixel is from being known, kept for as long as
-// the picture is refined: neighbors of pixels never change.
+// Computes the contrast of every pixel from the first samples. It stays valid while the picture is
+// refined, because first samples never change.
 #pragma once
 
 #include "base/parallel.h"
 #include "refine/contrast.h"
 
-// In rows, as contrast_read reads them.
+// Contrasts row by row, as stored by contrast_kept().
 typedef struct {
     uint32_t width;
     float *values;
 } PixelContrasts;
 
-// What differs from a neighbor that met another surface or light counts twice.
+// Weights color steps between different surfaces by CONTRAST_OUTLINE_WEIGHT.
 bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Crew *crew,
                           Error *error);
 void pixel_contrasts_free(PixelContrasts *contrasts);

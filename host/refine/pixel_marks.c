@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Most pixels are left as they are, which patches of them tell at once.  Threads list what is to be
-// done in patches of their own, and one does it in order.
+// Most patches of pixels need nothing and are skipped as a whole. Threads list the pixels to refine
+// in their own patches, and one thread applies the lists in order.
 #include "refine/pixel_marks.h"
 
 #include <stdlib.h>
@@ -10,10 +10,10 @@
 
 typedef struct {
     uint32_t x, y;
-    bool is_cut; // or its seams are opened
+    bool is_cut; // otherwise, its seams are opened
 } PixelMark;
 
-// What a task finds.
+// The result of a task.
 typedef struct {
     ARRAY(PixelMark) marks;
     Error error;
@@ -38,7 +38,7 @@ static bool any_exceeds(const float *contrasts, uint32_t count, float threshold)
     return exceeds != 0;
 }
 
-// The pixels of a patch's row that contrast or thin parts ask to look at: a bit for each.
+// Returns a bit for each pixel of a patch's row that has high contrast or a thin part.
 static uint32_t asking_pixels(const Marking *marking, uint32_t left, uint32_t y)
 {
     const RefineTree *tree = marking->tree;

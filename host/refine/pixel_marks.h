@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contrasts of pixels -> those that are cut or whose seams are opened, block by block, so that
-// samples which follow each other in a list are near each other too.
+// Decides by contrast which pixels are subdivided and which only get seams. Pixels are visited
+// block by block, so that consecutive samples are near each other.
 #pragma once
 
 #include "refine/pixel_contrast.h"
@@ -9,9 +9,9 @@
 typedef struct {
     const PixelContrasts *contrasts;
     const ThinParts *thin_parts;
-    float threshold; // above which contrasts want more samples
+    float threshold; // pixels with more contrast need samples
 } PixelWants;
 
-// Cuts pixels of thin parts and those with contrasts that seams would not settle, and opens the
-// seams of the others.
+// Subdivides pixels with thin parts and pixels whose contrast exceeds the threshold even with
+// seams. Opens the seams of the other pixels above the threshold.
 bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, Crew *crew, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points are (x * depth, y * depth, depth) until no depth can be zero: so what is behind the eye is
-// cut off as what is beside the picture is, and no coordinate can be large.
+// Clips in homogeneous coordinates (x * depth, y * depth, depth), behind the eye as at the
+// picture's sides. After the division, no coordinate is large.
 #include "refine/projection.h"
 
 #include "refine/refine_tree.h"
@@ -16,7 +16,7 @@ static Vec3 vector_of(const float components[3])
     return (Vec3){components[0], components[1], components[2]};
 }
 
-// How far a point is inside of a plane.
+// Returns a value that is negative if the point is beyond the plane.
 static double inside_by(const Projection *projection, Vec3 point, int plane)
 {
     switch (plane) {
@@ -122,13 +122,13 @@ static void keep_inside(const Projection *projection, Polygon *polygon, int plan
     *polygon = kept;
 }
 
-// Beside the eye itself rounding may move corners anywhere.
+// Next to the eye, rounding may move corners arbitrarily far.
 static double limited(double value, double size)
 {
     return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
 }
 
-// For triangles that are partly outside, which are few.
+// Clips a triangle that is partly outside. There are few of them.
 static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
 {
     Polygon polygon = {.count = 3};
@@ -160,7 +160,7 @@ bool projection_box(const Projection *projection, size_t triangle, OutlineBox *b
     return (a->outside | b->outside | c->outside) == 0;
 }
 
-// Member by member: the other corners' are many.
+// Sets members one by one, because an initializer would clear all OUTLINE_CORNERS corners.
 static void set_triangle(Outline *outline, const ProjectedPoint *a, const ProjectedPoint *b,
                          const ProjectedPoint *c)
 {

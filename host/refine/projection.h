@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh and a camera -> where its triangles are seen, cut to the picture and two pixels around it.
+// Projects a mesh's triangles into the picture, clipped to the picture and a margin of two pixels.
 #pragma once
 
 #include "base/parallel.h"
@@ -7,8 +7,8 @@
 #include "scene/normalize.h"
 
 typedef struct {
-    float x, y;       // in cells of the last level, where it is inside
-    uint32_t outside; // a bit for each plane that it is beyond
+    float x, y;       // in cells of the last level, if outside is 0
+    uint32_t outside; // a bit for each clipping plane that the point is beyond
 } ProjectedPoint;
 
 typedef struct {
@@ -19,16 +19,18 @@ typedef struct {
     ProjectedPoint *points;         // of the mesh's vertices
 } Projection;
 
-// By a frame's camera, made for REFINE_GRID samples, and of no mesh yet.
+// Returns the projection of a frame's camera, which must be made for REFINE_GRID samples, and of no
+// mesh yet.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
-// Projects a mesh's vertices, and forgets them.
+// Project a mesh's vertices, and free them.
 bool projection_begin(Projection *projection, const MeshObject *object, Crew *crew, Error *error);
 void projection_end(Projection *projection);
 
-// The box around a triangle that is all inside, whichever side it shows; false for others.
+// Computes the box around a triangle, front or back. Returns false if the triangle is partly
+// outside.
 bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box);
 
-// False where nothing of the triangle can be seen: it is outside, edge on, or shows its back and
-// has but one side.
+// Returns false if the triangle is invisible: it is outside, seen edge-on, or one-sided and seen
+// from behind.
 bool projection_outline(const Projection *projection, size_t triangle, Outline *outline);

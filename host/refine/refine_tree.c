@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Groups refer to each other by number, since the array moves as it grows.  Means are sums of
-// integers, as in render.cl, so that their bits depend on the samples alone.
+// Groups refer to each other by index, because the array moves when it grows. Means are sums of
+// integers, as in render.cl, so that their bits depend only on the samples.
 #include "refine/refine_tree.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *
         .width = width, .height = height, .columns = (width + PACKET_SIDE - 1) / PACKET_SIDE};
     const CellGroup none = {0};
     const Seam no_seam = {0};
-    // Pixels are counted in 32 bits, and lists of samples too.
+    // Pixels and samples are counted in 32 bits.
     if ((uint64_t)width * height > REFINE_PIXELS_MOST)
         return error_set(error, "a picture of %u x %u pixels is too large to be refined", width,
                          height);
@@ -67,7 +67,7 @@ void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t plac
     place[1] = group->y + cell / GROUP_SIDE * side - side;
 }
 
-// The place of the nearest cells beyond a side of the cell that a group cuts; false outside.
+// Computes a place beyond a side of a group. Returns false if it is outside of the picture.
 static bool place_beyond(const RefineTree *tree, const CellGroup *group, CellSide side,
                          uint32_t place[2])
 {
@@ -82,8 +82,8 @@ static bool place_beyond(const RefineTree *tree, const CellGroup *group, CellSid
     return place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID;
 }
 
-// Goes down from a pixel to the cell at a place, of that level at most and in a group below `end`.
-// Returns the group that the cell is cut into, 0 where it is not.
+// Descends from a pixel to the cell at a place, to that level at most, through groups with an index
+// below end. Returns the group that subdivides the cell, or 0.
 static uint32_t descend(const RefineTree *tree, const uint32_t place[2], uint32_t level,
                         uint32_t end, CellName *name)
 {
@@ -125,8 +125,8 @@ const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t p
     return refine_tree_sample(tree, &name);
 }
 
-// Takes over what was seen beyond a side of the cell that a group cuts, from the nearest cell no
-// smaller than that; its own where the picture ends.
+// Copies the sample beyond a side of a group from the adjacent cell of one level up or more. At the
+// picture's edge, copies the group's own sample.
 static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
 {
     uint32_t place[2];
@@ -139,7 +139,7 @@ static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
     group->beyond_levels[side] = (uint8_t)name.level;
 }
 
-// Fills a new group with what is known before it is traced.
+// Fills a new group with the samples that exist before it is traced.
 static void begin_group(const RefineTree *tree, CellGroup *group, const SampleData *middle)
 {
     group->cells[GROUP_MIDDLE] = *middle;
@@ -162,7 +162,8 @@ bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *erro
     return true;
 }
 
-// The pixels on either side of one along an axis; itself where the picture ends.
+// Finds the two neighbors of a pixel along an axis. At the picture's edge, this is the pixel
+// itself.
 static void neighbors_along(const RefineTree *tree, uint32_t x, uint32_t y, uint32_t stride,
                             const SampleData *beyond[SEAM_ENDS])
 {
@@ -247,7 +248,7 @@ static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
     }
 }
 
-// Those that a group added to the one of the cell it cuts.
+// Returns the number of samples that a group added.
 static uint32_t count_added(const RefineTree *tree, uint32_t number)
 {
     const CellGroup *group = &tree->groups.data[number];
@@ -270,7 +271,7 @@ uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
     return count;
 }
 
-// The mean color over a square of that side.
+// Computes the mean color of a square with that side from its color sum.
 static void mean_of(const ColorSum sum, uint64_t side, float mean[3])
 {
     for (int channel = 0; channel < 3; channel++)
@@ -284,7 +285,7 @@ void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
     mean_of(sum, refine_tree_cell_side(tree->groups.data[group].level - 1), mean);
 }
 
-// The color of a pixel that is not cut.
+// Computes the color of a pixel that is not subdivided.
 static void pixel_color(const RefineTree *tree, uint32_t x, uint32_t y, float color[3])
 {
     const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];
@@ -309,7 +310,7 @@ static void store_pixel(const RefineTree *tree, uint32_t x, uint32_t y, float co
         pixel_color(tree, x, y, color);
 }
 
-// Whether the pixels of a block's row have one sample each.
+// Returns whether the pixels of a block's row have one sample each.
 static bool is_plain(const RefineTree *tree, size_t first)
 {
     uint32_t more = 0;

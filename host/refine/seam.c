@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The step is taken to lie in the middle of what is left, in halves of a place.  Sums wrap where
-// corrections are negative, and come out right.
+// The step is assumed at the middle of the remaining interval, in half places. Negative corrections
+// wrap around in unsigned sums, and the final sums are correct.
 #include "refine/seam.h"
 
 #define PIXEL_AREA (81.0f * 81)
@@ -33,7 +33,7 @@ bool seam_asks(const Seam *seam, uint32_t place[2])
     return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
 }
 
-// Whether a sample belongs to one end rather than to the other.
+// Returns whether a sample belongs to one end rather than to the other.
 static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
 {
     if (end->signature != other->signature)
@@ -48,7 +48,7 @@ void seam_close(Seam *seam)
     seam->assumed = SEAM_ENDS;
 }
 
-// There is no step where the border sees what the cell does.
+// If the sample at the border matches the cell, the line has no step there.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     const SampleData *cell = &seam->ends[SEAM_END_LAST - seam->assumed];
@@ -81,7 +81,7 @@ bool seam_take(Seam *seam, const SampleData *sample, Seam *rest)
     return true;
 }
 
-// Between two places in halves, along the line.
+// An interval of the line in half places, and the sample that represents it.
 typedef struct {
     uint32_t begin, end;
     const SampleData *seen;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A line of samples crosses from one surface to another somewhere between two of them.  Halving
-// the stretch between tells where, with a sample a bit, where cutting cells takes eight for 1.6.
+// A seam is the place where a line of samples crosses from one surface to another. Bisection
+// locates it with one sample per bit; subdividing cells takes eight samples for 1.6 bits.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,29 +13,29 @@
 
 typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
 
-// Lines lie in a group, or are of one cell where they lie in a pixel.  Places are in cells of the
-// last level, along the line.
+// A line crosses the three cells of a group, or one pixel. Places along it are in cells of the last
+// level.
 typedef struct {
-    SampleData ends[SEAM_ENDS]; // what is seen at `from` and at `to`
-    uint32_t x, y;              // where the line begins
-    uint32_t group, next;       // the group's next, or the pixel's; 0 at the end
+    SampleData ends[SEAM_ENDS]; // the samples at from and at to
+    uint32_t x, y;              // start of the line
+    uint32_t group, next;       // next seam of the group or pixel; 0 at the end
     uint8_t stride;             // from cell to cell: 1 along a row, GROUP_SIDE along a column
-    uint8_t cells, side;        // of the line, and of each
-    uint8_t line;               // of the group: 0 to 2
-    uint8_t from, to;           // the stretch that it tells of
-    uint8_t low, high;          // samples that it lies between
-    uint8_t assumed;            // the end, at the border, that was seen beyond it; or SEAM_ENDS
-    uint8_t samples;            // that were taken to place it
+    uint8_t cells, side;        // cells of the line, and the side of each
+    uint8_t line;               // index in the group, 0 to 2
+    uint8_t from, to;           // the interval to which the seam applies
+    uint8_t low, high;          // the samples between which the seam lies
+    uint8_t assumed;            // the end whose sample is from beyond the line; or SEAM_ENDS
+    uint8_t samples;            // taken to locate the seam
 } Seam;
 
-// The samples of a line: its cells between what lies beyond its ends.
+// The samples of a line: its cells, and one beyond each end.
 #define LINE_SAMPLES (GROUP_SIDE + 2)
 #define LINE_GAPS    (LINE_SAMPLES - 1)
 
-// Whether colors step in a gap of a line, rather than slope.
+// Returns whether colors step in a gap between two samples of a line, instead of sloping.
 bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap);
 
-// The largest difference of two samples' colors.
+// Returns the largest difference between two samples' color values.
 static inline float seam_difference(const SampleData *one, const SampleData *other)
 {
     float most = 0;
@@ -46,23 +46,23 @@ static inline float seam_difference(const SampleData *one, const SampleData *oth
     return most;
 }
 
-// The error, as contrast times the part of a pixel, that the place leaves.
+// Returns the remaining error: contrast times the uncertain fraction of the pixel.
 float seam_contrast(const Seam *seam);
 
-// Whether a sample can tell more; then where in the picture.
+// Returns whether another sample would narrow the interval, and where to take it.
 bool seam_asks(const Seam *seam, uint32_t place[2]);
 
-// Takes that sample up.  Returns whether it saw a third surface: then `rest` is the next seam of
-// the group, and has its next.
+// Updates the seam with that sample. Returns whether the sample sees a third surface. In that case,
+// rest becomes the next seam of the group.
 bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 
-// Ends the search.
+// Discards the seam.
 void seam_close(Seam *seam);
 
-// Colors in steps of 2^-32, times twice a cell's area.
+// Colors in steps of 2^-32, multiplied by twice the cell's area.
 typedef uint64_t ColorSum[3];
 
-// Corrects the sums of a group's cells, or of a pixel, each of which was taken to be of one color.
+// Corrects the sums of a group's cells, or of a pixel, which assume one color per cell.
 void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
 
 static inline uint64_t seam_color_steps(float color)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A group's lines run along the axis on which more of its neighbors differ, so that they cross
-// what lies in it; the middles of three lines tell a slope exactly.
+// A group's lines run along the axis with the larger color differences, so that they cross its
+// edges. Three lines locate a straight edge exactly.
 #include "refine/seam_search.h"
 
 #include <stdlib.h>
 
 #define GROUPS_OF_TASK 512
 
-// What a task finds.
+// The result of a task.
 typedef struct {
     ARRAY(Seam) seams;
-    uint32_t base; // their first number
+    uint32_t base; // index of the first
     Error error;
 } OpeningPart;
 
@@ -31,7 +31,7 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
-// How much a group changes along its lines if they are rows or columns.
+// Returns the sum of color differences along the rows or columns of a group.
 static float changes_along(const CellGroup *group, uint32_t stride)
 {
     const CellSide side = stride == 1 ? SIDE_LEFT : SIDE_ABOVE;
@@ -50,9 +50,9 @@ static float changes_along(const CellGroup *group, uint32_t stride)
 typedef struct {
     const CellGroup *group;
     uint32_t number;         // of the group
-    uint32_t line, stride;   // the line's number, and from cell to cell
-    uint32_t start[2];       // of its places in the picture
-    const SampleData *cells; // the first
+    uint32_t line, stride;   // index of the line, and step from cell to cell
+    uint32_t start[2];       // place in the picture
+    const SampleData *cells; // first cell
 } GroupLine;
 
 static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t stride, uint32_t line)
@@ -69,8 +69,8 @@ static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t strid
         .cells = &group->cells[line * (is_row ? GROUP_SIDE : 1)]};
 }
 
-// What is seen beyond an end of a line: by the smallest cell there, or by the line's own where the
-// picture ends.
+// Returns the sample beyond an end of a line, from the smallest cell there. At the picture's edge,
+// returns the line's own sample.
 static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
 {
     const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);
@@ -82,7 +82,7 @@ static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, S
     return &line->cells[end == SEAM_END_FIRST ? 0 : 2 * (size_t)line->stride];
 }
 
-// The seam in a gap of a line that saw these samples.
+// Returns the seam in a gap of a line with these samples.
 static Seam seam_in_gap(const GroupLine *line, const SampleData *const seen[LINE_SAMPLES],
                         uint32_t gap)
 {

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A refined picture -> its seams, and the samples that place them.
+// Opens the seams of a refined picture, and lists those that need samples.
 #pragma once
 
 #include "base/parallel.h"
 #include "refine/refine_tree.h"
 
-// Seams that a sample is wanted for.
+// The seams that need a sample.
 typedef struct {
-    ARRAY(uint32_t) asked; // by number, in order
-    uint32_t seen;         // seams below are asked or have their place well enough
+    ARRAY(uint32_t) asked; // indices in ascending order
+    uint32_t seen;         // seams with a lower index are in asked or precise enough
 } SeamSearch;
 
-// Opens the seams of the groups from `first` up to `end`, which have all their samples.
+// Opens the seams of groups first to end - 1, which must have all their samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error);
 
-// Asks for the seams with a contrast above the threshold, of those asked before and of new ones.
+// Lists the seams with a contrast above the threshold, among those listed before and new ones.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
-// Takes up the samples of the asked seams.
+// Updates the listed seams with their samples.
 bool seam_search_take(const SeamSearch *search, RefineTree *tree, const SampleData *samples,
                       Error *error);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Piece by piece, and level by level: threads first share the finding of all cells whose samples
-// the piece holds, and then look from each of its thin triangles at the cells around it.  What they
-// find are sets, so that it does not depend on who finds it.
+// Works piece by piece and level by level. Threads first find all cells whose samples the piece
+// contains. They then examine the cells around each thin triangle. The results are sets, which do
+// not depend on the order of work.
 #include "refine/thin_parts.h"
 
 #include "refine/mesh_pieces.h"
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#define DIAGONAL 1.41421356 // of a cell, in its sides
+#define DIAGONAL 1.41421356 // of a cell, relative to its side
 
 #define TRIANGLES_OF_TASK 1024
 
@@ -18,13 +18,13 @@ typedef struct {
     const ThinSource *source;
     Projection projection;          // of the mesh
     MeshPieces pieces;              // of the mesh
-    uint32_t first, count;          // of the piece's triangles, in the order of the pieces
-    uint8_t *depths;                // in that order: how many levels each is looked for at
-    CellSet covered[REFINE_LEVELS]; // cells whose samples the piece holds
-    CellSet wide;                   // pixels around which it is no thinner than they are
-    _Atomic uint32_t top, bottom;   // rows of pixels from and before which there are any
-    uint32_t level;                 // that is worked on
-    _Atomic bool found;             // anything to be cut at that level
+    uint32_t first, count;          // the piece's triangles, in the order of the pieces
+    uint8_t *depths;                // in that order: levels at which each triangle is searched
+    CellSet covered[REFINE_LEVELS]; // cells whose samples the piece contains
+    CellSet wide;                   // pixels at which the piece is wide
+    _Atomic uint32_t top, bottom;   // the piece's rows of pixels: top to bottom - 1
+    uint32_t level;                 // the current one
+    _Atomic bool found;             // any cell to subdivide at that level
     _Atomic uint64_t cuts[REFINE_LEVELS];
 } Search;
 
@@ -52,7 +52,7 @@ static uint32_t end_of(const Search *search, uint32_t task)
     return end < search->count ? end : search->count;
 }
 
-// A piece's triangle by its place there; false where it cannot be seen.
+// Computes the outline of a piece's triangle. Returns false if it is invisible.
 static bool outline_of(const Search *search, uint32_t place, Outline *outline)
 {
     return projection_outline(&search->projection, triangle_at(search, place), outline);
@@ -91,7 +91,7 @@ static void include_rows(Search *search, CellRange rows)
         continue;
 }
 
-// Pixels count as held whatever the triangle; those that are thin are looked for.
+// All triangles cover pixels. Only thin triangles are searched for.
 static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -116,7 +116,7 @@ static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
         search->found = true;
 }
 
-// Further down, those triangles count that are looked for.
+// Below pixels, only triangles that are searched for cover cells.
 static void cover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -136,8 +136,8 @@ static bool holds_block(const CellSet *covered, uint32_t column, uint32_t row)
            cell_set_has(covered, column, row + 1) && cell_set_has(covered, column + 1, row + 1);
 }
 
-// Whether the piece is wide around a cell: it holds the samples around a corner that this cell, or
-// one beside it, has.  The nearest are tried first.
+// Returns whether the piece is wide at a cell: it contains the samples around a corner of this cell
+// or of an adjacent one. The nearest corners come first.
 static bool is_wide(const Search *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
@@ -160,8 +160,8 @@ static void find_wide_pixels(void *context, uint32_t task, uint32_t worker)
     pixel_set_widen_row(&search->wide, &search->covered[0], search->top + task);
 }
 
-// Most triangles of large pieces are on wide parts as a whole: the pixels of the boxes around them,
-// which are found first, tell.
+// Returns whether the piece is wide at all pixels of the box around a triangle. This test is fast,
+// and true for most triangles of large pieces.
 static bool is_surely_wide(const Search *search, uint32_t place, const CellGrid *grid)
 {
     OutlineBox box;
@@ -175,7 +175,7 @@ static bool is_surely_wide(const Search *search, uint32_t place, const CellGrid 
     return true;
 }
 
-// Returns whether the cell is to be cut for a triangle that touches it.
+// Returns whether the cell is subdivided for a triangle that touches it.
 static bool cut_cell(Search *search, uint32_t column, uint32_t row)
 {
     const uint32_t level = search->level;
@@ -223,7 +223,7 @@ static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
     }
 }
 
-// Makes the piece hold no cells of the level, in time that does not depend on the other pieces.
+// Clears the covered cells of the level, in time independent of the other pieces.
 static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -248,7 +248,7 @@ static void share_triangles(Search *search, CrewWork *work)
     crew_run(search->source->crew, tasks, work, search);
 }
 
-// How many levels can be cut for the samples that there are.
+// Returns the number of levels that the sample budget covers.
 static uint32_t affordable_levels(const Search *search)
 {
     const FrameData *frame = search->source->frame;
@@ -338,7 +338,7 @@ bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
     }
     search.wide = cell_set_of(&parts->slots, 1);
     ok = ok && cell_set_make_room(&search.wide, error) && make_room(&search, 0, error);
-    // Rays of the last level see nothing.
+    // With max_level 0, camera rays see only the background.
     const size_t meshes = source->frame->max_level > 0 ? source->scene->objects.count : 0;
     for (size_t i = 0; ok && i < meshes; i++)
         ok = search_mesh(&search, &source->scene->objects.data[i], error);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Triangles thinner than a pixel -> the cells to be cut so that samples meet them, whatever the
-// samples around them saw.
+// Finds the cells to subdivide so that samples meet triangles thinner than a pixel, regardless of
+// the samples around them.
 //
-// A triangle is thin at a level of cells where no disk of the cells' diagonal fits into it.  Every
-// cell of that level that a thin triangle touches is cut, unless its piece of the mesh holds the
-// samples of four cells around a corner, of that cell or of one beside it: there the piece is no
-// thinner than the cells, and what differs from it is found by contrast.  So each triangle whose
-// inner disk is a 57th of a pixel across or more is met by a sample that looks for it, but for
-// those
-// - within two pixels of a part of their own piece that is wider than a pixel, and so at each
-// level;
-// - hidden by others: they are looked for all the same, and in vain;
-// - seen in mirrors or by their shadows alone;
-// - of levels left out because all cuts to that depth would take more samples than THIN_SAMPLES a
-//   pixel of the picture: the deepest go first.
+// A triangle is thin at a level if no disk with the cells' diagonal as diameter fits into it. Every
+// cell of that level that a thin triangle touches is subdivided, unless its mesh piece is wide
+// there. A piece is wide at a cell if it contains the samples of four cells around a corner of that
+// cell or of an adjacent cell. It is then as wide as the cells, and contrast finds its outline.
+//
+// A sample therefore meets each triangle whose inner disk is at least a 57th of a pixel across,
+// except
+// - within two pixels of a part of the same piece that is wider than a pixel, and likewise at each
+//   level;
+// - hidden triangles, on which samples are wasted;
+// - triangles visible only in mirrors or by their shadows;
+// - at the deepest levels, if all subdivisions together would take more than THIN_SAMPLES samples
+//   per pixel of the picture.
 #pragma once
 
 #include "base/parallel.h"
@@ -23,14 +24,14 @@
 
 #define THIN_SAMPLES 16
 
-// It stays where it was made.
+// Must not move, because its sets point into it.
 typedef struct {
     Slots slots;
-    CellSet cut[REFINE_LEVELS]; // cells by level
-    uint32_t levels;            // that are cut at all
+    CellSet cut[REFINE_LEVELS]; // cells to subdivide, by level
+    uint32_t levels;            // levels with subdivisions
 } ThinParts;
 
-// What they are looked for in.
+// The input of the search.
 typedef struct {
     const FrameData *frame; // its camera is made for REFINE_GRID samples
     const Scene *scene;
@@ -41,7 +42,8 @@ typedef struct {
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);
 void thin_parts_free(ThinParts *parts);
 
-// Whether the cell of a level around that place, in cells of the last level, must be cut.
+// Returns whether the cell of a level at that place must be subdivided. The place is in cells of
+// the last level.
 static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2], uint32_t level)
 {
     const uint32_t side = refine_tree_cell_side(level);
@@ -49,11 +51,11 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
            cell_set_has(&parts->cut[level], place[0] / side, place[1] / side);
 }
 
-// The same of 32 pixels of a row from `left` on, a multiple of 32: a bit for each.
+// Returns a bit for each of 32 pixels of a row from left on, a multiple of 32.
 static inline uint32_t thin_parts_pixels(const ThinParts *parts, uint32_t left, uint32_t row)
 {
     return parts->levels == 0 ? 0 : pixel_set_bits(&parts->cut[0], left, row);
 }
 
-// The cells of a group that must be cut: a bit for each.
+// Returns a bit for each cell of a group that must be subdivided.
 unsigned thin_parts_marks(const ThinParts *parts, const CellGroup *group);
