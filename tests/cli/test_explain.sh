@@ -40,8 +40,8 @@ check "... on standard output alone" test ! -s err
 check "... the picture first" test "$(head -n 1 out)" = "pixel 2,2 of 5 x 5, view 1 of mirrors.scn"
 check "... what a ray meets" test "$(grep -c "meets      sphere 1, material mirror" out)" = 2
 check "... what a light does" tells "light 1    reaches it from 2.82843 away; cosine 0.707107; diffuse 0.353553"
-check "... what is reflected" tells "reflected ray 2, of which the sample takes 0.25"
-check "... the background's part" tells "the background (0, 0, 1), of which the sample takes 0.125"
+check "... what is reflected" tells "reflected ray 2, weight 0.25 in the sample"
+check "... the background's part" tells "the background (0, 0, 1), weight 0.125 in the sample"
 check "... and the color" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 101 101 133"
 check "docs/explaining.md shows the same" python3 -c "import sys; sys.exit(open('out').read() not in open('$source/docs/explaining.md').read())"
 check "a corner sees the background" run 0 mirrors.scn --explain-pixel 0,4
