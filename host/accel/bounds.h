@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes for builders: lower and negated upper planes in vectors, so that one minimum each unites
-// two boxes. Planes are never -0, so unions do not depend on their order.
+// Boxes as a vector of low planes and a vector of negated high planes. The union of two boxes is
+// then one minimum per vector. No plane is -0, so the order of unions does not matter.
 #pragma once
 
 #include "accel/bvh.h"
@@ -13,17 +13,17 @@ typedef float Float4 __attribute__((vector_size(16)));
 typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
-    Float4 low, negated_high; // x y z, and an unused fourth
+    Float4 low, negated_high; // x, y, z; BuildItem keeps its integers in the fourth component
 } Bounds;
 
-// A triangle, or a cell of several, as builders move it.
+// The element that builders sort: a triangle, or a grid cell with several triangles (cells.h).
 typedef union {
     Bounds bounds;
     struct {
         float low[3];
         uint32_t number;
         float negated_high[3];
-        uint32_t weight; // triangles
+        uint32_t weight; // number of triangles
     };
 } BuildItem;
 
@@ -56,14 +56,14 @@ static inline float bounds_extent(const Bounds *bounds, int axis)
     return -(bounds->low[axis] + bounds->negated_high[axis]);
 }
 
-// Returns half the surface area, NaN for empty bounds.
+// Returns half the surface area; INFINITY for empty bounds.
 static inline float bounds_half_area(const Bounds *bounds)
 {
     const Float4 sides = bounds->low + bounds->negated_high;
     return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
 }
 
-// Returns the half areas of three bounds; the fourth repeats the third.
+// Returns half the surface area of each of three bounds. The fourth component repeats the third.
 static inline Float4 bounds_half_areas(const Bounds bounds[3])
 {
     const Float4 a = bounds[0].low + bounds[0].negated_high;
@@ -103,13 +103,13 @@ static inline Bounds bounds_of_triangle(const Triangles *triangles, uint32_t tri
                     float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Returns bounds around the doubled center of the bounded geometry.
+// Returns the bounds of a single point: the doubled center (low + high) of the given bounds.
 static inline Bounds bounds_of_center(const Bounds *bounds)
 {
     return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};
 }
 
-// Returns the doubled center of an item on an axis.
+// Returns the item's doubled center on an axis.
 static inline float item_center(const BuildItem *item, int axis)
 {
     return item->low[axis] - item->negated_high[axis];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Axis-aligned boxes for the builders.
+// Operations on axis-aligned boxes.
 #pragma once
 
 #include "accel/bvh.h"
@@ -25,7 +25,7 @@ static inline void box_include_point(Box *box, const float point[3])
     }
 }
 
-// Returns half the surface area, zero for an empty box.
+// Returns half the surface area; zero for an empty box.
 static inline float box_half_area(const Box *box)
 {
     const float x = box->high[0] - box->low[0];

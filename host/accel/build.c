@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Items move back and forth between two arrays. A node's items are in one of them, and a split
-// writes its children's items to the same positions of the other. Pending nodes wait on an
-// explicit stack, so that no recursion overflows.
+// A split partitions a node's items from one array into the same positions of a second array. The
+// splits of the children write them back into the first. An explicit stack holds the pending nodes,
+// so that no recursion overflows.
 #include "accel/build.h"
 
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
-// A task, and the array that holds its items.
+// A pending node, and which of the two arrays holds its items.
 typedef struct {
     BuildTask task;
     uint32_t array;
@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     const Build *build;
     BuildItem *items[2];
-    uint32_t first; // position of the first triangle
+    uint32_t first; // position of its first triangle in Bvh::order
     BuildCounts *counts;
 } Subtree;
 
@@ -66,7 +66,8 @@ static int longest_axis(const Bounds *bounds)
     return longest;
 }
 
-// Any set of items can be halved, even if all are equal.
+// Copies the items to other, sorted by center along the longest axis. The caller halves the result.
+// This works for any set of items, even if all are equal.
 static void move_halves(const BuildItem *items, BuildItem *other, uint32_t count,
                         const Bounds *centers)
 {
@@ -77,7 +78,8 @@ static void move_halves(const BuildItem *items, BuildItem *other, uint32_t count
         qsort(other, count, sizeof *other, compare[axis]);
 }
 
-// Returns the number of items of the left child, 0 if the node is a leaf.
+// Chooses a split and moves the items to the other array. Returns the number of items in the left
+// child; 0 if the node is a leaf.
 static uint32_t divide(const Subtree *subtree, const Waiting *waiting)
 {
     const BuildTask *task = &waiting->task;
@@ -177,7 +179,7 @@ void build_subtree(const Build *build, const BuildTask *root, BuildItem *items, 
         counts->node_count += 2;
         child += 2;
     }
-    // Children come after their parents.
+    // Children have higher indices than their parents, so this loop visits children first.
     while (child > 2 * root->first + 1)
         build_count_leaves(build->bvh, --child);
     build_count_leaves(build->bvh, root->node);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Builds one subtree on one thread, from a range of triangles in the tree's order.
+// Builds a subtree on one thread, from a range of Bvh::order.
 #pragma once
 
 #include "accel/split.h"
 
-// A node that is still to be divided.
+// A node that is not divided yet.
 typedef struct {
     uint32_t node;
-    uint32_t first, count; // positions of its triangles
-    uint32_t depth;        // the root's is 1
+    uint32_t first, count; // range of its triangles in Bvh::order
+    uint32_t depth;        // 1 for the root of the tree
 } BuildTask;
 
-// A builder's contributions to the tree's counts.
+// The contribution of one subtree to the counts of Bvh. node_count excludes the subtree's root.
 typedef struct {
     uint32_t node_count, leaf_count, largest_leaf, depth;
 } BuildCounts;
@@ -23,26 +23,27 @@ typedef struct {
     BvhLeaves leaves;
 } Build;
 
-// The bounds of a node, and of its items' doubled centers.
+// The bounds of a set of items, and the bounds of their doubled centers (bounds.h).
 typedef struct {
     Bounds box, centers;
 } Measure;
 
 Measure build_measure(const BuildItem *items, uint32_t count);
 
-// Appends each item to left or right and keeps their order.
+// Copies each item to left or right, in their order.
 void build_move(const BuildItem *items, uint32_t count, const Split *split, BuildItem *left,
                 BuildItem *right);
 
-// Makes the node an inner one. Its children are the nodes from child on, which are to be divided.
+// Makes task's node an inner node whose children are the nodes `child` and `child + 1`. The first
+// gets `left` triangles. Stores the tasks of both in children.
 void build_inner(const Build *build, const BuildTask *task, uint32_t left, uint32_t child,
                  BuildTask children[2]);
 
-// Sums the leaf counts of an inner node's children.
+// Sets an inner node's leaf_count to the sum of its children's. Does not change a leaf.
 void build_count_leaves(Bvh *bvh, uint32_t number);
 
-// Builds the subtree of the root. items must have room for twice its triangles. The nodes below
-// the root use some of the indices [2 * first + 1, 2 * (first + count) - 1), which no other
-// subtree uses.
+// Builds the subtree below root and adds to counts. items is a buffer for twice root's triangles.
+// Nodes below root use indices from 2 * first + 1 to 2 * (first + count) - 2, with first and count
+// of root. No other subtree uses these indices.
 void build_subtree(const Build *build, const BuildTask *root, BuildItem *items,
                    BuildCounts *counts);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Divides the triangles top down. A node of very many triangles is sorted into cells. All threads
-// together divide the cells instead of the triangles. The remaining subtrees are each built by one
-// thread. Every subtree has its own node indices, so the tree does not depend on the schedule.
+// Builds the tree top down. All threads sort the triangles of a large node into grid cells, and the
+// caller's thread divides the cells. Each remaining subtree is built by one thread. Every subtree
+// has its own node indices, so the tree does not depend on the schedule.
 #include "accel/bvh.h"
 
 #include "accel/build.h"
@@ -14,8 +14,8 @@ typedef struct {
     Build build;
     Crew *crew;
     Upper upper;
-    BuildItem *items;    // buffer for subtrees, one per worker
-    BuildCounts *counts; // of each subtree
+    BuildItem *items;    // buffers for build_subtree, one per worker
+    BuildCounts *counts; // by subtree
 } Whole;
 
 static void number_chunk(void *context, uint32_t chunk, uint32_t worker)
@@ -36,7 +36,7 @@ static void build_small(void *context, uint32_t number, uint32_t worker)
                       &whole->counts[number]);
 }
 
-// Subtrees that cells do not divide can have any size.
+// Builds the subtrees that are too large for the workers' buffers, one after the other.
 static bool build_large(Whole *whole, Error *error)
 {
     for (uint32_t i = 0; i < whole->upper.subtrees.count; i++) {
@@ -64,7 +64,7 @@ static bool build_subtrees(Whole *whole, Error *error)
     return true;
 }
 
-// Upper nodes are in the order of their division, so children come after their parents.
+// Upper nodes are listed in the order of division. The reverse loop visits children before parents.
 static void count_upper_leaves(const Whole *whole)
 {
     for (size_t i = whole->upper.nodes.count; i > 0; i--)
@@ -110,7 +110,7 @@ static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
     if (bvh->nodes == NULL || bvh->order == NULL)
         return false;
     crew_run(whole->crew, chunk_count(total), number_chunk, whole);
-    // The midpoint split keeps its definition, on triangles only.
+    // The midpoint split is defined on triangles, so it cannot divide cells.
     const bool ok = builder == BVH_MIDPOINT
                         ? array_push(&whole->upper.subtrees, root, error)
                         : upper_divide(&whole->upper, &whole->build, whole->crew, error);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Builds a Bvh from triangles: a binary tree of boxes with triangles in its leaves (Rubin and
-// Whitted, "A 3-dimensional representation for fast rendering of complex scenes", 1980). The same
-// triangles always give the same tree, regardless of the number of threads.
+// Whitted, "A 3-dimensional representation for fast rendering of complex scenes", 1980). The number
+// of threads does not affect the tree.
 #pragma once
 
 #include "accel/triangles.h"
 
 typedef enum { BVH_SAH, BVH_MIDPOINT } BvhBuilder;
 
-// The unit of a leaf's test cost, from which the surface area heuristic derives the leaf size.
+// The unit in which the surface area heuristic counts the intersection tests of a leaf.
 typedef enum {
-    LEAVES_SINGLE, // its triangles one by one
-    LEAVES_BLOCKS  // blocks of WIDE triangles, a block at once
+    LEAVES_SINGLE, // one triangle per test
+    LEAVES_BLOCKS  // a block of up to WIDE triangles per test
 } BvhLeaves;
 
 typedef struct {
@@ -23,24 +23,24 @@ typedef struct {
     float low[3], high[3];
 } Box;
 
-// A node with a count is a leaf: positions [first, first + count) of the order. Otherwise the
-// children are the nodes first and first + 1.
+// If count is not zero, the node is a leaf with the triangles at [first, first + count) of
+// Bvh::order. Otherwise its children are the nodes `first` and `first + 1`.
 typedef struct {
-    Box box; // exactly around the triangles below
+    Box box; // tight bounds of the triangles below
     uint32_t first, count;
-    uint32_t leaf_count; // leaves below; a leaf counts itself
+    uint32_t leaf_count; // leaves of the subtree; 1 for a leaf
 } BvhNode;
 
 typedef struct {
-    BvhNode *nodes;                  // the root first; some entries are unused
-    uint32_t *order;                 // the triangles' numbers, leaf after leaf
-    uint32_t *upper;                 // the inner nodes above the subtrees, ascending
-    uint32_t node_count, leaf_count; // in use
+    BvhNode *nodes;                  // the first is the root; some entries are unused
+    uint32_t *order;                 // triangle indices, leaf by leaf
+    uint32_t *upper;                 // indices of the inner nodes that upper.h made, ascending
+    uint32_t node_count, leaf_count; // nodes in use; leaves among them
     uint32_t upper_count;
-    uint32_t largest_leaf, depth; // levels; at most BVH_MAX_DEPTH
+    uint32_t largest_leaf, depth; // in triangles; in levels, at most BVH_MAX_DEPTH
 } Bvh;
 
-// Builds the tree. Without triangles it has no nodes.
+// Builds the tree. It has no nodes if there are no triangles.
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, Crew *crew,
                Error *error);
 void bvh_free(Bvh *bvh);

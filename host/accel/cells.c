@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Sorts triangles by the cell of their center, with a radix sort in two passes. All work is
-// divided into chunks. Counting the destinations of each chunk's triangles first keeps the sort
-// stable.
+// Sorts triangles by the grid cell of their center, with a radix sort of two passes. Threads
+// process chunks of triangles. Prefix sums over digits and chunks give each chunk its own
+// destinations, which keeps the sort stable.
 #include "accel/cells.h"
 
 #include <stdlib.h>
 
-#define SIDE_CELLS 64 // along the longest side of the grid
+#define SIDE_CELLS 64 // cells along the longest side of the grid
 #define DIGIT_BITS 9
 #define DIGITS     (1 << DIGIT_BITS)
 
@@ -14,20 +14,20 @@ typedef struct {
     uint32_t cell, number;
 } Keyed;
 
-// Cell along an axis = (doubled center - origin) * scale.
+// The cell coordinate on an axis is (doubled center - origin) * scale, rounded down.
 typedef struct {
     Float4 origin, scale;
-    uint32_t row, layer; // cells in a row, and in a layer of rows
+    uint32_t row, layer; // cells per row, cells per layer of rows
 } Grid;
 
 typedef struct {
     CellSource source;
     Grid grid;
     Keyed *keyed[2];
-    Bounds *centers;            // of each chunk
-    uint32_t (*places)[DIGITS]; // of each chunk: the count of each digit, later its destination
-    uint32_t *cell_counts;      // of each chunk: cells that begin there, later the cells before it
-    uint32_t shift;             // of the pass
+    Bounds *centers;            // by chunk: bounds of the doubled centers
+    uint32_t (*places)[DIGITS]; // by chunk and digit: triangle counts, later destinations
+    uint32_t *cell_counts;      // by chunk: cells that begin in it, later cells before it
+    uint32_t shift;             // lowest bit of this pass's digit
     Cells *cells;
 } Sorting;
 
@@ -50,7 +50,7 @@ static void measure_chunk(void *context, uint32_t chunk, uint32_t worker)
     sorting->centers[chunk] = centers;
 }
 
-// Cells are cubes.
+// Returns a grid of cubic cells, or of one cell if all centers are equal.
 static Grid grid_of(const Bounds *centers)
 {
     Grid grid = {centers->low, {0}, 1, 1};
@@ -107,8 +107,7 @@ static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
     }
 }
 
-// Turns the chunks' counts into destinations: digit after digit, and chunk after chunk within
-// each.
+// Turns the counts in places into destinations, ordered by digit and then by chunk.
 static void place_digits(Sorting *sorting)
 {
     const uint32_t chunks = chunk_count(sorting->source.count);
@@ -150,7 +149,7 @@ static void count_cells(void *context, uint32_t chunk, uint32_t worker)
     sorting->cell_counts[chunk] = count;
 }
 
-// Makes the cell that begins at a position, and returns the start of the next one.
+// Makes the cell whose triangles begin at position `first`. Returns where the next cell begins.
 static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t first)
 {
     const Keyed *keyed = sorting->keyed[0];

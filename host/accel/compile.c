@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The triangles and, for most callers, the tree are only needed in between.
+// The triangles and, for most callers, the tree are intermediate results.
 #include "accel/compile.h"
 
 bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error *error)

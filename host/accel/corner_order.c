@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Three comparisons, mostly of x alone, form an index into a table. A branch on each comparison
+// Three comparisons, usually of x alone, form an index into a table. A branch on each comparison
 // would be mispredicted half the time.
 #include "accel/corner_order.h"
 
-// Bits of the index: the second corner precedes the first, the third the second, the third the
-// first. Indices 3 and 4 are contradictory.
+// Bit 0 of the index: the second corner precedes the first. Bit 1: the third precedes the second.
+// Bit 2: the third precedes the first. Indices 3 and 4 are contradictory.
 const CornerOrder corner_orders[8] = {
     [0] = {{0, 1, 2}, false}, [1] = {{1, 0, 2}, true},  [2] = {{0, 2, 1}, true},
     [5] = {{1, 2, 0}, false}, [6] = {{2, 0, 1}, false}, [7] = {{2, 1, 0}, true}};

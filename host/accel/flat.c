@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flattens everything but the triangles and their tree, which flat_pair.c and flat_wide.c lay out.
+// Flattens lights, materials and spheres. flat_looks.c, flat_pair.c and flat_wide.c flatten the
+// triangles and their tree.
 #include "accel/flat.h"
 
 #include "accel/flat_looks.h"

@@ -5,9 +5,9 @@
 
 #include "accel/bvh.h"
 
-// The memory layout of triangles and their tree. The picture is the same for both.
+// The memory layout of triangles and their tree. Both layouts render the same picture.
 typedef enum {
-    NODES_PAIR, // two children per node, single triangles: for GPUs and for plain reading
+    NODES_PAIR, // two children per node, single triangles: for GPUs
     NODES_WIDE  // eight children per node, blocks of eight triangles: for vector instructions
 } NodeLayout;
 
@@ -16,33 +16,33 @@ typedef struct {
     PointLight *lights;
     Material *materials;
     SphereData *spheres;
-    BvhPair *pairs;          // of NODES_PAIR: NULL without triangles or tree
-    TriangleData *triangles; // of NODES_PAIR: in leaf order
-    BvhWide *wides;          // of NODES_WIDE: NULL without triangles or tree
-    TriangleBlock *blocks;   // of NODES_WIDE: in leaf order
-    TriangleLook *looks;     // of NODES_WIDE: in file order
-    CornerNormals *normals;  // of the smooth triangles, in file order
+    BvhPair *pairs;          // NODES_PAIR only: the tree
+    TriangleData *triangles; // NODES_PAIR only: in leaf order
+    BvhWide *wides;          // NODES_WIDE only: the tree
+    TriangleBlock *blocks;   // NODES_WIDE only: in leaf order
+    TriangleLook *looks;     // NODES_WIDE only: in file order
+    CornerNormals *normals;  // of smooth triangles, in file order
     uint32_t light_count, material_count, sphere_count;
-    uint32_t node_count; // of the layout's kind
+    uint32_t node_count; // entries of pairs or wides
     uint32_t triangle_count, block_count, normals_count;
     float background[3], ambient;
 } FlatScene;
 
-// The input of flattening. With a bvh without nodes, the kernels test every triangle.
+// The input of flattening. If bvh has no nodes, the kernels test every triangle.
 typedef struct {
     const Scene *scene;
     const Triangles *triangles;
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    Crew *crew; // threads for the work, NULL for none
+    Crew *crew; // thread pool; NULL for the caller's thread only
 } FlatSource;
 
-// Returns the leaf unit that suits a layout.
+// Returns the unit in which leaves of this layout are tested.
 BvhLeaves flat_leaves(NodeLayout layout);
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
-// Returns the bytes of all arrays, which are uploaded to the device.
+// Returns the size in bytes of all arrays that are uploaded to the device.
 size_t flat_size(const FlatScene *flat);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Processes object after object. The threads share each object's triangles.
+// Processes one mesh object at a time. Threads process chunks of its triangles.
 #include "accel/flat_looks.h"
 
 #include <string.h>
 
 typedef struct {
     const MeshObject *object;
-    const uint8_t *orders;  // of its triangles, as in Triangles
-    TriangleLook *looks;    // of its triangles
-    CornerNormals *normals; // of its triangles; NULL if it is flat
-    uint32_t first_normals; // their index among all normals
+    const uint8_t *orders;  // the object's section of Triangles::orders
+    TriangleLook *looks;    // its section of FlatScene::looks
+    CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
+    uint32_t first_normals; // index where that section begins
 } ObjectLooks;
 
 static Vec3 mesh_corner(const Mesh *mesh, const uint32_t *triangle, int corner)
@@ -33,14 +33,14 @@ static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner
     return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
-// Returns the factor that turns a mesh's normals to the stored front.
+// Returns -1 if sorting the corners swapped front and back, otherwise 1.
 static int sign_of(const CornerOrder *order)
 {
     return order->reversed ? -1 : 1;
 }
 
-// The ratios of a triangle's normal lengths are weights, so they are kept. A power of two, common
-// to the three, keeps their squares in range.
+// Stores a triangle's normals, scaled by one power of two that keeps their squares in range. The
+// ratios of their lengths stay unchanged, because they are interpolation weights.
 static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {
@@ -66,7 +66,7 @@ static float extent_of(const float *normal)
     return xy > z ? xy : z;
 }
 
-// Returns 2^-floor(log2(value)) for a value whose reciprocal is a normal number.
+// Returns 2^-floor(log2(value)) for a positive value. The result must be a normal number.
 static float inverse_power(float value)
 {
     uint32_t bits;
@@ -77,8 +77,8 @@ static float inverse_power(float value)
     return power;
 }
 
-// scale_normals in float, with the same bits. Returns false unless all three normals are given and
-// of usual size.
+// Computes the same bits as scale_normals, but in float. Returns false, without a result, if a
+// normal is missing or its size is extreme.
 static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                                 const CornerOrder *order)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inner nodes are numbered depth first. The depth of the tree bounds the recursion.
+// Numbers the inner nodes depth first. The depth of the tree bounds the recursion.
 #include "accel/flat_pair.h"
 
 #include "accel/slack.h"
@@ -23,7 +23,7 @@ static void write_planes(BvhPair *pair, int child, const Box *box)
     }
 }
 
-// Writes a missing child. No ray is ever between its planes.
+// Writes a missing child. Its planes are inverted, so no ray hits it.
 static void write_missing(BvhPair *pair, int child)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -33,8 +33,8 @@ static void write_missing(BvhPair *pair, int child)
     pair->count[child] = 1;
 }
 
-// Writes the pair of an inner node and the pairs below it, depth first. Returns the number of
-// pairs written so far.
+// Writes an inner node as pairs[number], followed by the nodes below it, depth first. Returns the
+// number of pairs written so far.
 static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, const BvhNode *node)
 {
     uint32_t count = number + 1;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Collapses the binary tree. A wide node starts with a binary node's two children. It then opens
-// the child with the largest surface, which rays most likely hit, until it has eight. A child that
-// would fill its own node is not opened partially, because that would leave nodes of two or three
-// blocks. One walk through the upper levels finds the wide nodes below them. Threads then count
-// the size of each of these branches, and later write it at its position. Nodes and blocks are
-// written depth first.
+// Collapses the binary tree into nodes of up to eight children. A wide node starts with a binary
+// node's two children. It then opens children until it has eight: each time, two parts replace the
+// child with the largest surface area, which rays most likely hit. A child with at most eight
+// leaves is opened only if all its leaves fit. Otherwise, a node of only two or three blocks could
+// remain. One thread walks the upper levels of the tree and lists the subtrees below them, called
+// branches. All threads then compute the size of each branch, and later write each branch at its
+// position. Nodes and blocks are in depth-first order.
 #include "accel/flat_wide.h"
 
 #include "accel/box.h"
@@ -13,25 +14,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A part of the tree that becomes a child: a node, or triangles of a leaf, possibly too many for
-// one block.
+// A candidate for a child of a wide node: a binary node, or a range of a leaf's triangles, which
+// may exceed one block.
 typedef struct {
     Box box;
     float area;
     uint32_t node;
-    uint32_t first, count; // positions of a leaf's triangles
+    uint32_t first, count; // range of a leaf's triangles in Bvh::order
     uint32_t leaf_count;
 } Part;
 
-// A size or a start position in the arrays.
+// Numbers of nodes and blocks: a size, or a position in both arrays.
 typedef struct {
     uint32_t nodes, blocks;
 } Extent;
 
-// A wide node below the upper levels, whose parent belongs to them.
+// A subtree of wide nodes just below the upper levels.
 typedef struct {
     Part part;
-    Extent extent; // size of its subtree; later its start
+    Extent extent; // its size, later its position
 } Branch;
 
 typedef struct {
@@ -40,7 +41,7 @@ typedef struct {
     ARRAY(Branch) branches;
 } Collapse;
 
-// The walk through the upper levels ends at the branches, a walk through a branch at the blocks.
+// A traversal: of the upper levels down to the branches, or of one branch down to its blocks.
 typedef struct {
     Collapse *collapse;
     bool is_upper;
@@ -67,7 +68,8 @@ static Part part_of(const Bvh *bvh, uint32_t number)
     return part;
 }
 
-// Replaces a part by its halves.
+// Opens *part and stores the result in *part and *second. An inner node becomes its two children, a
+// leaf's triangles become two halves of whole blocks.
 static void open_part(const Bvh *bvh, Part *part, Part *second)
 {
     const Part whole = *part;
@@ -84,7 +86,8 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
-// Returns whether to open a part if `room` more parts fit. A single part is always opened.
+// Returns whether to open a part of a node that has room for `room` more parts. A node's only part
+// is always opened, unless it is a block.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
@@ -101,7 +104,7 @@ static int largest_part(const Part *parts, uint32_t count)
     return largest;
 }
 
-// Splits one part into up to eight.
+// Opens parts[0] and the resulting parts repeatedly. Returns the number of parts.
 static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
 {
     uint32_t count = 1;
@@ -121,7 +124,7 @@ static int compare_numbers(const void *first, const void *second)
     return (*a > *b) - (*a < *b);
 }
 
-// Returns whether an upper walk leaves the part to a branch's walk.
+// Returns whether the part is a branch, where a walk through the upper levels ends.
 static bool is_branch(const Walk *walk, const Part *part)
 {
     const Bvh *bvh = walk->collapse->source->bvh;
@@ -131,7 +134,8 @@ static bool is_branch(const Walk *walk, const Part *part)
            NULL;
 }
 
-// The depth of the binary tree bounds the recursion.
+// Counts the part's nodes and blocks in walk->next, or lists the part as a branch. The depth of the
+// binary tree bounds the recursion.
 static bool count_node(Walk *walk, const Part *part, Error *error)
 {
     Collapse *collapse = walk->collapse;
@@ -158,7 +162,7 @@ static void write_planes(BvhWide *wide, uint32_t child, const Box *box)
     }
 }
 
-// No ray is ever between these planes.
+// Writes a missing child. Its planes are inverted, so no ray hits it.
 static void write_missing(BvhWide *wide, uint32_t child)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -168,7 +172,8 @@ static void write_missing(BvhWide *wide, uint32_t child)
     wide->child[child] = 0;
 }
 
-// Fills a block from the triangles at positions [first, first + count) of the order.
+// Fills block `number` with the triangles at [first, first + count) of Bvh::order or, without a
+// tree, of the file.
 static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
 {
     const FlatScene *flat = collapse->flat;
@@ -192,14 +197,14 @@ static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first
         block->id[i] = NOTHING;
 }
 
-// Returns the child's word.
+// Writes a block and returns its value for BvhWide::child.
 static uint32_t write_block(Walk *walk, uint32_t first, uint32_t count)
 {
     fill_block(walk->collapse, walk->next.blocks, first, count);
     return WIDE_LEAF | walk->next.blocks++;
 }
 
-// Returns the node's number.
+// Writes the part's nodes and blocks, unless it is a branch. Returns the index of its first node.
 static uint32_t write_node(Walk *walk, const Part *part)
 {
     const Collapse *collapse = walk->collapse;
@@ -227,7 +232,7 @@ static void count_branch(void *context, uint32_t number, uint32_t worker)
     Collapse *collapse = context;
     Branch *branch = &collapse->branches.data[number];
     Walk walk = {.collapse = collapse};
-    Error none = {0}; // only upper walks can fail
+    Error none = {0}; // only walks through upper levels allocate memory
     (void)worker;
     count_node(&walk, &branch->part, &none);
     branch->extent = walk.next;
@@ -242,7 +247,7 @@ static void write_branch(void *context, uint32_t number, uint32_t worker)
     write_node(&walk, &branch->part);
 }
 
-// Turns the branches' sizes into their starts, after the upper nodes and their blocks.
+// Turns the branches' sizes into positions. `next` is behind the upper nodes and their blocks.
 static void place_branches(Collapse *collapse, Extent next)
 {
     for (size_t i = 0; i < collapse->branches.count; i++) {
@@ -266,7 +271,7 @@ static bool allocate(FlatScene *flat, Error *error)
 static bool collapse_tree(Collapse *collapse, Error *error)
 {
     Crew *crew = collapse->source->crew;
-    // Without upper levels the root is a branch. Even a single block needs a node.
+    // Without upper levels, the root is a branch. It becomes a node even if it is a single block.
     const Part root = part_of(collapse->source->bvh, 0);
     Walk upper = {.collapse = collapse, .is_upper = true};
     if (!count_node(&upper, &root, error))

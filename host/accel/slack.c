@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds the slack in fp64, where the sum is nearly exact, and rounds once, outward.
+// Adds the slack in fp64, where the sum is nearly exact. Rounds the sum outward to float.
 #include "accel/slack.h"
 
 #include <math.h>

@@ -4,9 +4,9 @@
 #include "accel/split.h"
 
 #define LEAF_TRIANGLES    4
-#define SMALLEST_PROGRESS 0.9f // of the parent's extent
+#define SMALLEST_PROGRESS 0.9f // largest extent of a child, as a fraction of its parent's
 
-// Returns 10 levels more than a balanced tree with four triangles a leaf.
+// Returns 10 levels more than a balanced tree with four triangles per leaf.
 static uint32_t deepest_level(uint32_t triangle_count)
 {
     const uint32_t leaves = (uint32_t)(triangle_count / 4.0 + 0.5);

@@ -1,52 +1,52 @@
 // SPDX-License-Identifier: MIT
-// The binned surface area heuristic: of 3 x 15 planes, it takes the one with the least expected
-// cost of an average ray (Wald, "On fast construction of SAH-based bounding volume hierarchies",
-// 2007). A node becomes a leaf if no plane is cheaper than testing its triangles.
+// The binned surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", 2007). It takes the plane with the lowest expected cost per ray, out of up to 15
+// per axis. A small node becomes a leaf if no plane is cheaper than testing its triangles.
 #include "accel/split.h"
 
 #define BINS 16
 
-// Small nodes are numerous, and fewer bins serve them as well.
+// Small nodes are numerous, and fewer bins suffice for them.
 #define FEW_ITEMS 32
 #define FEW_BINS  8
 
-// Large nodes fill two sets of bins.
+// Nodes with at least this many items fill two sets of bins.
 #define MANY_ITEMS 128
 
-// The most triangles in a leaf of single triangles.
+// The most triangles in a leaf.
 #define LARGEST_LEAF 8
 
-// Below this depth, halving bounds the cost of degenerate distributions.
+// From this depth on, nodes are halved, which bounds the depth for degenerate distributions.
 #define MEDIAN_SPLIT_DEPTH 32
 
-// Costs are in tests of a leaf's unit, which is one triangle or one block.
+// Costs are relative to one test of a leaf, which covers one triangle or one block.
 typedef struct {
-    uint32_t unit, unit_bits; // triangles, and their logarithm
-    float node;               // reading a node and testing both its boxes
+    uint32_t unit, unit_bits; // triangles per test, and their binary logarithm
+    float node;               // cost of reading a node and testing its two boxes
 } Costs;
 
 static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS] = {8, 3, 0.3f}};
 
-// Each bin holds the three axes together, so that three planes are priced at once.
+// Each bin holds all three axes, so that vector operations price three planes at once.
 typedef struct {
     Bounds bounds[BINS][3];
     Uint4 weights[BINS];
 } Bins;
 
-// Bin = (doubled center - origin) * scale. The scale is zero on an axis without extent.
+// An item's bin is floor((doubled center - origin) * scale). On an axis without extent, scale is 0.
 typedef struct {
     Float4 origin, scale;
     int bins;
 } Binning;
 
 typedef struct {
-    int axis; // -1 until one is found
+    int axis; // -1 without a plane
     int bin;  // the first bin of the right side
     uint32_t left;
     float price;
 } Plane;
 
-// Returns the number of units for each weight.
+// Returns the number of leaf tests for each weight.
 static Float4 units_of(const Costs *costs, Uint4 weights)
 {
     const Uint4 units = (weights + (costs->unit - 1)) >> costs->unit_bits;
@@ -61,7 +61,7 @@ static Binning binning_of(const Bounds *centers, uint32_t count)
         const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
-    binning.origin[3] = 1; // far from the item numbers there, which are denormals
+    binning.origin[3] = 1; // outweighs the items' integers there, which are denormals
     return binning;
 }
 
@@ -85,8 +85,8 @@ static void fill_item(Bins *bins, const BuildItem *item, const Binning *binning)
     }
 }
 
-// Neighbors fall into the same bins, so each update would wait for the previous one. The two
-// halves of the items therefore fill two sets of bins.
+// Neighboring items often fall into one bin, where each update waits for the previous one.
+// Therefore the two halves of the items fill two sets of bins, which are then united.
 static void fill_bins_twice(Bins *bins, const BuildRange *range, const Binning *binning)
 {
     Bins second;
@@ -116,7 +116,7 @@ static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binnin
         fill_item(bins, &range->items[i], binning);
 }
 
-// The geometry on one side of a plane of each axis.
+// The bounds and triangle counts on one side of three planes, one plane per axis.
 typedef struct {
     Bounds bounds[3];
     Uint4 weights;
@@ -134,14 +134,15 @@ static void sides_add(Sides *sides, const Bins *bins, int bin)
     sides->weights += bins->weights[bin];
 }
 
-// The cost of an empty side is NaN.
+// Returns the price of a side for each axis: half the surface area times the number of tests. An
+// empty side's price is NaN.
 static Float4 sides_price(const Sides *sides, const Costs *costs)
 {
     return bounds_half_areas(sides->bounds) * units_of(costs, sides->weights);
 }
 
-// Sweeps once from the right to compute the right sides, and once from the left to price each
-// plane.
+// Returns the cheapest plane. Sweeps once from the right to price the right sides, and once from
+// the left to price each plane.
 static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
 {
     Float4 right_prices[BINS];
@@ -171,7 +172,7 @@ static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
 Split split_sah(const BuildRange *range)
 {
     const Costs *costs = &costs_of[range->leaves];
-    // A block is tested at once, regardless of its fill.
+    // One test covers all these triangles, so a split cannot be cheaper.
     if (range->weight <= costs->unit)
         return (Split){.kind = SPLIT_NONE};
     Plane best = {-1, 0, 0, INFINITY};

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Normalizes every vertex in fp64 and rounds it once. Triangles keep sharing vertices.
+// Normalizes every vertex in fp64 and rounds it to float once. Triangles keep sharing vertices.
 #include "accel/triangles.h"
 
 #include <stdlib.h>
 
-// A mesh, and the position of its vertices after those of earlier meshes.
+// A mesh, and where its points and triangles begin in the arrays of all meshes.
 typedef struct {
     const Mesh *mesh;
     const Normalization *normalization;
-    float (*points)[4];     // its own
-    uint32_t (*corners)[3]; // its own
-    uint8_t *orders;        // its own
-    uint32_t first_point;   // index among all points
+    float (*points)[4];     // the mesh's section of Triangles::points
+    uint32_t (*corners)[3]; // the mesh's section of Triangles::corners
+    uint8_t *orders;        // the mesh's section of Triangles::orders
+    uint32_t first_point;   // index of the mesh's first point
 } Storing;
 
-// Returns the value, with +0 for -0: equal points must have equal bits.
+// Turns -0 into +0, because equal points must have equal bits.
 static float without_negative_zero(float value)
 {
     return value + 0.0f;
@@ -80,7 +80,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
-    // Ids share 32 bits with the spheres' ids, and flags take two of them (kernels/shared.h).
+    // Triangles and spheres share one range of ids; flags take two bits (kernels/shared.h).
     if (count + scene->spheres.count >= 0x3fffffff)
         return error_set(error, "the scene has %zu triangles, more than 2^30 primitives", count);
     if (points > UINT32_MAX)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Collects all triangles of a scene in id order, with the float corners that are traced. Equal
-// points give equal floats, as watertightness and the builders require.
+// Collects a scene's triangles in file order, with the float coordinates that the device traces.
+// Equal points get equal floats, as watertightness and the builders require.
 #pragma once
 
 #include "accel/corner_order.h"
@@ -8,13 +8,13 @@
 #include "scene/normalize.h"
 
 typedef struct {
-    float (*points)[4];     // all meshes' vertices in the normalized frame; the fourth is zero
-    uint32_t (*corners)[3]; // of each triangle: indices of its points, in file order
-    uint8_t *orders;        // of each triangle: the index of its order in corner_orders
+    float (*points)[4];     // vertices of all meshes, normalized; the fourth component is zero
+    uint32_t (*corners)[3]; // by triangle: indices of its points, in file order
+    uint8_t *orders;        // by triangle: index into corner_orders
     size_t count, point_count;
 } Triangles;
 
-// The n-th triangle is the scene's n-th in file order.
+// Returns false if memory runs out or the scene has too many triangles or vertices.
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     Crew *crew, Error *error);
 void triangles_free(Triangles *triangles);

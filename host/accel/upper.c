@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorts a node's triangles into cells and divides the cells, which are far fewer. A node with few
-// cells but many triangles gets a finer grid of its own.
+// Sorts a node's triangles into grid cells and divides the cells, which are far fewer. A part with
+// few cells but many triangles gets its own, finer grid.
 #include "accel/upper.h"
 
 #include "accel/cells.h"
@@ -8,26 +8,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Larger nodes are divided while they have enough cells. With fewer cells, the planes between them
-// would be too far from the best plane.
+// Cells divide nodes with more than USUAL_TRIANGLES triangles and at least FEWEST_CELLS cells. With
+// fewer cells, the planes between them would be too far from the best plane.
 #define USUAL_TRIANGLES 8192
 #define FEWEST_CELLS    32
 
-// Below this depth, the triangles are so uneven that grids hardly divide them.
+// From this depth on, triangles are distributed so unevenly that grids hardly divide them.
 #define DEEPEST_GRID 24
 
-// A node of some of the cells.
+// A node that consists of some of the cells.
 typedef struct {
     BuildTask task;
     uint32_t first_item, item_count;
-    uint32_t array; // the array that holds its items
+    uint32_t array; // which of Division::items holds its cells
 } CellTask;
 
 typedef struct {
     const Build *build;
     Upper *upper;
     Cells cells;
-    BuildItem *items[2]; // the cells' items, and room for as many
+    BuildItem *items[2]; // the cells, and a buffer of the same size
 } Division;
 
 static bool is_divided_by_cells(const Division *division, const CellTask *node)
@@ -61,7 +61,8 @@ static uint32_t count_left(const Split *split, const BuildItem *items, uint32_t 
     return left;
 }
 
-// Moves the node's triangles to their positions and lists the node to be divided by other means.
+// Stores the node's triangles in Bvh::order. Lists the node as a subtree, or as a task if a finer
+// grid may divide it.
 static bool finish_node(const Division *division, const CellTask *node, bool is_stuck, Error *error)
 {
     const Cells *cells = &division->cells;
@@ -77,7 +78,7 @@ static bool finish_node(const Division *division, const CellTask *node, bool is_
     return array_push(&division->upper->tasks, node->task, error);
 }
 
-// DEEPEST_GRID bounds the recursion.
+// Divides the node's cells. DEEPEST_GRID bounds the recursion.
 static bool divide(const Division *division, const CellTask *node, Error *error)
 {
     const bool is_whole = node->item_count == division->cells.count;
@@ -117,7 +118,7 @@ static bool divide_node(Upper *upper, const Build *build, const BuildTask *task,
     return ok;
 }
 
-// Sorts the largest first, because small ones balance the load at the end.
+// Puts the largest subtrees first. The small ones at the end balance the load of the threads.
 static int compare_subtrees(const void *first, const void *second)
 {
     const BuildTask *a = first, *b = second;
