@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Doubling growth for ARRAY, and allocations that report exhaustion through Error.
+// Grows ARRAYs by doubling, and reports failed allocations through Error.
 #include "base/array.h"
 
 #include <stdint.h>
@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// The alignment that the widest vectors need on devices that read arrays in place.
+// Devices that read host arrays in place need this alignment for their widest vectors.
 #define ALIGNMENT ((size_t)64)
 
-// Arrays of many pages request huge pages. A tree's nodes are read in no order, so with small
-// pages every other read misses the TLB. Touching new memory 4 KB at a time also costs a loader
-// more than filling it. CHANGELOG.md has the measurements on a million triangles.
+// Large arrays request huge pages. Rays read a tree's nodes in random order, so with small pages
+// every second read misses the TLB. The page faults of small pages also cost a loader more time
+// than filling the memory.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Growable arrays of any element type: ARRAY(Light) lights = {0}; array_push(&lights, light,
+// Growable arrays of any type, such as ARRAY(Light) lights = {0}; array_push(&lights, light,
 // error). The anonymous union lets one growth function serve every type without breaking aliasing
 // rules.
 #pragma once
@@ -17,20 +17,20 @@
         size_t count, capacity;                                                                    \
     }
 
-// Reserves memory for count elements of size bytes. Returns false on exhaustion and leaves the
-// array unchanged.
+// Reserves memory for count elements of size bytes each. Returns false if memory runs out, and then
+// leaves the array unchanged.
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error);
 
-// Appends item. An expression; false if memory runs out.
+// Appends item. This expression is false if memory runs out.
 #define array_push(array, item, error)                                                             \
     (array_reserve(&(array)->memory, &(array)->capacity, (array)->count + 1,                       \
                    sizeof *(array)->data, error) &&                                                \
      ((array)->data[(array)->count++] = (item), true))
 
-// calloc and malloc of count elements, aligned to 64 bytes. Return NULL and fill Error on overflow
-// or exhaustion. Zero elements give a pointer that may be freed.
+// Allocate count elements, aligned to 64 bytes. Return NULL and fill Error if memory runs out. The
+// caller frees the result, also for zero elements.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
-// memory_raw for a mostly untouched array, without huge pages.
+// Like memory_raw, but without the alignment and without huge pages: for mostly untouched arrays.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Version 2 has one line "0::/path", and a file cpu.max in each group. Version 1 has a line for
-// each controller, "4:cpu,cpuacct:/path", and two files. A container may see a path that does not
-// exist there, beside a mount that begins at its own group. The upward search ends at the mount in
-// both cases.
+// In version 2, /proc/self/cgroup has one line "0::/path", and each group has a file cpu.max. In
+// version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group has a file
+// for the quota and one for the period. In a container, the path may not exist below the mount,
+// because the mount begins at the container's group. The search therefore reads every parent folder
+// up to the mount.
 #include "base/cgroup.h"
 
 #include <math.h>
@@ -25,7 +26,8 @@ static bool read_numbers(const char *folder, const char *name, int count, double
     return found == count;
 }
 
-// A quota of "max" or -1 means no limit.
+// Returns the group's quota in processors, rounded up. A quota of "max" or -1 means no limit, for
+// which it returns UINT32_MAX.
 static uint32_t group_grant(const char *folder)
 {
     double time[2]; // quota and period
@@ -62,7 +64,8 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Version 1 mounts the controller alone, or with the one that shares its groups.
+// Returns the least quota of a version 1 group. Its controller is mounted alone, as "cpu", or
+// together with others, as "cpu,cpuacct".
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {
     char folder[PATH_SIZE];

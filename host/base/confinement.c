@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results are ignored: setting a limit only fails if the system already has a lower one.
+// Ignores failures, because setting a limit only fails if the system already has a lower one.
 #include "base/confinement.h"
 
 #include <signal.h>

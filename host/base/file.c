@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads whole files, because the parsers need one span of bytes.
+// Reads whole files, because parsers need contiguous bytes.
 #include "base/file.h"
 
 #include "base/array.h"
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Pipes report no size, so the buffer grows with the bytes that arrive.
+// Pipes report no size, so the buffer grows as bytes arrive.
 static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
 {
     void *memory = NULL;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An existing file is identified by its device and inode, a new file by its folder's device and
-// inode and by its name. Sorting makes equal files adjacent, so that a million frames stay cheap.
+// Identifies an existing file by its device and inode. Identifies a new file by its name and by its
+// folder's device and inode. Sorting makes equal files adjacent, so a million frames are fast.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LINKS_MOST 40 // in a row; the system follows no more
+#define LINKS_MOST 40 // links in a chain; the system follows no more
 
 static char *copy_text(const char *text, Error *error)
 {
@@ -27,8 +27,8 @@ static void take_identity(PlannedFile *file, const struct stat *status)
     file->inode = (uint64_t)status->st_ino;
 }
 
-// Returns the target of the symbolic link at path, relative to the current folder; NULL if path is
-// not a link.
+// Returns the target of the symbolic link at path, as a path from the current folder. Returns NULL
+// if path is not a link. The caller frees the result.
 static char *read_link(const char *path, Error *error)
 {
     char target[4096];
@@ -39,7 +39,8 @@ static char *read_link(const char *path, Error *error)
     return file_path_beside(path, target, error);
 }
 
-// Returns the path that writing to path would create: path itself, or the end of its links.
+// Returns the path of the file that writing to path would create: path itself, or the last target
+// of its links. The caller frees the result.
 static char *follow_links(const char *path, Error *error)
 {
     char *end = copy_text(path, error);
@@ -53,7 +54,7 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a file that does not exist. A missing folder leaves inode 0, which no file has.
+// Identifies a file that does not exist. In a missing folder, inode stays 0, which no file has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;
@@ -93,7 +94,7 @@ bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *pa
     if (exists)
         take_identity(&file, &status);
     const bool ok = file.path != NULL && (exists || identify_new(&file, error));
-    // A file without a folder cannot be written either. A later check reports this.
+    // A file in a missing folder cannot be written. A later check reports this.
     if (ok && file.inode != 0 && array_push(&plan->list, file, error))
         return true;
     free_file(&file);
@@ -105,7 +106,7 @@ static int compare_numbers(uint64_t a, uint64_t b)
     return (a > b) - (a < b);
 }
 
-// Returns zero if both are the same file.
+// Returns zero if both are the same file, otherwise a negative or positive order.
 static int compare_identity(const PlannedFile *a, const PlannedFile *b)
 {
     const int device = compare_numbers(a->device, b->device);
@@ -115,7 +116,7 @@ static int compare_identity(const PlannedFile *a, const PlannedFile *b)
     return strcmp(a->name != NULL ? a->name : "", b->name != NULL ? b->name : "");
 }
 
-// Orders by identity, then inputs before outputs, then by insertion.
+// Orders files by identity, then inputs before outputs, then in the order of addition.
 static int compare_files(const void *one, const void *other)
 {
     const PlannedFile *a = *(const PlannedFile *const *)one,

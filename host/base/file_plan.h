@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks that no output of a run replaces an input or another output. Files are compared by
-// identity, so links to one file count as that file.
+// Checks that no output of a run replaces an input or another output. The check compares files by
+// identity, so a link counts as the file that it points to.
 #pragma once
 
 #include "base/array.h"
@@ -11,22 +11,21 @@ typedef enum { FILE_INPUT, FILE_OUTPUT } FileUse;
 
 typedef struct {
     FileUse use;
-    const char *role;       // how messages introduce the path, such as "--stats="; borrowed
+    const char *role;       // prefix of the path in messages, such as "--stats="; borrowed
     char *path;             // as the user wrote it; owned
     uint64_t device, inode; // of the file or, for a new file, of its folder
-    char *name;             // in that folder, NULL for an existing file; owned
+    char *name;             // of a new file, in its folder; NULL for an existing file; owned
 } PlannedFile;
 
 typedef struct {
     ARRAY(PlannedFile) list;
 } FilePlan;
 
-// Adds the file at path; "-" is standard input or output. Ignores pipes and devices, which nothing
-// replaces, and inputs that do not exist.
+// Adds the file at path; "-" is standard input or output. Ignores pipes and devices, because
+// writing does not replace them. Ignores inputs that do not exist.
 bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *path, Error *error);
 
-// Returns false if two planned files are one file and at least one is an output. The message names
-// both.
+// Returns false if an output is also an input or another output. The message names both.
 bool file_plan_check(const FilePlan *plan, Error *error);
 
 void file_plan_free(FilePlan *plan);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Converts decimal text to int64_t or to a correctly rounded double, in every locale. Up to 19
-// digits are gathered in a 64-bit integer. If that integer and the power of ten are exact doubles,
-// one multiplication or division rounds once and is therefore correct (William D. Clinger, "How to
-// Read Floating Point Numbers Accurately", PLDI 1990). The same holds for 128-bit integers, which
-// round once when converted; they cover 19 digits times 10^-27 ... 10^27. All other numbers are
-// rewritten as DIGITSeEXPONENT for strtod, which no locale can misread without a decimal point.
+// digits fit in a 64-bit integer. If that integer and the power of ten are exact doubles, one
+// multiplication or division rounds once and is correct (William D. Clinger, "How to Read Floating
+// Point Numbers Accurately", PLDI 1990). For powers from 10^-27 to 10^27, 128-bit integers hold the
+// result, and only the conversion to double rounds. All other numbers are rewritten as
+// DIGITSeEXPONENT for strtod. No locale misreads this form, because it has no decimal point.
 #include "base/number.h"
 
 #include <float.h>
@@ -18,7 +18,7 @@ _Static_assert(FLT_EVAL_METHOD == 0, "wider intermediate results would be rounde
 
 #define EXACT_MANTISSA    ((uint64_t)1 << 53)
 #define MANTISSA_DIGITS   19    // any 19 digits fit in 64 bits
-#define SUFFICIENT_DIGITS 800   // a tie between two doubles is decided within 768 digits
+#define SUFFICIENT_DIGITS 800   // 768 digits decide every tie between two doubles
 #define EXPONENT_BOUND    10000 // beyond this, the result is infinity or zero
 
 static const double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -41,7 +41,7 @@ static const char *skip_sign(const char *text, const char *end, bool *negative)
     return text < end && (*text == '-' || *text == '+') ? text + 1 : text;
 }
 
-// Appends the digits at text to mantissa, which wraps on overflow.
+// Appends the digits at text to *mantissa, which wraps on overflow. Returns their end.
 static const char *gather_digits(const char *text, const char *end, uint64_t *mantissa)
 {
     for (; text < end && is_digit(*text); text++)
@@ -49,7 +49,8 @@ static const char *gather_digits(const char *text, const char *end, uint64_t *ma
     return text;
 }
 
-// An "e" without digits is not an exponent and stays unread.
+// Adds the exponent at text, if there is one, to *exponent. Returns where the exponent ends. An "e"
+// without digits is not an exponent.
 static const char *scan_exponent(const char *text, const char *end, int64_t *exponent)
 {
     if (text == end || (*text != 'e' && *text != 'E'))
@@ -59,7 +60,7 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     const char *stop = digits;
     int64_t size = 0;
     for (; stop < end && is_digit(*stop); stop++) {
-        if (size < INT64_MAX / 100) // beyond what the digits of any file could balance
+        if (size < INT64_MAX / 100) // no file has enough digits to balance a larger exponent
             size = size * 10 + (*stop - '0');
     }
     if (stop == digits)
@@ -68,8 +69,8 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// Returns the digits from text to end, as one integer, times ten to the exponent. Digits that can
-// no longer matter are replaced by one that records whether all of them were zero.
+// Returns the integer with the digits from text to end, times ten to the exponent. A single 1
+// replaces all digits after the first SUFFICIENT_DIGITS, unless all of them are zero.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];
@@ -94,8 +95,8 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
     return strtod(spelled, NULL);
 }
 
-// Returns mantissa times ten to the exponent, at most WIDE_POWER in size. The power of five is
-// multiplied as an integer; the power of two is exact.
+// Returns mantissa times ten to the exponent, whose absolute value is at most WIDE_POWER. Integer
+// arithmetic applies the power of five. ldexp applies the power of two, which is exact.
 static double round_widely(uint64_t mantissa, int64_t exponent)
 {
     uint64_t power = 1;
@@ -105,8 +106,8 @@ static double round_widely(uint64_t mantissa, int64_t exponent)
         return 0;
     if (exponent >= 0)
         return ldexp((double)((Wide)mantissa * power), (int)exponent);
-    // The shift gives the quotient at least 63 bits. Its last bit, far below the rounding
-    // position, records whether a remainder is left.
+    // The shift gives the quotient at least 63 bits. The last bit, far below the rounding position,
+    // records whether the division left a remainder.
     const int shift = 63 + __builtin_clzll(mantissa);
     const Wide dividend = (Wide)mantissa << shift;
     const Wide quotient = dividend / power;
@@ -150,7 +151,7 @@ const char *integer_parse(const char *text, const char *end, int64_t *value)
     bool negative;
     const char *first = skip_sign(text, end, &negative);
     const char *stop = first;
-    int64_t sum = 0; // negative, because INT64_MIN has room
+    int64_t sum = 0; // minus the value, so that INT64_MIN fits
     for (; stop < end && is_digit(*stop); stop++) {
         const int digit = *stop - '0';
         if (sum < (INT64_MIN + digit) / 10)

@@ -24,8 +24,8 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Creates an empty file with a new name, which ends in SUFFIX_SIZE bytes here. The system applies
-// the process's umask, which cannot be read without changing it for all threads.
+// Creates an empty file with an unused name, whose last SUFFIX_SIZE bytes it writes to suffix. The
+// system applies the umask, which cannot be read without changing it for all threads.
 static bool make_file(char *suffix, const char *name)
 {
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
@@ -42,7 +42,8 @@ static bool make_file(char *suffix, const char *name)
     return false;
 }
 
-// Chooses the folder of path, so that the file can be renamed, or the system's temporary folder.
+// Creates a temporary file in the folder of path, so that it can be renamed, or, unless `beside`,
+// in the system's temporary folder. Returns its path, which the caller frees, or NULL.
 static char *temporary_file(const char *path, bool beside, Error *error)
 {
     const char *slash = strrchr(path, '/');
@@ -62,8 +63,8 @@ static char *temporary_file(const char *path, bool beside, Error *error)
     return NULL;
 }
 
-// Creates a file without a name in the folder of path, so that a signal leaves nothing behind.
-// Returns -1 where the file system has no such files.
+// Returns whether a file can be created in the folder of path. The test file has no name, so a
+// signal leaves nothing behind. Returns -1 if the file system does not support unnamed files.
 static int probe_folder(const char *path, Error *error)
 {
     const char *slash = strrchr(path, '/');
@@ -132,7 +133,7 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     const bool standard = strcmp(path, "-") == 0;
     FILE *source = fopen(from, "rb");
     FILE *target = standard ? stdout : fopen(path, "wb");
-    // The name is removed first, so that nothing remains if the process ends here.
+    // Removes the name before copying, so that nothing remains if the process ends here.
     unlink(from);
     const bool ok = source != NULL && target != NULL && copy_stream(source, target);
     if (!ok)

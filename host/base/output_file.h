@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A file that appears whole or not at all: it is written beside its final name and then renamed. A
-// file cannot replace links, pipes and devices, so the finished bytes are copied into them.
+// A file that appears complete or not at all. clrt writes a temporary file beside the final name
+// and then renames it. A file must not replace links, pipes and devices, so clrt copies the
+// finished bytes into them.
 #pragma once
 
 #include "base/error.h"
 
 typedef struct {
     const char *path; // the final name, "-" for standard output; borrowed
-    char *temporary;  // the file to write to; owned
-    bool replaces;    // renamed to path, not copied
+    char *temporary;  // path of the file to write; owned
+    bool replaces;    // the temporary file is renamed, not copied
 } OutputFile;
 
 // Creates an empty temporary file. The error message names the path.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
-// Moves the written file to its final name, or removes it if ok is false. Returns false if ok is
-// false or the move fails; cause then holds the reason alone.
+// Moves the temporary file to its final name or, if ok is false, removes it. Returns false if ok is
+// false or the move fails. If the move fails, cause holds the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
-// Returns whether path seems writable. Callers check this before long work, so that none is lost.
+// Returns whether path seems writable. Callers check this before long work.
 bool output_file_check(const char *path, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A thread pool: each call of crew_run is a generation. Idle threads first poll for the next
-// generation, because calls follow each other closely, and then sleep.
+// A thread pool. Each call of crew_run starts a generation of tasks. Idle threads first poll for
+// the next generation, because calls often follow each other closely, and then sleep.
 #include "base/parallel.h"
 
 #include <pthread.h>
@@ -10,12 +10,12 @@
 #include <stdlib.h>
 
 #define THREADS_MAX    256
-#define LOOKS_FOR_WORK 200 // polls, with sched_yield between them: about 0.1 ms
+#define LOOKS_FOR_WORK 200 // polls before a thread sleeps, about 0.1 ms
 
 typedef struct {
     Crew *crew;
     pthread_t thread;
-    uint32_t number; // the caller is 0
+    uint32_t number; // from 1; the caller's thread has number 0
 } Worker;
 
 struct Crew {
@@ -26,9 +26,9 @@ struct Crew {
     atomic_uint generation;
     atomic_uint busy; // workers that have not finished the generation
     atomic_bool closing;
-    pthread_mutex_t mutex; // for sleeping
+    pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
-    uint32_t worker_count; // without the caller
+    uint32_t worker_count; // the caller's thread does not count
     Worker workers[];
 };
 
@@ -42,7 +42,7 @@ static void take_tasks(Crew *crew, uint32_t worker)
     }
 }
 
-// Waits for a generation after the known one and returns it.
+// Waits for the generation after `known` and returns its number.
 static uint32_t await_generation(Crew *crew, uint32_t known)
 {
     for (int look = 0; look < LOOKS_FOR_WORK; look++) {

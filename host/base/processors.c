@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The system is queried every time, because affinity and quotas change while a process runs.
+// Queries the system at every call, because affinity and quotas can change while a process runs.
 #include "base/processors.h"
 
 #include "base/cgroup.h"
@@ -13,7 +13,8 @@ uint32_t processors_present(void)
     return count > 0 ? (uint32_t)count : 1;
 }
 
-// sched_getaffinity fails if there are more processors than the set holds.
+// Returns the number of processors in the affinity mask. sched_getaffinity fails if cpu_set_t is
+// too small for the machine; then all processors count.
 static uint32_t allowed_processors(void)
 {
     cpu_set_t set;

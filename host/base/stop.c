@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The handlers stay installed while the picture is written, so that one signal never loses traced
-// tiles. Nothing waits for the driver's compiler, which cannot be interrupted.
+// The handlers stay installed while clrt writes the picture, so a single signal never loses traced
+// tiles. Before the first tile, a signal ends the process, as compilation cannot be interrupted.
 #include "base/stop.h"
 
 #include <signal.h>
@@ -11,7 +11,8 @@
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
 static pid_t watcher;
 
-// Forks of this process read or write pictures. They end without a message.
+// Ends the process. Only the process that installed the handlers prints a message. Its forks, which
+// read or write pictures, end silently.
 static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";
@@ -28,11 +29,11 @@ static void stop(int number)
     stopped_by = number;
 }
 
-// A signal that is ignored, as in a background job, stays ignored.
+// Installs the handler. A signal that is already ignored, as in a background job, stays ignored.
 static void take_signal(int number)
 {
     struct sigaction before;
-    // SA_RESETHAND: the second signal has the default action.
+    // SA_RESETHAND gives the second signal its default action.
     struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(number, NULL, &before);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reduces the angle to at most 45 degrees, which is exact in degrees. Then sums the Taylor series,
-// whose first omitted term is below 2^-55 there.
+// Reduces the angle to at most 45 degrees, which is exact in degrees. In this range, the first
+// omitted term of the Taylor series is below 2^-55.
 #include "base/trigonometry.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static double cosine_series(double x)
     return 1.0 + s * sum;
 }
 
-// Returns the sine of degrees plus a number of quarter turns, which add no error.
+// Returns the sine of degrees + 90 * quarters. The quarter turns add no error.
 static double sine_ahead(double degrees, int quarters)
 {
     const double turns = rint(degrees / 90.0);

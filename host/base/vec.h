@@ -38,8 +38,7 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Return the smaller or the larger of each component, for vectors without NaN. fmin and fmax would
-// be function calls.
+// Return the minimum or maximum per component, without NaN. fmin and fmax would be function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -50,14 +49,14 @@ static inline Vec3 vec3_upper(Vec3 a, Vec3 b)
     return (Vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
-// Returns the largest absolute component.
+// Returns the largest absolute value of the components.
 static inline double vec3_extent(Vec3 a)
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
-// Returns a scaled to length 1, for any magnitude; the zero vector stays zero. A power of two is
-// divided out first, so that no square overflows or underflows.
+// Returns `a` scaled to length 1; the zero vector stays zero. Dividing by a power of two first
+// prevents overflow and underflow of squares.
 static inline Vec3 vec3_normalize(Vec3 a)
 {
     const double extent = vec3_extent(a);

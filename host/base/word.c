@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edit distance by one row of the classic table (Wagner and Fischer 1974).
+// Computes edit distances with one row of the classic table (Wagner and Fischer 1974).
 #include "base/word.h"
 
 #include <string.h>
