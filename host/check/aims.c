@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray from within the cone that all triangles around its aim face must end on one of them.  Only
-// rounding may carry it past.  The rounding bounds are generous: aims too sharp or too small for
-// them are skipped.
+// If all triangles around an aim face the origin of a ray toward it, the ray must hit one of them.
+// Only rounding could make it miss. The rounding bounds are generous, so aims with too sharp angles
+// or too small triangles get no ray.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -11,26 +11,26 @@
 #include <string.h>
 
 #define EYES         32
-#define EYE_DISTANCE 3.0 // radii from the center
+#define EYE_DISTANCE 3.0 // in radii of the mesh, from its center
 
-// The smallest cosine between a ray and the normals at its aim, per kind of eye.
+// The smallest accepted cosine between the direction to the origin and the normals at the aim.
 #define FACING_FROM_AFAR  0.1
 #define FACING_FROM_CLOSE 0.01
 
-// A ray passes its aim within these fractions of its length and of the aim's coordinates.
-// triangle.cl accepts hits within 22 units of rounding (2^-24) of the ray; directions and aims are
-// rounded as well.
+// A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
+// aim's largest coordinate. triangle.cl accepts hits within 22 units of rounding (2^-24) of the
+// ray. Directions and aims are also rounded.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
-// The aim's position on an edge, as a fraction from its lower point.  A fraction makes coordinates
-// round.
+// An aim divides its edge at this fraction, measured from the point with the lower index. Unlike
+// 1/2, the fraction makes the aim's coordinates inexact.
 #define EDGE_PART 0.4
 
-// The distance of an aim beyond an open edge, in radii: well past the rounding.
+// The distance of an aim beyond an open edge, in radii of the mesh. It is far above rounding.
 #define BEYOND 0x1p-14
 
-// The part of an aim that is accumulated over its triangles.
+// The members of Aim that are accumulated over the triangles around an aim.
 typedef struct {
     Vec3 outward;
     double facing, size;
@@ -41,7 +41,7 @@ typedef struct {
     const AimSource *source;
     Aims *aims;
     Star *stars; // by point
-    size_t step; // only every step-th aim is kept
+    size_t step; // the maker keeps every step-th aim
     size_t seen;
 } Maker;
 
@@ -70,7 +70,7 @@ static Vec3 normal_of(const AimSource *source, uint32_t triangle)
     return source->is_inside_out ? vec3_scale(normal, -1) : normal;
 }
 
-// The distance from a corner to the line through the two others.
+// Returns the distance from a corner to the line through the two others.
 static double height_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);
@@ -81,8 +81,8 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
-// Returns the triangle's angle at a corner.  Normals weighted by angle do not depend on how faces
-// are cut into triangles.
+// Returns the triangle's angle at a corner. As a weight of normals, it makes their sum independent
+// of how faces are triangulated.
 static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);
@@ -91,7 +91,7 @@ static double angle_at(const Triangles *triangles, uint32_t triangle, int corner
     return atan2(length_of(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
-// Returns whether the next aim is kept.
+// Counts an aim and returns whether to keep it.
 static bool is_chosen(Maker *maker)
 {
     return maker->seen++ % maker->step == 0;
@@ -148,7 +148,7 @@ static void aim_at_points(Maker *maker)
             keep(maker, point_of(source->triangles, point), &maker->stars[point]);
 }
 
-// Returns the star of the triangles at an edge.
+// Returns the mean normal, the facing and the size of the triangles at an edge.
 static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t count)
 {
     Star star = {.facing = 1, .size = INFINITY, .triangle = sides[0].triangle};
@@ -249,8 +249,8 @@ void aims_free(Aims *aims)
     *aims = (Aims){0};
 }
 
-// Returns one of EYES directions over the sphere: equal height steps, each turned by the golden
-// angle.
+// Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere: equal height
+// steps, each turned by the golden angle.
 static Vec3 eye_at(const Aims *aims, int eye)
 {
     const double height = 1 - (2 * eye + 1) / (double)EYES;
@@ -277,7 +277,8 @@ static double error_at(const Aim *aim, double distance)
     return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
 }
 
-// Makes a ray from the origin to the aim.  Returns false where rounding leaves its target in doubt.
+// Makes a ray from origin to the aim and sets the aim's tolerance. Returns false if rounding could
+// make the ray miss the triangles.
 static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);
@@ -293,7 +294,7 @@ static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
     return true;
 }
 
-// Returns the eye that sees the aim most squarely.
+// Returns the eye with the smallest angle to the aim's outward normal.
 static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
 {
     uint32_t best = 0;
@@ -310,7 +311,7 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     return best;
 }
 
-// Finds each aim's eye, and in starts how many rays precede each eye's.
+// Chooses an eye for each aim. Stores in starts[eye] the number of rays before that eye's rays.
 static void choose_eyes(Aims *aims, const Vec3 eyes[EYES], size_t starts[EYES + 2])
 {
     AimRay unused;

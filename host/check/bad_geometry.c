@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Only the first object with an offender is reported.
+// Reports only the first object that has triangles without area.
 #include "check/bad_geometry.h"
 
 #include "check/features.h"

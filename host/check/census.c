@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Sorting brings duplicates of any kind together.
+// Sorting makes duplicate meshes, spheres and lights adjacent.
 #include "check/census.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
-// Equal identities mean duplicates.
+// Two objects of one kind are duplicates if these bits are equal.
 typedef struct {
     double numbers[4];
 } Identity;
@@ -25,7 +25,7 @@ static size_t count_duplicates(Identity *identities, size_t count)
     return duplicates;
 }
 
-// Adding 0.0 maps both zeros to one number.
+// Adding 0.0 turns -0 into 0.
 static Identity identity_of(Vec3 position, double radius)
 {
     return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Visits the edges once.  A union-find joins the corners that share an edge at a point into fans; a
-// point with more than one fan is pinched.
+// Visits the edges once. At each point, a union-find joins the corners of triangles that share an
+// edge into fans. A point with more than one fan is pinched.
 #include "check/closedness.h"
 
 #include "base/array.h"
@@ -10,7 +10,7 @@
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;
-    uint32_t *parents; // by corner, 3 * triangle + corner: a corner of the same fan
+    uint32_t *parents; // by corner (3 * triangle + 0, 1 or 2): a corner of the same fan
 } Fans;
 
 static uint32_t fan_of(const Fans *fans, uint32_t corner)
@@ -23,7 +23,7 @@ static uint32_t fan_of(const Fans *fans, uint32_t corner)
     return corner;
 }
 
-// Returns the triangle's corner at one of its points.
+// Returns the number of the triangle's corner at one of its points: 3 * triangle + 0, 1 or 2.
 static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
 {
     const uint32_t *corners = fans->mesh->triangles[triangle];
@@ -37,7 +37,7 @@ static void join_fans(Fans *fans, uint32_t point, uint32_t triangle, uint32_t ot
 {
     const uint32_t a = fan_of(fans, corner_at(fans, triangle, point));
     const uint32_t b = fan_of(fans, corner_at(fans, other, point));
-    // The lower corner becomes the root, so every fan is named by its first triangle.
+    // The lower corner becomes the root, so the root belongs to the fan's first triangle.
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 
@@ -46,7 +46,7 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // A duplicate counts only at the edge of its two lower points.
+        // A duplicate triangle counts only once, at the edge of its two lower points.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
             mesh_fault_add(&closedness->duplicates, sides[side].triangle);
@@ -104,8 +104,8 @@ static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
     return vec3(position[0], position[1], position[2]);
 }
 
-// Returns six times the volume around the first corner, positive if triangles show their back to
-// the inside.  Scaling prevents overflow.
+// Returns six times the mesh's volume, scaled to prevent overflow. The result is positive if the
+// backs of the triangles face the inside.
 static double signed_volume(const Mesh *mesh)
 {
     double volume = 0;

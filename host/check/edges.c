@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Counts sides into a bucket per lower point, then sorts the buckets, of about six sides each.
+// Puts the sides of all edges into buckets, one per lower point, then sorts each bucket of about
+// six sides. The lower point of an edge has the lower index.
 #include "check/edges.h"
 
 #include "base/array.h"
 
 #include <stdlib.h>
 
-// Longer buckets use qsort, whose calls cost more than a few moves.
+// Longer buckets use qsort. For shorter ones, insertion sort is faster.
 #define FEW_SIDES 24
 
 typedef struct {
@@ -52,7 +53,7 @@ static void sort_sides(EdgeSide *sides, size_t count)
     }
 }
 
-// first[point] becomes the end of the sides of all points below it.
+// Sets first[point] to the end of the point's bucket.
 static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
@@ -65,7 +66,7 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
     }
 }
 
-// Fills each bucket from its end, so that first becomes its start.
+// Fills each bucket from its end. Afterwards, first[point] is the start of the point's bucket.
 static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)

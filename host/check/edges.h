@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its edges, each with its triangles.
+// Mesh -> its edges, each with its triangles. The lower point of an edge has the lower index.
 #pragma once
 
 #include "mesh/weld.h"
@@ -9,20 +9,20 @@ typedef struct {
     uint32_t high;     // the edge's higher point
     uint32_t opposite; // the triangle's third point
     uint32_t triangle : 31;
-    uint32_t falling : 1; // it runs from the edge's higher point to the lower one
+    uint32_t falling : 1; // the triangle runs from the higher point to the lower one
 } EdgeSide;
 
-// The sides of a point's edges to higher points are [first[point], first[point + 1]).  Sorting by
-// higher point, opposite point and triangle makes the sides of an edge consecutive.
+// Sides [first[point], first[point + 1]) belong to edges from `point` to higher points. They are
+// sorted by higher point, opposite point and triangle, so the sides of one edge are consecutive.
 typedef struct {
-    EdgeSide *sides; // three a triangle
-    size_t *first;   // vertex_count + 1
+    EdgeSide *sides; // three per triangle
+    size_t *first;   // vertex_count + 1 entries
 } Edges;
 
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
 void edges_free(Edges *edges);
 
-// Returns one past the last side of the edge that starts at place.
+// Returns one past the last side of the edge whose first side is sides[place].
 static inline size_t edges_end(const Edges *edges, uint32_t point, size_t place)
 {
     size_t end = place + 1;

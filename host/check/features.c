@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Compares squared lengths: one square root per feature instead of one per edge.
+// Compares squared lengths, so only a new minimum needs a square root.
 #include "check/features.h"
 
-#define FLOAT_DIGITS 23 // in a float's fraction
+#define FLOAT_DIGITS 23 // bits of a float's fraction
 
 typedef struct {
     Vec3 corners[3];
@@ -24,7 +24,7 @@ static Vec3 doubled_area(const Shape *shape)
                       vec3_sub(shape->corners[2], shape->corners[0]));
 }
 
-// Scales by a power of two, because squares of a file's values may leave the range of fp64.
+// Scales by a power of two, because squares of coordinates in a file may leave the range of fp64.
 static Shape scaled_shape(const Shape *shape, double scale)
 {
     return (Shape){{vec3_scale(shape->corners[0], scale), vec3_scale(shape->corners[1], scale),

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its finest details, in units of float spacing, as written and as traced.
+// Mesh -> its smallest edge and triangle height, as written in the file and as traced. The unit is
+// the spacing of floats.
 #pragma once
 
 #include "scene/normalize.h"
 
-// The shortest of some length over all triangles, in float steps at the triangle's farthest
-// coordinate.
+// The smallest length of one kind over all triangles. A step is the spacing of floats at the
+// triangle's largest coordinate.
 typedef struct {
-    double steps; // INFINITY without triangles
-    double size;  // the length itself, in the scene's units
+    double steps; // the length in steps; INFINITY without triangles
+    double size;  // the length in the scene's units
     size_t triangle;
 } Feature;
 
 typedef struct {
-    Feature edge;         // in the traced frame
-    Feature height;       // the lowest height in that frame, of triangles with an area
-    Feature written_edge; // in the file's coordinates, before centering
-    bool holds_floats;    // every coordinate is a float
+    Feature edge;         // shortest edge, in the traced frame
+    Feature height;       // lowest height in that frame; triangles without area do not count
+    Feature written_edge; // shortest edge, in the file's coordinates
+    bool holds_floats;    // floats represent every coordinate exactly
     MeshFault flat;       // triangles without area: three corners on a line
-    double extent;        // largest side of the bounds
+    double extent;        // largest side of the mesh's bounds
     double offset;        // largest coordinate of the bounds' center
 } Features;
 

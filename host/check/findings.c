@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The check fails on faults that can leave holes or wrong pixels: values that are not finite, no
-// area, duplicates, and leaks of closed meshes.  Everything else may be intended.
+// The check fails on faults that can leave holes or wrong pixels. Examples are non-finite values,
+// triangles without area, duplicates, and leaks of closed meshes. Other findings may be intended.
 #include "check/findings.h"
 
 #include "scene/missing.h"
@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Below this many float steps an edge is visibly off, by a thirtieth of its length.
+// Rounding visibly distorts an edge of fewer float steps, by a thirtieth of its length or more.
 #define FEW_STEPS 16.0
 
-// Advice blames the offset or the scene's size if it exceeds the mesh's by this factor.
+// Advice blames the offset or the scene's size if it exceeds the mesh's size by this factor.
 #define MUCH 4.0
 
 typedef enum {
@@ -32,7 +32,7 @@ typedef enum {
 
 static const struct {
     const char *kind, *text;
-    const char *place; // the unit that the first fault's number counts
+    const char *place; // printed before the number of the first fault
     bool fails;
 } faults[FAULT_KINDS] = {
     [FAULT_BAD_POSITIONS] = {"not_finite_positions",
@@ -114,7 +114,8 @@ static bool add_shape(Findings *findings, const CheckResult *result, size_t obje
            add(findings, unused, "%zu vertices that no triangle uses", census->unused_vertices);
 }
 
-// Steps are float steps.  Tracing cannot restore details lost when the file was written.
+// Adds at most one finding. Steps are the spacing of floats. Tracing cannot restore details that
+// were lost when the file was written.
 static bool add_advice(Findings *findings, const CheckResult *result, size_t object)
 {
     const Features *features = &result->census->meshes[object].features;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a check -> findings, each with whether it fails the check.
+// Measurements of a check -> findings, some of which fail the check.
 #pragma once
 
 #include "check/census.h"
 #include "check/leaks.h"
 
-#define FINDING_SCENE SIZE_MAX // replaces the object index: the whole scene
+#define FINDING_SCENE SIZE_MAX // the object index of findings about the whole scene
 
 // All measurements of a check.
 typedef struct {
@@ -14,13 +14,13 @@ typedef struct {
     const Normalization *normalization;
     const LeakCount *leaks;   // by object; NULL without a device
     const char *frame_fault;  // why the scene cannot be drawn; empty if it can
-    const char *device_name;  // of the device that traced the rays; NULL without one
+    const char *device_name;  // the device that traced the rays; NULL without one
     const char *device_fault; // why there is no device
     double seconds;
 } CheckResult;
 
 typedef struct {
-    const char *kind; // for programs
+    const char *kind; // identifier in JSON
     size_t object;
     bool fails;
     size_t count; // of occurrences; 1 for advice

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The mesh passes through every stage that a scene passes through.
+// Prepares a scene of only this mesh like any other scene, and casts rays at its aims.
 #include "check/leaks.h"
 
 #include <stdlib.h>
 
-// A mesh's form in every stage up to the device, and its aims.
+// A mesh in every stage of preparation for the device, and its aims.
 typedef struct {
     Scene scene; // borrows the mesh
     Triangles triangles;
@@ -109,7 +109,7 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const Le
     bvh_free(&staged.bvh);
     triangles_free(&staged.triangles);
     if (staged.scene.objects.count > 0)
-        staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller owns it
+        staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller owns the mesh
     scene_free(&staged.scene);
     return ok;
 }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A mesh, alone and two-sided in its scene's frame -> the number of rays aimed at its edges and
-// points that pass through it.
+// Mesh -> the number of rays toward its edges and points that pass through it. The mesh is traced
+// alone and two-sided, in its scene's frame.
 #pragma once
 
 #include "check/closedness.h"
 #include "check/ray_caster.h"
 
-// The largest number of edges and points to aim at per mesh.
+// The most aims of a mesh that get rays.
 #define LEAKS_AIMS 1048576
 
 typedef struct {
-    size_t total;    // edges, points and places beyond open edges
-    size_t aimed;    // those that got a ray
-    size_t rays;     // some aims get two
+    size_t total;    // aims of the mesh (aims.h): edges, points and positions beyond open edges
+    size_t aimed;    // aims that got a ray
+    size_t rays;     // rays cast; some aims got two
     size_t hidden;   // aims behind other parts of the mesh
-    MeshFault leaks; // rays that continued behind their aim; first is a triangle there
+    MeshFault leaks; // rays that passed through; first is a triangle at one of them
 } LeakCount;
 
 typedef struct {

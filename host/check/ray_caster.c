@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// All launches have the same size, including the first one, which has no rays.  PoCL compiles a
-// kernel again for each local size and grid kind, and that must happen under the cache's lock.
+// PoCL compiles a kernel again for each local size and grid kind, and that must happen under the
+// cache's lock. The first launch has no rays and runs under this lock. All launches therefore have
+// its size.
 #include "check/ray_caster.h"
 
 #include "device/upload.h"
 
 #define LAUNCH_RAYS 65536
 
-// The smallest lane count of wide kernels; the host may not know the actual one.
+// The smallest vector width of wide kernels; the host may not know the actual width.
 #define FEWEST_LANES 4
 
 // kernels/rays.cl, embedded at build time.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FlatScene and rays -> hit distances, by the same traversal that renders pictures.
+// FlatScene and rays -> hit distances, computed by the traversal that renders pictures.
 #pragma once
 
 #include "check/aims.h"
@@ -15,15 +15,15 @@ typedef struct {
     FrameData frame;
 } RayCaster;
 
-// Compiles the kernel.  Casting rays requires a loaded scene.
+// Compiles the kernel. To cast rays, callers also load a scene.
 bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// Replaces the loaded scene by one in the choice's node layout.  Callers unload a scene before they
-// free it, also after a failed load.
+// Replaces the loaded scene. flat must have the node layout of the setup's kernel choice. Callers
+// call ray_caster_unload before they free flat, also after a failed load.
 bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error);
 void ray_caster_unload(RayCaster *caster);
 
-// Fills distances with t of each ray, INFINITY for a miss.
+// Stores the hit distance t of each ray in distances; INFINITY for a miss.
 bool ray_caster_cast(const RayCaster *caster, const AimRay *rays, size_t count, float *distances,
                      Error *error);

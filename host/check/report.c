@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The text lists each mesh with its findings.  JSON has every count, zeros included.
+// The text lists each mesh with its findings. JSON contains every count, including zeros.
 #include "check/report.h"
 
 #include "image/json_file.h"
@@ -79,7 +79,7 @@ static json_t *integer(uint64_t value)
     return json_integer((json_int_t)value);
 }
 
-// JSON has no infinity.
+// Returns null if `value` is not finite, because JSON has no infinity.
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
