@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Channels describe only the ray through a pixel's center. If both pictures have the same samples,
-// any other difference is rounding, possibly of one sample's decision. If they have different
-// samples, every difference above rounding is coverage.
+// Channels describe only the ray through a pixel's center. If the channels agree, the samples
+// decide. If both pictures have the same samples, the difference is rounding, which can also change
+// what a sample hits. Otherwise, every difference above rounding counts as coverage.
 #include "compare/causes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-// More than rounding changes floats of colors in [0, 1].
+// Rounding changes a color in [0, 1] by at most this much.
 #define ROUNDING_MOST 1e-5
 
 static const char *const names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
@@ -31,10 +31,10 @@ const char *cause_meaning(CauseKind kind)
 typedef struct {
     const StoredImage *image;
     int primitive, shadow, bounces, samples; // channel indices; -1 if missing
-    int level;                               // value of --max-level, -1 if it is not recorded
+    int level;                               // value of --max-level; -1 if not recorded
 } Side;
 
-// Returns the number of that name in the settings, which are JSON without blanks.
+// Returns the integer after `name` in the settings, JSON without blanks; -1 if it is missing.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
@@ -64,13 +64,13 @@ static float value_at(const Side *side, size_t pixel, int channel)
     return side->image->values[pixel * side->image->channel_count + (size_t)channel];
 }
 
-// Compares bits, so integer channels work, too.
+// Compares bits, because channels may hold integers.
 static bool are_equal(float a, float b)
 {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-// Returns whether the shorter path ended at its picture's limit and the longer one did not.
+// Returns whether the shorter path ended at its --max-level, and the other picture's is higher.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {value_at(&sides[0], pixel, sides[0].bounces),
@@ -80,7 +80,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Compares the setting that determines the sample positions.
+// Compares the setting that determines the sample positions. Returns whether it is equal.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];
@@ -106,7 +106,7 @@ static bool differ(const Side sides[2], size_t pixel, const int channels[2])
                       value_at(&sides[1], pixel, channels[1]));
 }
 
-// Returns the cause that the channels show; CAUSE_COVERAGE if they show none.
+// Returns the first cause that the channels show, or CAUSE_COVERAGE if the channels agree.
 static CauseKind cause_in_channels(const Side sides[2], size_t pixel)
 {
     const int primitives[] = {sides[0].primitive, sides[1].primitive};

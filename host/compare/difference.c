@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes one pass in doubles. Each row has its own sum, so that sums of millions stay exact to 12
-// digits.
+// Sums each row in doubles, and then the rows, so that millions of values keep 12 exact digits.
 #include "compare/difference.h"
 
 #include <math.h>
@@ -45,7 +44,7 @@ bool image_pair_check(ImagePair *pair, Error *error)
     return true;
 }
 
-// Adds a pixel and returns the sum of its squares.
+// Updates the maximum and the counts with a pixel. Returns the pixel's sum of squared differences.
 static double add_pixel(Difference *difference, const ImagePair *pair, size_t pixel)
 {
     double squares = 0, largest = 0;
@@ -65,7 +64,7 @@ static double add_pixel(Difference *difference, const ImagePair *pair, size_t pi
     return squares;
 }
 
-// Compares the bits of ids, for any channel type.
+// Counts pixels whose first hits differ. Compares bits, because the channel may hold integers.
 static void count_hits(Difference *difference, const ImagePair *pair)
 {
     int places[2];

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Measures the difference of two pictures. Values are as stored in the files, with an 8-bit v as v
-// / 255. All three colors have equal weight.
+// Measures the difference of two pictures. Values are as stored in the files; an 8-bit value v
+// counts as v / 255. All three colors have equal weight.
 #pragma once
 
 #include "image/stored_image.h"
 
-// Tolerance of the counts of pixels that differ by more than one and by more than four 8-bit steps
-// in some color. 8-bit files store rounded values, so a step counts as one up to this excess.
+// The tolerance of off_by_1 and off_by_4. Rounding to float can make a difference of one 8-bit step
+// slightly larger than 1/255.
 #define DIFFERENCE_ROUNDING 0x1p-22
 
-// The channel of first hits, in files with more than colors.
+// The channel with the ids of first hits.
 #define DIFFERENCE_HITS "primitive"
 
 typedef struct {
@@ -17,27 +17,27 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // its position, the first in reading order
-    uint64_t off_by_1, off_by_4;                  // pixels
+    uint32_t maximum_x, maximum_y, maximum_color; // first position in reading order
+    uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255 and 4/255
     bool has_hits;                                // both files have the channel of first hits
     uint64_t wrong_hits;                          // pixels with different first hits
 } Difference;
 
-// The two pictures, and the indices of their colors.
+// The two pictures, and the channel indices of their colors.
 typedef struct {
     const StoredImage *images[2];
     const char *paths[2];
     uint32_t colors[2][3];
 } ImagePair;
 
-// Returns false with a message that names the file if sizes differ, colors are missing or values
-// are not finite.
+// Fills pair->colors. Returns false if sizes differ, colors are missing or values are not finite.
+// The error message names the file.
 bool image_pair_check(ImagePair *pair, Error *error);
 
-// Measures the difference of a checked pair.
+// Measures a pair that image_pair_check has accepted.
 void difference_measure(Difference *difference, const ImagePair *pair);
 
-// Returns the signal-to-noise ratio in decibels, for a peak of 1; infinite for equal pictures.
+// Returns the PSNR in decibels, for a peak of 1; INFINITY for equal pictures.
 double difference_psnr(const Difference *difference);
 
 // Returns the difference of one color: the second picture's value minus the first's.

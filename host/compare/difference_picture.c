@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All pictures have the same scale, so that two maps can be compared.
+// All difference pictures have the same scale, so that users can compare them.
 #include "compare/difference_picture.h"
 
 #include <math.h>

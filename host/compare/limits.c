@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report uses the same names.
+// Parses limits by the names that reports also use.
 #include "compare/limits.h"
 
 #include "base/number.h"
@@ -22,7 +22,7 @@ static int kind_named(const char *name, size_t length)
     return -1;
 }
 
-// Parses one NAME=VALUE between start and end. The value may be in percent.
+// Parses one NAME=VALUE between start and end. Values other than PSNR may be in percent.
 static bool parse_limit(Limits *limits, const char *start, const char *end, Error *cause)
 {
     const char *equals = memchr(start, '=', (size_t)(end - start));

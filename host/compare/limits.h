@@ -7,10 +7,10 @@
 typedef enum {
     LIMIT_RMSE,
     LIMIT_MAX,
-    LIMIT_PSNR,   // at least
-    LIMIT_SHARE1, // of pixels off by more than 1/255
+    LIMIT_PSNR,   // a lower limit; all others are upper limits
+    LIMIT_SHARE1, // share of pixels off by more than 1/255
     LIMIT_SHARE4,
-    LIMIT_HITS, // share of pixels with another first hit
+    LIMIT_HITS, // share of pixels whose first hits differ
     LIMIT_KINDS
 } LimitKind;
 
@@ -19,13 +19,13 @@ typedef struct {
     double values[LIMIT_KINDS];
 } Limits;
 
-// Returns false if the text is invalid, with the reason alone.
+// Adds the limits in text. Returns false if the text is invalid; cause then holds the reason.
 bool limits_parse(Limits *limits, const char *text, Error *cause);
 
 const char *limit_name(LimitKind kind);
 
-// Returns the measured value that the limit applies to; NAN if the files lack it.
+// Returns the measured value that the limit applies to; NAN if the files lack the required channel.
 double limit_measured(LimitKind kind, const Difference *difference);
 
-// Returns whether the difference is within the limit. A missing value is not.
+// Returns whether the measured value is within the limit. A missing value is not within any limit.
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON reports shares as fractions, text as percent.
+// JSON contains shares as fractions; the text contains percent.
 #include "compare/report.h"
 
 #include "image/json_file.h"
@@ -24,7 +24,7 @@ static void write_count(const CompareReport *report, const char *what, uint64_t 
             100 * (double)count / (double)report->difference->pixels);
 }
 
-// Returns a cause's part of the mean square error.
+// Returns a cause's share of the mean square error, from 0 to 1.
 static double share_of(const CompareReport *report, CauseKind kind)
 {
     double sum = 0;
@@ -78,7 +78,7 @@ void compare_report_write_text(const CompareReport *report, FILE *stream)
     write_limits(report, stream);
 }
 
-// JSON has no infinity.
+// Returns null if `value` is not finite, because JSON has no infinity.
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
