@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a writable folder and locks it with flock, which the system releases when a process dies.
-// cache_open.c sets the environment.
+// Finds a writable folder and locks it with flock. The system releases this lock when a process
+// dies. cache_open.c sets the environment.
 #include "device/cache.h"
 
 #include <errno.h>
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Creates the folder and its parents. Returns whether it is writable.
+// Creates the folder and its parents. Returns whether the folder is writable.
 static bool make_folder(const char *path)
 {
     char part[CACHE_PATH_SIZE];
@@ -40,7 +40,7 @@ bool cache_take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Finds the folder that PoCL uses by default.
+// Sets cache->kernels to the folder that PoCL uses by default.
 static void find_kernels(Cache *cache)
 {
     const char *chosen = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When the process loads a program's kernels, it learns which of PoCL's files belong to the
+// The kernels that the process loads during a build show which of PoCL's files belong to the
 // program. Files of other drivers stay unknown and unchecked, so their manifests are empty.
 #include "device/cache_build.h"
 
@@ -64,7 +64,7 @@ static void remove_unlisted(const Cache *cache, const char *listed)
     fts_close(tree);
 }
 
-// Removes the programs without a manifest, because they may be damaged.
+// Removes the programs that no manifest lists, because they may be damaged.
 static void sweep(const Cache *cache)
 {
     Lines listed = {0};
@@ -73,7 +73,7 @@ static void sweep(const Cache *cache)
     free(listed.data);
 }
 
-// All lines name files of one program.
+// Removes the program's folder. Every line of the manifest names a file in it.
 static void remove_program(const Cache *cache, const char *manifest)
 {
     char path[2 * MANIFEST_PATH_SIZE];
@@ -88,7 +88,7 @@ static void remove_program(const Cache *cache, const char *manifest)
 typedef struct {
     const char *folder;
     unsigned count;
-    char newest[MANIFEST_PATH_SIZE]; // in the folder
+    char newest[MANIFEST_PATH_SIZE]; // path of the latest one, relative to folder
 } LoadedKernels;
 
 static int count_loaded(struct dl_phdr_info *object, size_t size, void *context)
@@ -134,7 +134,8 @@ void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key)
         sweep(cache);
 }
 
-// If the process had loaded the program before, its files stay unknown.
+// Writes the program's manifest. It is empty if the process had loaded the program before, because
+// the program's files are then unknown.
 static void write_manifest(const CacheBuild *build, LoadedKernels *kernels)
 {
     char path[MANIFEST_PATH_SIZE];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds a program under the cache's lock. Before the build, PoCL's files for the program are
-// checked against a manifest of checksums. Damaged files are removed, so that PoCL compiles again;
-// with damaged files it crashes or computes wrong results.
+// Builds a program under the cache's lock. Before the build, clrt compares PoCL's files for the
+// program with a manifest of checksums. PoCL crashes or computes wrong results with damaged files,
+// so clrt removes them, and PoCL compiles again.
 #pragma once
 
 #include "device/cache.h"
@@ -9,16 +9,16 @@
 typedef struct {
     const Cache *cache;
     const char *key;
-    char *manifest;        // NULL without an intact one; owned
-    unsigned loaded_count; // kernels that the process had loaded before
+    char *manifest;        // lines of the intact manifest; NULL without one; owned
+    unsigned loaded_count; // kernels that the process had loaded before the build
     int lock;
 } CacheBuild;
 
-// Waits for the lock, and removes damaged files of the program with this key. Borrows key.
+// Waits for the lock, and removes the program's files if some are damaged. Borrows cache and key.
 void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key);
 
-// Unlocks. If the program works, including the first run of its kernels, also writes the manifest.
+// Unlocks the cache. If the program and a first run of its kernels worked, writes its manifest.
 void cache_build_end(CacheBuild *build, bool works);
 
-// Returns whether a program with this key has been built, judging by its manifest alone.
+// Returns whether the program with this key has an intact manifest, which means that it was built.
 bool cache_has_program(const Cache *cache, const char *key);

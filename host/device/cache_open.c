@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens the program's cache. Only this file sets the environment.
+// Opens the cache of the program clrt. Only this file sets POCL_CACHE_DIR.
 #include "device/cache.h"
 
 #include <stdio.h>
@@ -7,14 +7,14 @@
 #include <string.h>
 #include <sys/statvfs.h>
 
-// Compilers write some megabytes, and even a warm start writes the preprocessed source. LLVM ends
-// the process if the disk is full.
+// The least free space. Compilers write a few megabytes, and even a cached build writes the
+// preprocessed source. LLVM ends the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
-#define OWN_FOLDER    "/clrt" // in the folder that the user has chosen
+#define OWN_FOLDER    "/clrt" // in the user's cache folder
 #define KERNEL_FOLDER "/pocl" // in OWN_FOLDER
 
-// Some file systems do not report their size.
+// Returns whether the folder has enough free space, or the file system does not report it.
 static bool has_room(const Cache *cache)
 {
     struct statvfs disk;
@@ -35,7 +35,7 @@ static bool take(Cache *cache, const char *base, const char *rest)
     return true;
 }
 
-// Takes the user's choice, or the result of an earlier cache_open in this process or its parent.
+// Uses POCL_CACHE_DIR, set by the user or by an earlier cache_open in this process or its parent.
 static bool take_chosen(Cache *cache)
 {
     static const char own[] = OWN_FOLDER KERNEL_FOLDER;
@@ -70,7 +70,7 @@ void cache_open(Cache *cache)
     if (!take_chosen(cache) && !take(cache, getenv("XDG_CACHE_HOME"), OWN_FOLDER) &&
         !take(cache, getenv("HOME"), "/.cache" OWN_FOLDER) && !take_temporary(cache))
         *cache = (Cache){0};
-    // PoCL cannot create a folder in a device, and then lists no CPU of its own.
+    // PoCL cannot create a folder in a device file, and then lists no CPU.
     setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One list makes the table.
+// One list of codes generates the table of names.
 #include "device/cl_error.h"
 
 #define CL_ERRORS(X)                                                                               \

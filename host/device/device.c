@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries every device of every platform from the ICD loader and picks one.
+// Queries every device of every platform from the ICD loader and chooses one.
 #include "device/device.h"
 
 #include <stdio.h>
@@ -52,7 +52,7 @@ static bool find_candidates(Candidates *candidates, Error *error)
     return true;
 }
 
-// Appends to text, which stays terminated even if it is full.
+// Appends prefix and name to text, which stays terminated even if it is full.
 static void append(char *text, size_t size, const char *prefix, const char *name)
 {
     const size_t used = strlen(text);

@@ -8,24 +8,25 @@ typedef struct {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
-    char platform[256];          // names the OpenCL implementation
+    char platform[256];          // name of the OpenCL platform
     char name[256];              // as the driver reports it
-    char version[256];           // of the driver
+    char version[256];           // version of the driver
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool is_cpu;
-    bool shares_memory;    // with the host, whose arrays it reads in place
+    bool shares_memory;    // reads the host's arrays in place
     bool correct_division; // offers correctly rounded division and square root
     bool has_fp64;         // supports double precision
 } Device;
 
-// Opens the device that spec names: "PLATFORM:DEVICE" (as device_list prints them), a type (cpu,
-// gpu, accelerator, all), or part of a device's or platform's name in either case. NULL takes the
-// first GPU, else the first device. If nothing matches, the message lists the devices.
+// Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from
+// device_list, a type (cpu, gpu, accelerator, all), and a part of a device's or platform's name in
+// any case. NULL selects the first GPU or, without a GPU, the first device. If nothing matches, the
+// error message lists the devices.
 bool device_open(Device *device, const char *spec, Error *error);
 void device_close(Device *device);
 
-// Writes all devices into text as `clinfo -l` prints them. Returns false without devices.
+// Writes all devices into text as `clinfo -l` prints them. Returns false if no device exists.
 bool device_list(char *text, size_t size, Error *error);
 
 #define DEVICES_MOST 64
@@ -37,5 +38,5 @@ typedef struct {
     Device device;
 } DeviceEntry;
 
-// Fills entries with all devices and returns their number, 0 without any.
+// Stores all devices in entries. Returns their number; 0, with an error, if no device exists.
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);

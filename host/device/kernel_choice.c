@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program is specialized by these switches and by the traits.
+// These switches and the scene's traits (accel/traits.h) specialize a program.
 #include "device/kernel_choice.h"
 
 #include <assert.h>
@@ -46,8 +46,8 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
     return true;
 }
 
-// Platforms of CPU implementations that take longer to compile or trace packets than single rays
-// take in total. docs/devices.md has the measurements.
+// CPU platforms where compiling or tracing packets takes longer than compiling and tracing single
+// rays together. docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// The choice of kernels by the user, as the switches of kernels/config.h. All choices with one
-// precision render the same picture.
+// Chooses kernels from the user's request and the device, as the switches of kernels/config.h. All
+// choices with the same precision render the same picture.
 #pragma once
 
 #include "accel/flat.h"
 #include "device/device.h"
 
 typedef enum {
-    FAMILY_RAY,   // a work-item renders a pixel
+    FAMILY_RAY,   // a work-item renders one pixel
     FAMILY_PACKET // a work-item renders a block of PACKET_SIDE x PACKET_SIDE pixels
 } KernelFamily;
 
 typedef enum {
     PRECISION_FP32,
-    PRECISION_FP64 // the reference: the same float scene in double arithmetic
+    PRECISION_FP64 // the reference: the same float scene, in double arithmetic
 } Precision;
 
-// Packets traverse wide nodes only; fp64 has rays and pairs only.
+// Packets require wide nodes. fp64 requires single rays and pair nodes.
 typedef struct {
     KernelFamily family;
     NodeLayout nodes;
-    uint32_t lanes; // of the kernels' vectors: 4, 8 or 16; 0 lets the target decide
+    uint32_t lanes; // vector width of the kernels: 4, 8 or 16; 0 lets the target decide
     Precision precision;
 } KernelChoice;
 
-// The user's request. 0 leaves each of the first three to the device.
+// The user's request. For family, nodes and lanes, 0 leaves the choice to the device.
 typedef struct {
     int family; // 1 + a KernelFamily
     int nodes;  // 1 + a NodeLayout
@@ -32,26 +32,25 @@ typedef struct {
     Precision precision;
 } KernelRequest;
 
-// Rejects contradictory requests.
+// Returns false, with a message, if the request contradicts itself.
 bool kernel_check_request(const KernelRequest *request, Error *error);
 
-// Returns the request, completed by a fixed rule: packets on CPUs; rays over pairs on other
-// devices, in fp64, and on OpenCL implementations that are slow with packets.
+// Returns the request, completed by fixed rules. The default is packets if kernel_suits_packets,
+// otherwise single rays with pair nodes. fp64 always uses single rays with pair nodes.
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 
-// Returns whether packets finish a picture sooner, compilation included.
+// Returns whether packets finish a picture sooner than single rays, including compilation.
 bool kernel_suits_packets(const Device *device);
 
-// Returns the side of the work-groups that suit the kernels, in work-items.
+// Returns the side of the kernels' square work-groups, in work-items.
 uint32_t kernel_group_side(const KernelChoice *choice);
 
-// Fails if the device cannot run the kernels of the choice.
+// Returns false if the device cannot run the chosen kernels.
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error);
 
 #define KERNEL_OPTIONS_SIZE 80
 
-// Writes the compiler options that set the switches, as a string of less than KERNEL_OPTIONS_SIZE
-// bytes.
+// Writes the compiler options that set the switches, as a zero-terminated string.
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE]);
 
 const char *kernel_family_name(KernelFamily family);

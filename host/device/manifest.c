@@ -13,7 +13,7 @@
 #include <xxhash.h>
 
 #define CHECKSUM_LENGTH 16
-#define HEAD_LENGTH     (CHECKSUM_LENGTH + 1) // with the space or the end of the line
+#define HEAD_LENGTH     (CHECKSUM_LENGTH + 1) // with the space or line end after it
 
 bool lines_append(Lines *lines, const char *text)
 {

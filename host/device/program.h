@@ -6,11 +6,11 @@
 #include "device/device.h"
 #include "device/kernel_choice.h"
 
-// All kernel files in the order of their includes, joined at build time.
+// All kernel files, joined at build time in the order of their includes.
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// The requested kernel. Every program contains the first one.
+// The kernel to build. Every program also contains the first one.
 typedef enum {
     KERNEL_TILE,    // render_tile
     KERNEL_SAMPLES, // trace_samples
@@ -22,24 +22,24 @@ typedef struct {
 } Program;
 
 typedef struct {
-    const char *kernel_folder; // folder to read the sources from; NULL for the embedded ones
-    const char *extra_options; // for the compiler, after clrt's own; NULL for none
-    const char *appended;      // source to append to the kernels, for tests; NULL for none
+    const char *kernel_folder; // folder of the kernels' source; NULL for the embedded source
+    const char *extra_options; // compiler options after clrt's own; NULL without any
+    const char *appended;      // source to compile after the kernels; NULL without any
     KernelChoice choice;
     KernelEntry entry;
 } ProgramSource;
 
 const char *program_entry_name(KernelEntry entry);
 
-// Builds the program; the message of a failure holds the compiler's log. Call it between
-// cache_build_begin and cache_build_end, and run each kernel once there, because drivers finish
-// compiling then.
+// Builds the program. The error message contains the compiler's log. Build between
+// cache_build_begin and cache_build_end. Run each kernel once there, because drivers then finish
+// compiling.
 bool program_build(Program *program, const Device *device, const ProgramSource *source,
                    const SceneTraits *traits, Error *error);
 void program_free(Program *program);
 
 #define PROGRAM_KEY_SIZE 33
 
-// Writes the key of the program that these inputs make, for cache_build_begin.
+// Writes the program's key for cache_build_begin: a hash of everything that determines the program.
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE]);

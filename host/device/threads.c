@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PoCL 3.1 and 6.0 read different variables; both are set.
+// PoCL 3.1 and 6.0 read different variables, so clrt sets both.
 #include "device/threads.h"
 
 #include "base/processors.h"
