@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Runs the kernel for one sample and decodes its notes into the scene's terms.
+// Runs the kernel explain_sample for one sample and converts the values it records to scene
+// coordinates.
 #include "explain/explainer.h"
 
 #include <stdlib.h>
 
-// kernels/explain.cl, embedded at build time.
+// The text of kernels/explain.cl, embedded at build time.
 extern const char explain_source[];
 
 static uint32_t level_room(const Explainer *explainer)
@@ -77,7 +78,7 @@ static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_ui
     return cl_succeeded(status, "run the kernel explain_sample", error);
 }
 
-// Drivers finish compiling in the first run, which traces no ray.
+// Runs the kernel once with no levels, because drivers finish compiling in the first run.
 static bool make_kernel(Explainer *explainer, const Device *device, Error *error)
 {
     cl_int status;
@@ -141,10 +142,10 @@ static double scalar_at(const Explainer *explainer, const void *values, size_t p
                               : (double)((const float *)values)[place];
 }
 
-// The notes of one ray.
+// The values that the kernel recorded for one ray or one of its lights.
 typedef struct {
     const Explainer *explainer;
-    size_t value, word; // offsets of their first entries
+    size_t value, word; // offsets of the first entries in host_values and host_words
 } Notes;
 
 static Notes notes_of(const Explainer *explainer, uint32_t level)
@@ -226,7 +227,7 @@ static void take_ray(Explainer *explainer, uint32_t level)
 
 static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
-    double result[4]; // room for either precision
+    double result[4]; // large enough for floats and doubles
     cl_command_queue queue = explainer->renderer->device->queue;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
     cl_int status = clEnqueueReadBuffer(queue, explainer->values, CL_TRUE, 0,
@@ -259,7 +260,7 @@ bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, Explai
     return true;
 }
 
-// Same as mean_color of kernels/render.cl.
+// Must match mean_color of kernels/render.cl.
 void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3])
 {
     const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;

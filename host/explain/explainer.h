@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A sample of a picture -> its rays, each with its hit and the lights that reach the hit, in scene
-// coordinates.  A separate kernel, built from the picture's functions, traces the sample again.
+// One sample of a picture -> its rays in scene coordinates, with the hit and the state of each
+// light. A separate kernel traces the sample again with the functions that drew the picture.
 #pragma once
 
 #include "render/renderer.h"
@@ -8,33 +8,34 @@
 
 typedef struct {
     LightState state;
-    double cosine;           // between the normal and the direction to the light
-    double distance;         // to the light
-    uint32_t blocker;        // id of a primitive in between, or NOTHING
-    double blocker_distance; // from the point
-    double diffuse;          // received: intensity * cosine
-    double specular;         // received: intensity * highlight
+    double cosine;           // of the angle between the normal and the direction to the light
+    double distance;         // from the hit point to the light
+    uint32_t blocker;        // id of the primitive that blocks the light, or NOTHING
+    double blocker_distance; // from the hit point; 0 unless state is LIGHT_BLOCKED
+    double diffuse;          // intensity * cosine; 0 unless state is LIGHT_SEEN
+    double specular;         // intensity * highlight; 0 unless state is LIGHT_SEEN
 } ExplainedLight;
 
 typedef struct {
-    Vec3 origin, direction; // of length 1
-    double weight;          // of the ray's color in the sample's
-    uint32_t primitive;     // id; NOTHING for a miss, which leaves the rest unset
-    double distance, error; // error bounds the error of distance
+    Vec3 origin, direction; // direction has length 1
+    double weight;          // weight of this ray's color in the sample's color
+    uint32_t primitive;     // id of the hit primitive; NOTHING for a miss, with all fields below 0
+    double distance, error; // error is a bound on the error of distance
     Vec3 point, normal;
     uint32_t material;
     bool uses_lights;             // false for silhouettes
-    double share;                 // weight of shaded in the sample's color
-    Vec3 shaded;                  // the surface's own color
-    const ExplainedLight *lights; // one per light of the scene
+    double share;                 // weight of `shaded` in the sample's color
+    Vec3 shaded;                  // color of the surface without reflections
+    const ExplainedLight *lights; // one entry per light of the scene
 } ExplainedRay;
 
-// A last ray with a reflective hit has reached max_level: its reflection is the background.
+// If the last ray hits a reflective surface, it has reached max_level, and its reflection shows the
+// background.
 typedef struct {
     uint32_t ray_count;
-    const ExplainedRay *rays; // the camera ray, then the reflections
-    double background_weight; // of the background in the color; 0 if no ray reached it
-    double steps[3];          // the color in steps of 2^-32
+    const ExplainedRay *rays; // the camera ray, then the reflected rays
+    double background_weight; // weight of the background in the sample's color
+    double steps[3];          // the sample's color in units of 2^-32
 } ExplainedSample;
 
 typedef struct {
@@ -45,14 +46,14 @@ typedef struct {
     bool is_fp64;
     Program program;
     cl_kernel kernel;
-    cl_mem values, words, result, count; // of one sample, on the device
-    void *host_values;                   // floats; doubles in fp64
+    cl_mem values, words, result, count; // device buffers for the results of one sample
+    void *host_values;                   // doubles if is_fp64, otherwise floats
     uint32_t *host_words;
-    ExplainedRay *rays;     // max_level entries
-    ExplainedLight *lights; // max_level entries per light of the scene
+    ExplainedRay *rays;     // one entry per level
+    ExplainedLight *lights; // one entry per level and light of the scene
 } Explainer;
 
-// The inputs of an explainer, which must outlive it.
+// The inputs of an Explainer. They must outlive the Explainer.
 typedef struct {
     const RendererSetup *setup;
     const Renderer *renderer;
@@ -64,9 +65,11 @@ typedef struct {
 bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error);
 void explainer_close(Explainer *explainer);
 
-// Traces the sample at column and row, both in samples.  The result is valid until the next call.
+// Traces one sample into *sample, which stays valid until the next call. column and row count
+// samples, not pixels.
 bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample,
                      Error *error);
 
-// Returns in color the pixel's color for these sums of its samples' steps.
+// Stores the pixel's color in color. sums holds the sums of ExplainedSample::steps over the pixel's
+// samples.
 void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3]);

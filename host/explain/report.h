@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The samples of a pixel -> text or JSON.
+// The explained samples of a pixel -> a report as text or JSON.
 #pragma once
 
 #include "cli/options/options.h"
@@ -17,7 +17,7 @@ typedef struct {
 // Writes the lines above the samples.
 void explain_write_head(const ExplainReport *report, FILE *stream);
 
-// Writes a sample; number is its index in the pixel.
+// Writes a sample. number is the sample's index in the pixel, from 0.
 void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
                           uint32_t number, FILE *stream);
 
@@ -25,5 +25,5 @@ void explain_write_color(const ExplainReport *report, const float color[3], FILE
 
 json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample);
 
-// Returns the whole report.  Takes ownership of samples, a list.
+// Returns the whole report, and takes ownership of the JSON array samples.
 json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids are those of the --aov channel "primitive", from 0.
+// Primitive ids equal the values of the --aov channel "primitive", which count from 0.
 #include "explain/report.h"
 
 #include "image/json_file.h"

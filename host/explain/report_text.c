@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a paragraph per ray, with one fact a line.
+// Writes one paragraph per ray and one fact per line.
 #include "explain/report.h"
 
 #include "image/encode.h"
