@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The journal is not synced to disk.  Written data outlives the process, and checksums detect
-// records torn by a loss of power.
+// The journal is not synced to disk. Written records survive the end of the process. Checksums
+// detect records that a power failure left incomplete.
 #include "jobs/journal.h"
 
 #include <errno.h>
@@ -33,7 +33,7 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// A file shorter than a head comes from a writer that was killed at its start.
+// A process killed at its start leaves a file shorter than a head. Such a file gets a new head.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;
@@ -55,7 +55,8 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
                      journal->path);
 }
 
-// Reading from a pipe would block instead of failing.
+// Returns whether the journal is a regular file. Reading from a pipe would block instead of
+// failing.
 static bool is_regular(const Journal *journal)
 {
     struct stat status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A file of checksummed records that a long job appends to, so that a later run can resume it.  A
-// torn record ends the file and is cut off.
+// A journal is a file of checksummed records. A long job appends its results, and a later run
+// resumes the job from them. Reading stops at the first damaged record; journal_cut removes it and
+// everything after it.
 #pragma once
 
 #include "base/error.h"
@@ -12,23 +13,24 @@
 typedef struct {
     FILE *stream;     // NULL if closed
     const char *path; // borrowed
-    uint64_t records; // read and written
+    uint64_t records; // number of records read and written
 } Journal;
 
-// Returns whether path holds at least a journal's head.
+// Returns whether path is a regular file at least as long as a journal's head.
 bool journal_exists(const char *path);
 
-// Opens the journal at path, or creates one.  Fails if its key differs or another process holds it.
+// Opens the journal at path, or creates one with this key. Fails if the journal has another key or
+// another process has it open.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);
 
-// Reads the next record, of exactly size bytes; returns false at the end.  All records must be read
-// before one is added.
+// Reads the next record, which must have size bytes. Returns false at the end or at a damaged
+// record. Callers must read all records before they add one.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Cuts off everything after the last record read.
+// Removes everything after the last record read.
 bool journal_cut(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);
 
-// Closes the journal, and removes it if the job is done.
+// Closes the journal. Deletes its file if is_done.
 void journal_close(Journal *journal, bool is_done);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles finish in the order of their numbers, so a count describes the finished ones.
+// Tiles finish in the order of their numbers, so a count identifies the finished tiles.
 #include "jobs/resume.h"
 
 #include "image/image_read.h"
@@ -106,7 +106,8 @@ static bool go_on(Resume *resume, const Provenance *own, RenderSettings *setting
     uint64_t key[2];
     make_key(own, settings, key);
     const bool is_stored = resume->stored.values != NULL;
-    // Runs before the journal exists: after a failure here the stored picture can still be resumed.
+    // If this fails, no journal exists yet, and a later run can still resume from the stored
+    // picture.
     if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
         return false;
     if (!journal_open(&resume->journal, resume->path, key, error))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --resume: the journal FILE.part, or an incomplete EXR file -> the tiles that an earlier run has
-// finished, and the journal of this run.
+// --resume: the journal FILE.part or an incomplete EXR file -> the tiles that an earlier run
+// finished. This run appends its tiles to the journal.
 #pragma once
 
 #include "cli/options/options.h"
@@ -8,29 +8,31 @@
 #include "jobs/journal.h"
 
 typedef struct {
-    char *path;         // of the journal; NULL without --resume; owned
-    StoredImage stored; // the earlier picture; empty if missing or if a journal replaces it
+    char *path;         // the journal's path; NULL without --resume; owned
+    StoredImage stored; // the earlier run's EXR file; empty if it is missing or a journal exists
     const char *stored_path;
     Journal journal;
-    bool is_broken; // the journal cannot be written
-    float *tile;    // a tile's colors, row by row; owned
+    bool is_broken; // writing to the journal failed
+    float *tile;    // the colors of one tile, row by row; owned
 } Resume;
 
-// Returns the name of the journal beside a picture, which the caller frees; NULL without memory.
+// Returns the path of the journal for a picture's path. The caller frees it. Returns NULL if memory
+// runs out.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Looks for the files of an earlier run.  Only main may call it, before other threads start,
-// because a child process reads pictures.
+// Reads the earlier picture unless a journal exists. Only main may call this function, before other
+// threads start, because it forks a process that reads the picture.
 bool resume_look(Resume *resume, const Options *options, Error *error);
 
-// Copies the finished tiles into framebuffer, stores their number in settings->ready_tiles and
-// opens the journal.  Scene and settings in own must match the earlier run's.
+// Opens the journal and copies the finished tiles into framebuffer. Stores the number of finished
+// tiles in settings->ready_tiles. Fails if the earlier run had another scene, other settings or
+// another version of clrt.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);
 
-// Adds a tile of the framebuffer to the journal.  Tiles must come in the order of their numbers.
+// Appends the tile with this number to the journal. Callers append tiles in ascending order.
 bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,
                  uint64_t number, Error *error);
 
-// Closes the journal, and removes it if the picture is complete.
+// Closes the journal and frees resume's memory. Deletes the journal's file if is_done.
 void resume_close(Resume *resume, bool is_done);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings without the tile entries identify the whole picture.
+// A picture file's settings text has entries on tiles. Without them, the text identifies the whole
+// picture.
 #include "jobs/stored_tiles.h"
 
 #include "cli/options/options.h"
@@ -28,7 +29,8 @@ static bool read_part(RenderSettings *settings, json_t *json)
     return true;
 }
 
-// A crop must have the image's size and lie inside the whole picture.
+// Reads the image's position in the whole picture. Returns false unless the crop has the image's
+// size and lies inside the whole picture.
 static bool read_place(RenderSettings *settings, json_t *json)
 {
     int width, height, edges[4] = {0};
@@ -75,7 +77,8 @@ static void strip(json_t *json)
     json_object_del(json, "tiles_done");
 }
 
-// A complete picture has all tiles of any tile size; otherwise the tile sizes must match.
+// Stores the number of finished tiles in *tiles. Returns false if the tile sizes differ, unless the
+// stored picture is complete and not a part.
 static bool count_done(const StoredImage *image, json_t *json, const RenderSettings *settings,
                        uint64_t *tiles)
 {
@@ -158,8 +161,8 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers)
     return has;
 }
 
-// Maps each channel of the image to a place in the pixel: 0 to 2 are colors, then layers, or
-// NOWHERE.
+// Stores in places[channel] where the channel's values go: 0 to 2 for a color, 3 + i for layer i,
+// or NOWHERE.
 static void find_places(const StoredImage *image, const Layers *layers, uint32_t *places)
 {
     for (uint32_t channel = 0; channel < image->channel_count; channel++)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture file with some tiles finished -> their numbers and their values.
+// A partly finished picture file -> its settings, and the number and pixel values of its finished
+// tiles.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -10,31 +11,31 @@
 #include <jansson.h>
 
 typedef struct {
-    RenderSettings settings; // sizes, tiles and part
+    RenderSettings settings; // only sizes, tile size and part are set
     Encoding encoding;
-    json_t *whole; // the settings of the whole picture; owned
+    json_t *whole; // the settings text without `part` and `tile`; owned
 } StoredTiles;
 
-// Reads the tile entries from the image's texts, which come from a file and are untrusted.  Returns
-// false if they are missing or do not fit the image.
+// Reads the settings from the image's texts, which come from a file and are untrusted. Returns
+// false if entries are missing or do not match the image's size.
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Returns whether the settings match the image's, apart from the finished tiles.  Stores their
-// number in *tiles.
+// Returns whether the image has these settings, apart from its finished tiles. Stores the number of
+// finished tiles in *tiles.
 bool stored_tiles_done(const StoredImage *image, const char *settings_text,
                        const RenderSettings *settings, uint64_t *tiles);
 
-// Names the image's channels beside its colors.  Returns false if the image lacks colors or has a
-// channel unknown to --aov.
+// Lists the image's channels other than its colors in layers. Returns false if the image lacks
+// colors or has a channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
 
 bool stored_tiles_has_colors(const StoredImage *image);
 
-// Returns whether the image has exactly three colors and those layers.
+// Returns whether the image's channels are exactly the three colors and these layers.
 bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 
-// Copies the first count tiles: the colors into framebuffer, and the channels named by layers into
-// layers.  The image must have all of them.
+// Copies tiles 0 to count - 1: colors to framebuffer, and the channels that layers lists to
+// layers->values. The image must have these channels.
 void stored_tiles_copy(const RenderSettings *settings, uint64_t count, const StoredImage *image,
                        Framebuffer *framebuffer, Layers *layers);
