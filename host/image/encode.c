@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rounds where the course truncates, which halves the error.
+// Rounds to the nearest byte. The course's program truncates, which doubles the error.
 #include "image/encode.h"
 
 #include <math.h>

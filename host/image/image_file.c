@@ -13,12 +13,12 @@
 #include <string.h>
 #include <strings.h>
 
-// libjpeg ends the process beyond this size.
+// libjpeg ends the process if a side is longer.
 #define JPEG_SIZE_MAX 65500
 
 typedef struct {
     const char *name;   // also the usual file extension
-    const char *module; // OpenImageIO's name; NULL for formats written here
+    const char *module; // OpenImageIO's name of the format; NULL if clrt writes the format itself
     bool is_float;
 } Format;
 
@@ -100,7 +100,7 @@ static void place_layers(ImageModulePicture *picture, const Layers *layers)
     }
 }
 
-// These functions give the reason alone; image_write adds the file name.
+// On failure, the functions below store only the reason in cause. image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {

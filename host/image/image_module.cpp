@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All of clrt's C++: OpenImageIO behind a C function that catches every exception.
+// This file holds all of clrt's C++: two C functions that call OpenImageIO and catch every
+// exception.
 #include "image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -29,11 +30,11 @@ void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     }
 }
 
-// Colors and layers are stored apart and are joined a strip of rows at a time. This avoids a
-// second copy of the picture.
+// Interleaves the colors and layers, which are separate arrays, one strip of rows at a time. This
+// avoids a second copy of the picture.
 bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
 {
-    constexpr int strip = 32; // a multiple of OpenEXR's own chunks, 16 rows with ZIP
+    constexpr int strip = 32; // rows; a multiple of OpenEXR's chunks, which have 16 rows with ZIP
     const int first_row = output.spec().y;
     constexpr size_t color_size = 3 * sizeof(float);
     const size_t width = static_cast<size_t>(picture.width);
@@ -57,7 +58,7 @@ bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
     return true;
 }
 
-// Only EXR has windows that other programs read.
+// Stores a crop's position in EXR files. Other programs read such positions from no other format.
 void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     if (picture.whole_width == 0 || std::strcmp(picture.format, "openexr") != 0)
@@ -68,7 +69,8 @@ void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     spec.full_height = picture.whole_height;
 }
 
-// TIFF and JPEG have no fields for our own names. Each text becomes a line of the description.
+// Stores the texts. TIFF and JPEG have no fields with custom names, so their description receives
+// one line per text.
 void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     std::string lines;
@@ -89,7 +91,7 @@ bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, 
                                    : output.write_image(type, picture.pixels);
 }
 
-// Always closes the writer while its target still exists.
+// Closes the writer even after a failure, because its target does not exist later.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
@@ -98,8 +100,8 @@ bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
     return output.close() && written;
 }
 
-// Some writers do not notice a full disk, and libjpeg then ends the process. If the format can be
-// written to memory, the bytes go to the file from there.
+// Writes to memory and then to the file, if the format supports memory. On a full disk, some
+// writers report no error, and libjpeg ends the process.
 bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                           const ImageModulePicture &picture)
 {
@@ -116,8 +118,8 @@ bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec
     return std::fclose(file) == 0 && written;
 }
 
-// EXR files may be as large as the picture, so they are written directly. The file is checked
-// here, because OpenEXR ignores errors in the last bytes.
+// Writes the EXR file directly, because it may be as large as the picture. Checks the stream here,
+// because OpenEXR ignores errors in the last bytes.
 bool write_to_file(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                    const ImageModulePicture &picture)
 {
@@ -142,7 +144,8 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     if (picture.layer_count > 0)
         describe_layers(spec, picture);
     describe_place(spec, picture);
-    // Without this, OpenEXR and TIFF write the time, and no two files would be equal.
+    // Without this, OpenEXR and TIFF store the current time, and equal pictures make different
+    // files.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     describe_origin(spec, picture);
@@ -192,8 +195,9 @@ bool names_things(const OIIO::ImageSpec &spec, int channel)
            !is_color(spec.channel_name(channel));
 }
 
-// Integers of 32 bits, which hold ids, keep their bits in place of floats. All other channels are
-// converted to one type. Adjacent channels of one kind are read together.
+// Reads all channels. Channels of 32-bit integers hold ids, so their bits replace the floats' bits
+// unchanged; other channels are converted to type. Each call of read_image reads adjacent channels
+// of the same kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {
@@ -233,7 +237,8 @@ bool read_picture(const char *path, const char *format, ImageModuleContent &cont
     return ok;
 }
 
-// Runs the work and catches all exceptions. On failure, message receives the reason.
+// Runs work, catches all exceptions, and returns whether work succeeded. On failure, message
+// receives the reason.
 template <typename Work> int guarded(char *message, size_t message_size, Work work)
 {
     std::string text;

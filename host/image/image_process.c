@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two processes communicate over a pair of sockets. A request carries its strings and its
-// pixels; an answer comes back. Very large pictures are not worth a second copy and are written in
-// this process.
+// The parent sends a request with strings and pixels over a socket pair, and the child answers. The
+// parent writes pictures above LARGEST_SENT itself, because a second copy costs too much.
 #include "image/image_process.h"
 
 #include "base/array.h"
@@ -20,7 +19,7 @@
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
-// Followed by zero-terminated strings, the pixels and the layers.
+// In the socket, zero-terminated strings, the pixels and the layers follow the request.
 typedef struct {
     uint64_t width, height, is_float, text_count;
     uint64_t left, top, whole_width, whole_height;
@@ -34,7 +33,7 @@ typedef struct {
     char message[512];
 } Answer;
 
-static int channel = -1; // to the child process, in the parent
+static int channel = -1; // the parent's socket to the child; -1 without a child
 
 static size_t pixel_size(const ImageModulePicture *picture)
 {
@@ -48,7 +47,8 @@ static size_t layer_size(const ImageModulePicture *picture)
            sizeof(uint32_t);
 }
 
-// Counts the path, the format, the texts and the layers' names, in this order.
+// Returns the number of strings in a request. They are the path, the format, the texts and the
+// layer names, in this order.
 static size_t string_count(const ImageModulePicture *picture)
 {
     return 2 + 2 * picture->text_count + picture->layer_count;
@@ -86,7 +86,7 @@ static bool send_request(const ImageModulePicture *picture)
            socket_send(channel, picture->layers, request.layer_size);
 }
 
-// Points the picture's members into the strings. texts must have room for all of them.
+// Points the picture's members into strings. texts must have 2 * text_count entries.
 static void place_strings(ImageModulePicture *picture, const char *strings, const char **texts)
 {
     picture->path = strings;
@@ -148,7 +148,8 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     return ok;
 }
 
-// Serves requests until the parent ends. The process keeps none of the parent's files open.
+// Serves requests until the parent ends. The child replaces its standard input and output, so that
+// it does not keep the parent's pipes open.
 static _Noreturn void serve(int socket, pid_t parent)
 {
     Error failure = {0};
@@ -156,7 +157,7 @@ static _Noreturn void serve(int socket, pid_t parent)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
         _exit(0);
-    // Only the parent handles these signals; it may still have its picture written here.
+    // Only the parent handles these signals. It may still send its picture afterwards.
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     const int nothing = open("/dev/null", O_RDWR);

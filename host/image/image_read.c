@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Only formats that clrt writes reach a decoder. OpenImageIO has many more, and each is an attack
-// surface for hostile files.
+// Selects the reader by the file's first bytes. OpenImageIO has decoders for many more formats.
+// clrt never calls them, because hostile files could attack each of them.
 #include "image/image_read.h"
 
 #include "image/image_reader.h"
@@ -61,7 +61,8 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     return image_reader_run(image, path, format, cause);
 }
 
-// Rejects pipes: they cannot be rewound after the format is known, and may never end.
+// Opens a file for reading. Rejects pipes, because they may never end and cannot be rewound after
+// the signature is read.
 static FILE *open_file(const char *path, Error *cause)
 {
     struct stat status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The child process reads the file and sends a header with its values or a message. The parent
-// checks the header as carefully as a file.
+// A child process with limited resources reads the file and sends a header and the values. On
+// failure, the header holds a message. The parent validates the header as if it came from the file.
 #include "image/image_reader.h"
 
 #include "base/confinement.h"
@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define MEMORY_LIMIT ((rlim_t)12 << 30) // beside what is already mapped
-#define TIME_LIMIT   120                // seconds, of processor and wall time
+#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes, in addition to the memory already mapped
+#define TIME_LIMIT   120                // seconds of processor time, and of wall time
 
 typedef struct {
     int ok;
@@ -73,7 +73,8 @@ static _Noreturn void serve(int socket, const char *path, const char *format)
     _exit(0);
 }
 
-// Messages quote files, which may contain terminal escape sequences.
+// Stores the child's message in cause. Messages may quote a hostile file, so control characters
+// become spaces.
 static bool take_message(const Head *head, Error *cause)
 {
     char message[sizeof head->message];
@@ -84,7 +85,7 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-// Every field is checked before use.
+// Checks every field of the header and allocates the image.
 static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
     if (!head->ok)

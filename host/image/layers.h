@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture's channels beside its colors, with values of 32 bits: floats or unsigned integers.
+// The channels of a picture other than its colors. Each value has 32 bits and is a float or an
+// unsigned integer.
 #pragma once
 
 #include "base/array.h"
@@ -7,7 +8,7 @@
 #include <stdint.h>
 
 typedef struct {
-    const char *name; // of the channel in the file; borrowed
+    const char *name; // the channel's name in the file; borrowed
     bool is_integer;
 } LayerType;
 
@@ -17,10 +18,11 @@ typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;
     uint32_t width, height;
-    uint32_t *values; // height * width * count, top row first, floats as their bits; owned
+    uint32_t *values; // width * height * count values, top row first; floats are stored as their
+                      // bits; owned
 } Layers;
 
-// Allocates the values, all zero, of the layers already listed.
+// Allocates zeros as the values. The caller has set list and count.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The module is beside the program in a build tree, and in the library folder once installed.
+// In a build tree, the module is in the program's folder. An installed module is in the library
+// folder.
 #include "image/open_module.h"
 
 #include "base/own_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Needs no library, so every build has it.
+// PFM needs no library, so every build reads and writes it.
 #include "image/pfm.h"
 
 #include "base/number.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libpng writes the file row by row. It reports faults by a jump, which ends in write_picture.
-// Everything to be freed is made above that function, and nothing below owns memory.
+// Writes a PNG file row by row. libpng reports faults with longjmp, which returns to write_picture.
+// write_picture and the functions it calls own no memory, because the jump would leak it.
 #include "image/png_file.h"
 
 #include "image/encode.h"
@@ -11,10 +11,10 @@
 #include <string.h>
 #include <zlib.h>
 
-// This filter and strategy make the smallest files in about 20 ms a megapixel, among all levels,
-// filters and strategies. Paeth turns rendered surfaces into runs of zeros, and searching for more
-// than runs takes longer than it saves. The level is not set, because all levels find the same
-// runs.
+// This filter and strategy make the smallest files among all settings that take at most about 20 ms
+// per megapixel. Paeth turns rendered surfaces into runs of zeros. Z_RLE finds only runs, because
+// searching for other matches costs more time than it saves. All compression levels find the same
+// runs, so none is set.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
 
@@ -23,10 +23,10 @@
 typedef struct {
     const Framebuffer *framebuffer;
     const ImageSettings *settings;
-    unsigned char *row; // the current row, 8 bits a channel
+    unsigned char *row; // the current row, 8 bits per channel
 } Picture;
 
-// libpng's own writer does not report the reason of a failure.
+// Replaces libpng's write function, which does not report why a write fails.
 static void write_bytes(png_structp png, png_bytep bytes, size_t count)
 {
     if (fwrite(bytes, 1, count, png_get_io_ptr(png)) != count)
@@ -43,7 +43,7 @@ static void write_header(png_structp png, png_infop info, const Picture *picture
                  PNG_FILTER_TYPE_BASE);
     for (size_t i = 0; i < picture->settings->text_count; i++) {
         const ImageText *text = &picture->settings->texts[i];
-        // libpng copies both and changes neither.
+        // The casts are safe, because libpng copies both strings.
         const png_text entry = {.compression = PNG_TEXT_COMPRESSION_NONE,
                                 .key = (char *)text->name,
                                 .text = (char *)text->value,

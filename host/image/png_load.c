@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libpng converts every kind of PNG to red, green and blue. It reports faults by a jump, which
-// ends in read_picture. Everything to be freed belongs to Loading, which is made above that
-// function.
+// Reads a PNG file of any kind as red, green and blue. libpng reports faults with longjmp, which
+// returns to read_picture. The caller of read_picture frees all memory, which Loading holds.
 #include "image/png_load.h"
 
 #include "image/png_faults.h"
@@ -9,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Size limit of one unpacked text or profile.
+// The largest text or profile in a PNG file, in bytes after decompression.
 #define CHUNK_SIZE_MAX 1000000
 
 typedef struct {
     StoredImage *image;
-    unsigned char *bytes; // the whole picture, because interlaced ones come in passes
+    unsigned char *bytes; // the whole picture, because interlaced files store it in several passes
     int passes;
     Error *cause;
 } Loading;

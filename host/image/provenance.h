@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts stored in a picture's file, which record its origin. All are strings, because PNG
-// stores no other type.
+// The texts in a picture's file that record how clrt made it. All are strings, because PNG stores
+// no other type.
 #pragma once
 
 #include "image/image_file.h"
@@ -11,17 +11,18 @@
 #define PROVENANCE_TEXTS (STORED_TEXTS + 2)
 
 typedef struct {
-    char texts[STORED_TEXTS][STORED_TEXT_SIZE]; // tools/manual/clrt.1.in describes them
+    char texts[STORED_TEXTS][STORED_TEXT_SIZE]; // described in tools/manual/clrt.1.in
     char software[64], date[24];
     ImageText list[PROVENANCE_TEXTS]; // points into the arrays above
     size_t count;
 } Provenance;
 
-// Rejects a SOURCE_DATE_EPOCH in the environment that is not a number of seconds.
+// Returns whether SOURCE_DATE_EPOCH is unset or a valid number of seconds since 1970.
 bool provenance_check_date(Error *error);
 
-// Writes settings as compact JSON on one line.
+// Writes settings as one line of compact JSON. The text is empty if the JSON does not fit.
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
-// Lists the texts for a file. SOURCE_DATE_EPOCH adds a date; identical runs write identical files.
+// Fills list with the texts for a file. The list has a date only if SOURCE_DATE_EPOCH is set, so
+// that identical runs write identical files.
 void provenance_list(Provenance *provenance);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Signals and full buffers split messages. These functions join them.
+// Signals and full buffers interrupt transfers. These functions repeat send and recv until all
+// bytes are transferred.
 #include "image/socket.h"
 
 #include <errno.h>

@@ -9,12 +9,12 @@
 #define STORED_NAME_SIZE 32
 #define STORED_TEXT_SIZE 512
 
-// The largest picture that is read. Its values take 4 GiB.
+// The limits of pictures that clrt reads. Their values take at most 4 GiB.
 #define STORED_SIDE_MAX     65536
 #define STORED_CHANNELS_MAX 64
 #define STORED_VALUES_MAX   ((uint64_t)1 << 30)
 
-// The texts of clrt's own pictures. stored_text_names has their names in files.
+// The texts that clrt stores in pictures. stored_text_names holds their names in files.
 typedef enum {
     STORED_VERSION,
     STORED_SCENE_HASH,
@@ -38,17 +38,17 @@ typedef struct {
 
 void stored_image_free(StoredImage *image);
 
-// Returns whether clrt reads a picture of that size.
+// Returns whether a picture of this size is within the limits.
 bool stored_image_check_size(uint64_t width, uint64_t height, uint64_t channels, Error *cause);
 
 // Allocates the values of an image whose size and channel count are set.
 bool stored_image_allocate(StoredImage *image, Error *cause);
 
-// Returns the index of the channel of that name, -1 if there is none.
+// Returns the index of the channel with this name, or -1 without one.
 int stored_image_channel(const StoredImage *image, const char *name);
 
-// Finds the indices of red, green and blue; in a gray picture all three are equal. Returns false
-// if a color is missing.
+// Stores the channel indices of red, green and blue in places. Channel Y replaces missing colors.
+// Returns false if a color is missing and there is no Y.
 bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
 // Converts 8-bit values to floats.
