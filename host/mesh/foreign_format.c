@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Assimp 5's file extensions. The list omits .ply, which clrt reads itself, .scn, which is clrt's
-// own, and plain .xml, which identifies no format.
+// The file extensions that Assimp 5 reads. The list omits .ply, which clrt reads itself, .scn,
+// which is clrt's own format, and plain .xml, which identifies no format.
 #include "mesh/foreign_format.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The program is executed, not only forked, because other threads of this process may hold any
-// lock. It limits itself before it opens the file. This process limits the size and the time of
-// its output.
+// Runs clrt-foreign and reads its output from a pipe. Uses posix_spawn instead of fork, because
+// other threads of this process may hold locks. The program limits its own resources before it
+// opens the file. This process limits the program's time and output size.
 #include "mesh/foreign_process.h"
 
 #include "base/array.h"
@@ -19,16 +19,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PIECE ((size_t)1 << 16) // the least free space before each read
+#define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-// Longer than the program's own limit: its message is better if it ends by its own alarm.
+// The time exceeds the program's own limit, so that normally the program's alarm ends it.
 const ForeignReader foreign_reader = {.seconds = 125, .bytes = (size_t)8 << 30};
 
 typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
-// Finds the program beside this one, as in a build tree, or in the installed folder for helper
-// programs.
+// Finds clrt-foreign in this program's folder, as in a build tree, or in the installation folder
+// for helper programs. Returns false if both folders lack it.
 static bool find_beside(char *path, size_t size)
 {
     char folder[PATH_MAX];
@@ -41,7 +41,7 @@ static bool find_beside(char *path, size_t size)
     return access(path, X_OK) == 0;
 }
 
-// Programs that use clrt's library find it in the configured installation folder.
+// Other programs that use clrt's library find clrt-foreign in the configured installation folder.
 static bool find_program(char *path, size_t size, const char *model, Error *error)
 {
     if (find_beside(path, size))
@@ -59,7 +59,8 @@ static bool find_program(char *path, size_t size, const char *model, Error *erro
 }
 #endif
 
-// Starts the program with the pipe as its output. It inherits nothing else from this process.
+// Starts the program with the pipe as its standard output. Returns 0 or an error number. The
+// program inherits no other file and no signal mask.
 static int start(pid_t *child, const char *program, const char *model, const int ends[2])
 {
     posix_spawn_file_actions_t actions;
@@ -86,7 +87,7 @@ static int start(pid_t *child, const char *program, const char *model, const int
 
 typedef enum { STREAM_WHOLE, STREAM_LATE, STREAM_LONG, STREAM_LOST } StreamFate;
 
-// Waits until there is something to read, including the end of the stream.
+// Waits until the pipe has data or has ended, and then returns STREAM_WHOLE.
 static StreamFate await(int pipe, double deadline)
 {
     for (;;) {
@@ -127,8 +128,8 @@ static StreamFate read_all(File *stream, int pipe, const ForeignReader *reader, 
     }
 }
 
-// Returns the program's exit status. After a complete stream the program has usually ended
-// already, and a later signal changes nothing.
+// Kills the program and returns its wait status. After a complete stream the program has usually
+// exited already, and the signal has no effect.
 static int finish(pid_t child)
 {
     int status = 0;

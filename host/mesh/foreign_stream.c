@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses record after record. Each kind has a function that checks it and takes its data.
+// Parses the stream record by record. For each kind of record, one function checks the data and
+// adds it to the model.
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
@@ -9,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST_TEXT PATH_MAX // of a message or a path
+#define LONGEST_TEXT PATH_MAX // bytes of a message or a path
 
 typedef struct {
     ForeignModel *model;
     const char *next, *end;
-    ForeignHead head; // of the record at next
+    ForeignHead head; // head of the record at next
     const char *name;
     PlyParse *parse;
     Error *error;
@@ -34,7 +35,7 @@ static void make_printable(char *text, size_t size, char substitute)
             text[i] = substitute;
 }
 
-// Returns a zero-terminated copy of the record, NULL on failure.
+// Returns a zero-terminated copy of a record's text, or NULL on failure. The caller frees the copy.
 static char *copy_text(const Parser *parser, const char *start, size_t size)
 {
     if (size == 0 || size > LONGEST_TEXT || memchr(start, '\0', size) != NULL) {
@@ -70,7 +71,7 @@ static float within(float value, float most)
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Turns name into a single word, as a scene file requires.
+// Replaces characters of name, so that it is a single word, as scene files require.
 static void make_word(char *name)
 {
     make_printable(name, strlen(name), '_');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The output of the program that holds Assimp (host/foreign): records, each a head and its bytes.
-// The reader trusts none of it, because a hostile file may have taken over Assimp.
+// The output of clrt-foreign, the program that runs Assimp (host/foreign). It is a sequence of
+// records: a head, then its bytes. The reader validates everything, because a hostile file may have
+// taken over Assimp.
 #pragma once
 
 #include "base/array.h"
@@ -8,19 +9,19 @@
 #include "mesh/ply.h"
 
 typedef enum {
-    FOREIGN_FILE = 1, // a ForeignHash and the path of an input file, the model's first
+    FOREIGN_FILE = 1, // a ForeignHash and the path of an input file; the model file comes first
     FOREIGN_MATERIAL, // a ForeignMaterial
-    FOREIGN_PART,     // a binary PLY file; number is its material's, counted from 0
+    FOREIGN_PART,     // a binary PLY file; number is the index of its material
     FOREIGN_NOTE,     // a message about omitted parts
     FOREIGN_FAILURE,  // the reason why there is no model; the last record
-    FOREIGN_END       // empty; the last record
+    FOREIGN_END       // no bytes; the last record of a complete stream
 } ForeignKind;
 
-#define FOREIGN_NO_MATERIAL UINT32_MAX // the number of a part without a material
+#define FOREIGN_NO_MATERIAL UINT32_MAX // ForeignHead::number of a part without a material
 
 typedef struct {
     uint32_t kind, number;
-    uint64_t size; // of the following bytes
+    uint64_t size; // number of bytes that follow
 } ForeignHead;
 
 typedef struct {
@@ -35,15 +36,15 @@ typedef struct {
 
 typedef struct {
     Mesh mesh;
-    uint32_t material; // index in the model, or FOREIGN_NO_MATERIAL
+    uint32_t material; // index in ForeignModel::materials, or FOREIGN_NO_MATERIAL
 } ForeignPart;
 
 typedef struct {
     ARRAY(ForeignPart) parts;
-    ARRAY(ForeignMaterial) materials; // with names in printable ASCII and colors from 0 to 1
-    ARRAY(char *) files;              // owned
-    ARRAY(ForeignHash) hashes;        // of those files
-    char *note;                       // about omitted parts, NULL without any; owned
+    ARRAY(ForeignMaterial) materials; // names are printable ASCII; colors are from 0 to 1
+    ARRAY(char *) files;              // paths; owned
+    ARRAY(ForeignHash) hashes;        // hashes[i] belongs to files[i]
+    char *note;                       // a message about omitted parts, or NULL; owned
 } ForeignModel;
 
 typedef struct {
@@ -51,8 +52,8 @@ typedef struct {
     size_t size;
 } ForeignStream;
 
-// Fills model from a stream about the file called name. parse reads the parts. Returns false with
-// a message if the stream is damaged or reports a failure.
+// Fills model from a stream. name is the model file's name for messages, and parse reads the parts.
+// Returns false if the stream is damaged or reports a failure.
 bool foreign_stream_parse(ForeignModel *model, ForeignStream stream, const char *name,
                           PlyParse *parse, Error *error);
 void foreign_model_free(ForeignModel *model);

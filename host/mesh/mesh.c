@@ -34,7 +34,7 @@ static bool has_equal_corners(const double *a, const double *b, const double *c)
     return is_same_point(a, b) || is_same_point(b, c) || is_same_point(c, a);
 }
 
-// Clears vertices after their triangles are dropped, so that no code reads a NaN.
+// Sets NaN positions to zero after their triangles are dropped, so that no later code reads a NaN.
 static void clear_lost_vertices(Mesh *mesh)
 {
     for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh as its file describes it: indexed, in fp64, in the file's own coordinates.
+// A triangle mesh as its file describes it: indexed, with fp64 positions in the file's coordinates.
 #pragma once
 
 #include "base/vec.h"
@@ -7,10 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Faults of one kind.
+// The faults of one kind in a mesh.
 typedef struct {
     size_t count;
-    size_t first; // the lowest index of one, counted from 0
+    size_t first; // lowest index of a faulty triangle or vertex, from 0; unset if count is 0
 } MeshFault;
 
 static inline void mesh_fault_add(MeshFault *fault, size_t place)
@@ -21,23 +21,24 @@ static inline void mesh_fault_add(MeshFault *fault, size_t place)
 
 typedef struct {
     double (*positions)[3]; // vertex_count finite points, each |component| < 1e30
-    float (*normals)[3];    // vertex_count finite vectors of any length, zero for
-                            // vertices without one; NULL if the file has no normals
+    float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
+                         // normal; NULL if the file has no normals
     uint32_t (
-        *triangles)[3]; // triangle_count triples below vertex_count, counter-clockwise in front
+        *triangles)[3]; // triangle_count triples of vertex indices, counter-clockwise in front
     size_t vertex_count, triangle_count;
-    size_t dropped_count;    // triangles dropped for one of two faults:
-    MeshFault equal_corners; // two of its corners are one point
-    MeshFault lost_corners;  // a corner's position is unusable; only in tolerant readers
-    // Vertices set to zero; only in tolerant readers.
+    size_t dropped_count;    // triangles that mesh_drop_triangles removed
+    MeshFault equal_corners; // removed triangles with two equal corners
+    MeshFault lost_corners;  // removed triangles with a bad position
+    // Vertices whose bad position or normal became zero. Only tolerant readers accept such
+    // vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
-// Extends low and high to contain all vertices that triangles use. Unused vertices do not count.
+// Extends low and high to contain all vertices that triangles use.
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 
-// Drops and counts the triangles with equal corners, and those with a lost position, which NaN
-// marks. Then clears the lost vertices.
+// Removes and counts triangles with two equal corners or a NaN position. Then sets NaN positions to
+// zero.
 void mesh_drop_triangles(Mesh *mesh);
 
 // Frees the mesh's memory and leaves a valid empty mesh.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts PLY elements to vertices and triangles. The header describes each value. Faces may
-// precede the vertices, so triangles with equal corners are dropped at the end.
+// Converts PLY elements to vertices and triangles. Faces may precede the vertices, so the last step
+// drops triangles with equal corners.
 #include "mesh/ply.h"
 
 #include "mesh/ply_bulk.h"
@@ -14,7 +14,7 @@ typedef struct {
     PlyHeader header;
     Mesh *mesh;
     ARRAY(Triangle) triangles;
-    size_t last_bad_position, last_bad_normal; // vertices: several bad components are one fault
+    size_t last_bad_position, last_bad_normal; // so that a bad vertex counts once
 } Loader;
 
 static void count_once(MeshFault *fault, size_t *last, size_t vertex)
@@ -24,7 +24,8 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
     *last = vertex;
 }
 
-// Returns the replacement for a bad value. NaN marks the vertex until its triangles are dropped.
+// Returns value, or a replacement for a bad value. NaN marks a bad position until the vertex's
+// triangles are dropped.
 static double tolerated(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;
@@ -88,7 +89,7 @@ static bool read_corner(Loader *loader, const PlyProperty *property, uint32_t *c
     return true;
 }
 
-// Reserves the triangles of a polygon with that many corners.
+// Checks a polygon's corner count and reserves memory for its triangles.
 static bool reserve_fan(Loader *loader, const PlyProperty *property, int64_t length)
 {
     PlyReader *reader = &loader->reader;
@@ -159,7 +160,7 @@ static bool allocate_vertices(Loader *loader)
     return mesh->positions != NULL && (mesh->normals != NULL || !loader->header.has_normals);
 }
 
-// Returns the least size of an element, with empty lists.
+// Returns the minimum size of an element in bytes: the size with empty lists.
 static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;
@@ -190,7 +191,7 @@ static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
     return true;
 }
 
-// Reads all elements that need no check of every value; there may be none.
+// Reads as many elements as the fast path accepts, possibly none. Returns false if memory runs out.
 static bool read_in_bulk(Loader *loader, const PlyElement *element)
 {
     if (element->kind == PLY_FACE)
@@ -204,7 +205,7 @@ static bool read_in_bulk(Loader *loader, const PlyElement *element)
 static bool read_element(Loader *loader, const PlyElement *element)
 {
     PlyReader *reader = &loader->reader;
-    if (element->property_count == 0) // the file may then claim any number of elements
+    if (element->property_count == 0) // such elements take no space, so any count is valid
         return true;
     const PlyProperties properties = ply_header_properties(&loader->header, element);
     reader->element = element->name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If the offsets of all values in an element are known, reading a value is a load. No value needs
-// a call, a bounds check or a stored position for messages.
+// The fast path for elements whose values have fixed offsets. Reading a value is one load, without
+// a function call, a bounds check or a stored position for messages.
 #include "mesh/ply_bulk.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@
 
 #define COMPONENTS 6 // x y z nx ny nz, in the order of PlyRole
 
-// The vertex values that a mesh uses.
+// The offsets and types of the vertex values that a mesh uses, by PlyRole.
 typedef struct {
     size_t offsets[COMPONENTS];
     PlyType types[COMPONENTS];
     size_t stride;
-    bool swapped; // the file's byte order is not the processor's
+    bool swapped; // the file's byte order differs from the processor's
 } VertexLayout;
 
 typedef struct {
@@ -107,7 +107,7 @@ void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t coun
     reader->index = index;
 }
 
-// Finds the layout of a face with three corners.
+// Stores the layout of a face with three corners. Returns false if the layout is unusual.
 static bool find_face_layout(FaceLayout *layout, const PlyReader *reader, PlyProperties properties)
 {
     *layout = (FaceLayout){0};
@@ -143,7 +143,7 @@ size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t v
     if (!find_face_layout(&layout, reader, properties))
         return 0;
     const bool swapped = is_swapped(reader);
-    // Read as unsigned, a negative index exceeds every count.
+    // As an unsigned number, a negative index exceeds every vertex count.
     const uint32_t limit = (uint32_t)vertex_count;
     const char *bytes = reader->next;
     size_t done = 0;

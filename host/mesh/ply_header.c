@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses header lines into elements and their properties. Headers of any length take one pass.
-// Vertex, face and the properties that a mesh uses must not repeat; the parser skips everything
-// else.
+// Parses header lines into elements and their properties, in one pass. The elements vertex and
+// face, and the properties that a mesh uses, must not repeat. Other elements and properties may.
 #include "mesh/ply_header.h"
 
 #include "base/number.h"
@@ -9,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one more than the longest statement has
+#define WORD_LIMIT 6 // one more than in the longest statement, to detect extra words
 
 typedef struct {
     PlyHeader *header;
     PlyReader *reader;
-    PlyWord words[WORD_LIMIT]; // of the line
+    PlyWord words[WORD_LIMIT]; // words of the current line
     size_t word_count;
-    bool breaks_are_returns; // lines end in a lone CR, so a line feed belongs to the body
+    bool breaks_are_returns; // lines end with CR alone, so a line feed belongs to the body
     bool has_format;
     PlyFormat format;
 } Parser;
@@ -70,7 +69,7 @@ static void split_line(Parser *parser, const char *text, const char *end)
     }
 }
 
-// Splits the next line into words and moves to the line after it.
+// Splits the next line into words and advances past it. Fails at the end of the file.
 static bool read_line(Parser *parser)
 {
     PlyReader *reader = parser->reader;
@@ -112,8 +111,8 @@ static bool read_format(Parser *parser)
                                            "binary_big_endian 1.0'");
 }
 
-// Checks that vertices and faces appear at most once, with counts in range, because they form one
-// mesh.
+// Fails if a vertex or face element is declared twice or has too large a count. Other elements may
+// repeat.
 static bool check_kind(const Parser *parser, const PlyElement *element)
 {
     const PlyHeader *header = parser->header;
@@ -162,7 +161,8 @@ static bool find_type(const Parser *parser, PlyWord word, PlyType *type)
     return ply_reader_fail(parser->reader, "'%s' is no property type", ply_reader_quote(word).text);
 }
 
-// List lengths and corner indices must have integer types.
+// Fails unless list lengths and corner indices have integer types, corners are a list, and vertex
+// components are not.
 static bool check_property(const Parser *parser, const PlyProperty *property, PlyWord name)
 {
     const PlyReader *reader = parser->reader;
@@ -178,7 +178,8 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Sets the property's role, which no other property of the element may have.
+// Stores the role of the property called name. Fails if the element already has a property with
+// this role.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
 {
     *role = PLY_UNUSED;
@@ -263,7 +264,7 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Ignores normals with missing components.
+// Marks the normal components as unused, because at least one is missing.
 static void forget_normals(PlyHeader *header, const PlyElement *element)
 {
     for (size_t index = 0; index < element->property_count; index++) {

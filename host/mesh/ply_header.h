@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The header of a PLY file: the elements that follow, their counts, and the meaning of each value
-// to a Mesh.
+// The header of a PLY file: its elements, their counts, and each property's role in a Mesh.
 #pragma once
 
 #include "base/array.h"
@@ -24,9 +23,9 @@ typedef enum {
 
 typedef struct {
     PlyRole role;
-    PlyType type; // of the value, or of a list's items
+    PlyType type; // type of the value, or of the list's items
     bool is_list;
-    PlyType length_type; // of lists only; an integer type
+    PlyType length_type; // an integer type; only for lists
 } PlyProperty;
 
 typedef enum { PLY_VERTEX, PLY_FACE, PLY_OTHER } PlyKind;
@@ -34,13 +33,13 @@ typedef enum { PLY_VERTEX, PLY_FACE, PLY_OTHER } PlyKind;
 typedef struct {
     PlyWord name;
     PlyKind kind;
-    unsigned roles; // a bit for each role of its properties
+    unsigned roles; // bit mask of the roles of its properties
     int64_t count;  // at most PLY_COUNT_LIMIT for vertices and faces
     size_t first_property, property_count;
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // vertices and faces have all properties that a mesh needs
+    ARRAY(PlyElement) elements; // vertices and faces have the properties that a mesh needs
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals;
@@ -52,8 +51,8 @@ typedef struct {
     size_t count;
 } PlyProperties;
 
-// Parses the header at the reader's start. The reader then points at the body and has its format.
-// The caller frees the header in both cases.
+// Parses the header. On success, the reader points at the body and has the body's format. The
+// caller frees the header after success and after failure.
 bool ply_header_parse(PlyHeader *header, PlyReader *reader);
 void ply_header_free(PlyHeader *header);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads one value after another, ascii or binary. Line numbers are not tracked: on a failure, the
-// line breaks before it are counted once.
+// Reads one value after another from ASCII or binary files. Only failures compute a line number, by
+// counting the line breaks before the value.
 #include "mesh/ply_reader.h"
 
 #include "base/number.h"
@@ -74,7 +74,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size)
 {
     assert(count >= 0 && size > 0);
     const size_t left = (size_t)(reader->end - reader->next);
-    // The last ascii value needs no whitespace after it.
+    // The last ASCII value needs no whitespace after it.
     const size_t room = reader->format == PLY_ASCII ? left + 1 : left;
     if ((uint64_t)count <= room / size)
         return true;
@@ -105,7 +105,7 @@ static const char *token_end(const PlyReader *reader)
     return text;
 }
 
-// Consumes the token up to stop, which must be its end.
+// Consumes the token at reader->place. Fails unless stop is the token's end.
 static bool take_token(PlyReader *reader, const char *stop, const char *expected)
 {
     reader->next = stop;
@@ -115,7 +115,7 @@ static bool take_token(PlyReader *reader, const char *stop, const char *expected
     return ply_reader_fail(reader, "'%s' is not %s", ply_reader_quote(token).text, expected);
 }
 
-// Copies the bytes of one binary value, at any alignment, into bits that were zero.
+// Stores one binary value, at any alignment, in *bits, which must be zero.
 static bool take_bits(PlyReader *reader, PlyType type, uint64_t *bits)
 {
     const size_t size = type_sizes[type];
@@ -154,8 +154,8 @@ static int64_t bits_to_integer(uint64_t bits, PlyType type)
     return ((int64_t)bits ^ sign) - sign;
 }
 
-// Returns whether the word is an infinity or a NaN, in the many spellings that programs write:
-// inf, -nan, nan(ind).
+// Returns whether the next word is an infinity or a NaN. Programs write them in many spellings,
+// such as inf, -nan and nan(ind).
 static bool is_no_number(const PlyReader *reader)
 {
     const char *word = reader->place;

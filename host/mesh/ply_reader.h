@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of a PLY file as a stream of values. The same calls read ascii and binary, and every
-// failure reports its position in the file.
+// The body of a PLY file as a stream of values. The same calls read ASCII and binary files, and
+// every failure reports its position in the file.
 #pragma once
 
 #include "base/error.h"
@@ -15,7 +15,7 @@ typedef enum {
     PLY_UINT16,
     PLY_INT32,
     PLY_UINT32,
-    PLY_FLOAT32, // the integers precede it
+    PLY_FLOAT32, // all integer types precede this
     PLY_FLOAT64,
 } PlyType;
 
@@ -28,40 +28,41 @@ typedef struct {
 } PlyWord;
 
 typedef struct {
-    const char *name;        // of the file, for messages
-    const char *start, *end; // its bytes
+    const char *name;        // the file's name, for messages
+    const char *start, *end; // the file's bytes
     const char *next;        // the first byte not yet read
-    const char *place;       // start of the last line or value read: failures point here
+    const char *place;       // start of the last line or value read; failures report this position
     PlyFormat format;        // PLY_ASCII throughout the header
-    PlyWord element;         // being read; of length 0 in the header
-    int64_t index;           // of the element being read; negative for all of them
-    bool is_tolerant;        // words for non-finite numbers are read as NaN
+    PlyWord element;         // name of the element being read; empty in the header
+    int64_t index;    // index of the element being read; negative if failures concern all of them
+    bool is_tolerant; // reads words such as inf and nan as NaN
     Error *error;
 } PlyReader;
 
-// Records "NAME:LINE: ELEMENT INDEX: " or "NAME: byte OFFSET: ELEMENT INDEX: " and the message.
-// Returns false.
+// Sets the error to "NAME:LINE: ELEMENT INDEX: MESSAGE", or to "NAME: byte OFFSET: ELEMENT INDEX:
+// MESSAGE" in a binary body. Returns false.
 __attribute__((format(printf, 2, 3))) bool ply_reader_fail(const PlyReader *reader,
                                                            const char *format, ...);
 
-// A word for messages: without control characters, and shortened if long.
+// A word for messages, with ? for unprintable characters. Words of more than 32 characters are
+// shortened.
 typedef struct {
     char text[40];
 } PlyQuote;
 PlyQuote ply_reader_quote(PlyWord word);
 
-// Returns the least bytes of a value of the type in the reader's format.
+// Returns the minimum size in bytes of a value of this type in the reader's format.
 size_t ply_reader_value_size(const PlyReader *reader, PlyType type);
 
-// Fails unless the remaining bytes can hold count items of size bytes. Call this before allocating
-// or looping by a count from the file.
+// Fails unless count items of size bytes fit into the rest of the file. Callers check a count from
+// the file before they allocate memory or loop.
 bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 
-// Read the next value. The second accepts integer types only.
+// Read the next value. ply_reader_read_integer accepts only integer types.
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
-// Skips count values. Ascii values need not be numbers.
+// Skips count values. ASCII values need not be numbers.
 bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Writes the file in its own byte order, regardless of the machine's.
+// Writes little-endian files on every machine.
 #include "mesh/ply_write.h"
 
 #include <endian.h>
 #include <string.h>
 
 #define HEADER_SIZE 512
-#define FACE_SIZE   13 // a count byte and three words
+#define FACE_SIZE   13 // bytes: a count byte and three 4-byte indices
 
 typedef struct {
     char text[HEADER_SIZE];

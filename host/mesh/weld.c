@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An open-addressed hash table of the lowest vertex at each position.
+// Finds equal positions with an open-addressed hash table, which holds the lowest vertex at each
+// position.
 #include "mesh/weld.h"
 
 #include "base/array.h"
@@ -10,10 +11,10 @@
 
 typedef struct {
     uint32_t *vertices; // WELD_UNUSED in empty slots
-    size_t mask;        // slots less one; their number is a power of two
+    size_t mask;        // number of slots minus one; the number is a power of two
 } Table;
 
-// Positive and negative zero are one coordinate.
+// Copies a vertex's position. Adding 0.0 turns negative zero into zero, so that both are equal.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -49,7 +50,7 @@ static bool make_table(Table *table, size_t count, Error *error)
     return table->vertices != NULL;
 }
 
-// Leaves WELD_UNUSED for unused vertices and stores another number for all others.
+// Stores WELD_UNUSED for unused vertices, and 0 for all others.
 static void mark_used(Weld *weld, const Mesh *mesh)
 {
     memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);
