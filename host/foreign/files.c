@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Files are read once and kept, because Assimp opens a file several times to guess its format.
-// Assimp cannot read outside of the model's folder, regardless of the names in a model.
+// Implements Assimp's file access. Each file is read once and kept in memory, because Assimp opens
+// it several times to guess its format. Assimp cannot read outside the model's folder, regardless
+// of the paths in a model.
 #include "foreign/files.h"
 
 #include "foreign/limits.h"
@@ -11,10 +12,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// One opening of a file.
+// A file that Assimp has open.
 typedef struct {
     struct aiFile interface;
-    size_t opened; // index of the file
+    size_t opened; // index in Files::opened
     size_t place;
     Files *files;
 } Reading;
@@ -24,14 +25,15 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
-// Returns whether a file is in the folder. Neither path may contain links.
+// Returns whether file is in folder or below. Both paths must be free of links.
 static bool is_below(const char *file, const char *folder)
 {
     const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether path stays in the folder after links, which may be packed with the model.
+// Returns whether path is in the model's folder after links are resolved. A downloaded model may
+// contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {
     char *target = realpath(path, NULL);
@@ -48,7 +50,7 @@ static bool stays_inside(const Files *files, const char *path)
 
 static bool is_inside(const Files *files, const char *path)
 {
-    // The user names the model, so it may be a link to anywhere.
+    // The user chose the model, so its path may be a link to anywhere.
     if (strcmp(path, files->model) == 0)
         return true;
     const size_t folder = folder_length(files);
@@ -66,14 +68,14 @@ static bool is_inside(const Files *files, const char *path)
 static bool read_regular(File *file, const char *path, Error *error)
 {
     struct stat status = {0};
-    // Pipes and devices are rejected, because they may never end.
+    // Rejects pipes and devices, because they may never end.
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
     limits_allow_file((size_t)status.st_size);
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;
-    // The caller's message names the file.
+    // Removes the file's name from the message, because the caller adds it.
     const size_t length = strlen(path);
     const bool is_named = strncmp(cause.text, path, length) == 0;
     return error_set(error, "%s", cause.text + (is_named ? length + strlen(": ") : 0));
@@ -137,7 +139,8 @@ static size_t tell_size(struct aiFile *interface)
     return file_of(reading_of(interface))->size;
 }
 
-// Offsets are signed: callers seek backward from the end and from the current position.
+// Assimp passes negative offsets to seek backward. The unsigned sum then wraps to the right
+// position.
 static enum aiReturn seek(struct aiFile *interface, size_t offset, enum aiOrigin origin)
 {
     Reading *reading = reading_of(interface);
@@ -155,7 +158,8 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-// Assimp also tries other names for a library, so only the first counts.
+// Records a material library that cannot be opened. Assimp then tries other names for the library,
+// so only the first counts.
 static void note_missing(Files *files, const char *path)
 {
     const size_t folder = folder_length(files);

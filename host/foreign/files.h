@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that Assimp may read for a model: its own and those in its folder or below. Each is
-// read whole and once. Assimp may not write.
+// The files that Assimp may read for a model: the model file, and files in its folder or below.
+// Each file is read completely, once. Assimp cannot write files.
 #pragma once
 
 #include "base/array.h"
@@ -14,16 +14,15 @@ typedef struct {
 } OpenedFile;
 
 typedef struct {
-    struct aiFileIO interface; // for Assimp; it points back to the files
-    const char *model;         // path, with a folder
-    ARRAY(OpenedFile) opened;  // the model's first, once it is opened
+    struct aiFileIO interface; // passed to Assimp; its UserData points to this struct
+    const char *model;         // the model's path, which includes a folder
+    ARRAY(OpenedFile) opened;  // the files read so far; the model file is first
     size_t outside_count;      // number of requests for files outside of the folder
-    char missing[256];         // the first material library that could not be opened, relative
-                               // to the folder; "" without one
+    char missing[256]; // path of the first missing material library, relative to the folder; or ""
 } Files;
 
-// Initializes the files for the model at that path, which must outlive them.
+// Initializes files for the model at this path. The path must outlive files.
 void files_init(Files *files, const char *model);
 
-// Reads the model; on failure returns false and the reason.
+// Reads the model file. Returns false on failure.
 bool files_open_model(Files *files, Error *error);

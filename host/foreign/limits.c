@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Memory has two limits. The lower one rises with every file read, so a short file cannot use the
-// memory of the longest possible one. Before it is reached, most of the time goes to the system,
-// which clears pages: nodes that share children double with each level.
+// The soft memory limit rises with each file that is read, up to a hard limit. A short file thus
+// cannot use as much memory as a long one. Otherwise, a short file whose nodes share children could
+// fill the hard limit. Clearing those pages would take the system a long time.
 #include "foreign/limits.h"
 
 #include "base/confinement.h"
 
 #include <unistd.h>
 
-#define MEMORY_MOST   ((rlim_t)12 << 30)  // beside what is already mapped
-#define MEMORY_LEAST  ((rlim_t)512 << 20) // for any file, however short
-#define MEMORY_FACTOR 128                 // bytes for a byte of a file
-#define STACK_LIMIT   ((rlim_t)8 << 20)   // a deeper tree of nodes crashes
-#define TIME_LIMIT    120                 // seconds, of processor and wall time
+#define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes, in addition to the memory already mapped
+#define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes; even the shortest file may use them
+#define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
+#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; a model with too deeply nested nodes crashes
+#define TIME_LIMIT    120                 // seconds of processor time, and of wall time
 #define FILE_LIMIT    32
 
-// Sanitizers map more than any limit could allow. gcc defines a macro for them; clang has
-// __has_feature.
+// AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
+// has __has_feature.
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
@@ -35,7 +35,8 @@ static rlim_t smaller(rlim_t a, rlim_t b)
     return a < b ? a : b;
 }
 
-// A machine with less memory than the limit must keep some for other processes.
+// Sets the soft and the hard limit. Both are at most 3/4 of the machine's memory, which leaves
+// memory for other processes.
 static void limit_memory(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

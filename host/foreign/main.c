@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt-foreign PATH: reads one model with Assimp and writes it to standard output in the format of
-// mesh/foreign_stream.h. Only clrt starts it.
+// mesh/foreign_stream.h. Only clrt runs this program.
 #include "foreign/limits.h"
 #include "foreign/model.h"
 #include "foreign/send.h"
@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Returns the pipe, moved away from standard output because importers print there.
+// Returns a stream for the pipe, and redirects standard output to /dev/null, because importers
+// print there.
 static FILE *take_output(void)
 {
     const int own = dup(STDOUT_FILENO);
@@ -28,13 +29,13 @@ int main(int count, char **words)
     FILE *stream = take_output();
     if (stream == NULL)
         return EXIT_FAILURE;
-    // The path includes a folder, so that companion files are searched there.
+    // The path always includes a folder, so that Assimp searches companion files there.
     char *path = file_path_beside("./", words[1], &error);
     if (path == NULL)
         return EXIT_FAILURE;
     files_init(&files, path);
     if (!model_send(stream, &files, &error))
         send_text(stream, FOREIGN_FAILURE, "%s", error.text);
-    // Only the end of the process closes the pipe.
+    // The end of the process closes the pipe.
     _exit(fflush(stream) == 0 ? EXIT_SUCCESS : EXIT_FAILURE);
 }

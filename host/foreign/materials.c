@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies values as they are in the file. The receiver clamps them.
+// Copies material values unchanged from Assimp. The receiver clamps them.
 #include "foreign/materials.h"
 
 #include <stdio.h>
@@ -33,7 +33,8 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Some importers leave invented materials unnamed, and make them gray or white.
+// Some importers invent materials. An invented material has Assimp's default name, or no name and a
+// gray or white color.
 bool material_is_given(const struct aiMaterial *material)
 {
     const float gray = 0.6f, white = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Assimp reads the model and triangulates its polygons. This file reports everything that depends
-// on the whole model.
+// Reads the model with Assimp, which also triangulates polygons. Sends the files read, the parts,
+// and a note about omitted parts.
 #include "foreign/model.h"
 
 #include "foreign/parts.h"
@@ -11,7 +11,8 @@
 #include <assimp/postprocess.h>
 #include <string.h>
 
-// Coordinates stay as in the file, without Assimp's change of the up axis and without skeletons.
+// Returns the model in the file's coordinates, or NULL on failure. The settings disable Assimp's
+// change of the up axis and its meshes for skeletons.
 static const struct aiScene *import(Files *files)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();

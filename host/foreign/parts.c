@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes with the product of their matrices in fp64. An identity passes
-// coordinates unchanged. A mirroring matrix reverses triangles, so that fronts stay fronts.
+// Walks the tree of nodes and multiplies their matrices in fp64. An identity matrix leaves
+// coordinates unchanged. A mirroring matrix reverses the corner order, so that triangles keep their
+// front sides.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -17,7 +18,7 @@ typedef struct {
 } Placement;
 
 typedef struct {
-    double columns[3][3]; // normals are multiplied from the left
+    double columns[3][3]; // columns of the matrix that transforms normals
     bool is_identity, is_mirror;
 } Turn;
 
@@ -26,9 +27,9 @@ typedef struct {
     const struct aiScene *scene;
     bool keeps_normals;
     PartCounts *counts;
-    uint32_t *numbers; // of each of the scene's materials among those sent, 0 if unsent
+    uint32_t *numbers; // per scene material: 1 + its index among the sent ones, or 0 if unsent
     uint32_t sent_count;
-    ForeignPart part; // under construction
+    ForeignPart part; // the part being collected
     ARRAY(Triangle) triangles;
     size_t vertex_capacity, normal_capacity;
     Error *error;
@@ -59,7 +60,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Positive and negative zero are one number.
+// Returns whether the matrix is the identity. Negative zero counts as zero.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -69,7 +70,8 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Normals are transformed by the cofactors, which equal the inverse transpose up to a factor.
+// Returns the matrix for normals: the cofactors, which equal the inverse transpose up to a positive
+// factor.
 static Turn turn_of(const Placement *placement)
 {
     Turn turn = {.is_identity = is_identity(placement)};
@@ -102,7 +104,7 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Normals are shortened before the transform, so that no product exceeds the range of float.
+// Transforms a normal. Normalizes it before and after, so that large values do not overflow.
 static void turn_normal(const struct aiVector3D *given, const Turn *turn, float normal[3])
 {
     const Vec3 unit = vec3_normalize(vec3((double)given->x, (double)given->y, (double)given->z));
@@ -134,7 +136,8 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh, const
     }
 }
 
-// An index that Assimp failed to check would refer to another part's vertex.
+// Returns whether the face's indices are below vertex_count. An index that Assimp failed to check
+// would refer to a vertex of another mesh.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -198,8 +201,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves count more vertices in the part. Vertices of earlier meshes without normals get zero
-// normals.
+// Reserves memory for count more vertices in the part. Vertices without a normal get a zero normal,
+// also those of earlier meshes.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes record heads and their data.
+// Writes records: a head and its data.
 #include "foreign/send.h"
 
 #include "mesh/ply_write.h"
