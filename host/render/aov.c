@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of channels, and how they get their values.  Compositors expect the names Z, N and P.
-// Primitives and materials are integers, which are exact for any number of them.  Counts are
+// The table of channels and the functions that compute their values. Compositors expect the names
+// Z, N and P. Ids are integers, because float cannot represent all of them exactly. Counts are
 // floats, which every program displays unchanged.
 #include "render/aov.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels that --aov adds to a picture (arbitrary output variables in film rendering): one
-// table with each channel's name and the source of its values.
+// The channels that --aov adds to a picture (in film rendering, arbitrary output variables). A
+// table holds each channel's name and the function that computes its values.
 #pragma once
 
 #include "image/layers.h"
@@ -8,10 +8,10 @@
 
 // The input for one pixel's channels.
 typedef struct {
-    const PathData *path;  // of the ray through the pixel's center
+    const PathData *path;  // path of the ray through the pixel's center
     const uint32_t *tests; // TALLY_KINDS counts over all samples; NULL if no channel needs them
     uint32_t samples;
-    uint32_t certainty; // a Certainty, over all samples
+    uint32_t certainty; // the pixel's Certainty, over all samples
 } AovPixel;
 
 // The input shared by all pixels.
@@ -22,41 +22,41 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
-// The last channel in the table: each pixel's error against the reference.
+// The name of the table's last channel, each pixel's error against the reference.
 #define ERROR_CHANNEL "error"
 
-// The input of a channel besides the path of the ray through the pixel's center.
+// The input that a channel needs in addition to the path of the ray through the pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,
-    AOV_NEEDS_TESTS,     // tracing every sample again, alone
-    AOV_NEEDS_CERTAINTY, // certifying every sample
-    AOV_NEEDS_REFERENCE  // drawing the reference, whose caller fills the channel
+    AOV_NEEDS_TESTS,     // counts, from tracing every sample again as a single ray
+    AOV_NEEDS_CERTAINTY, // a CertaintyMap, from certifying every sample
+    AOV_NEEDS_REFERENCE  // the reference picture; the code that draws it fills the channel
 } AovNeed;
 
 typedef struct {
-    const char *name;                     // in --aov
-    const char *channels[AOV_COMPONENTS]; // in the file; NULL after the last
-    bool is_integer;                      // unsigned; otherwise float
+    const char *name;                     // name in --aov
+    const char *channels[AOV_COMPONENTS]; // channel names in the file; NULL after the last
+    bool is_integer;                      // values are unsigned integers; otherwise floats
     AovNeed need;
     const char *help;
-    // Fills values.  Floats are stored as their bits.
+    // Stores one value per channel in values. Floats are stored as their bits.
     void (*take)(uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 } Aov;
 
 extern const Aov aov_table[];
-extern const size_t aov_count; // at most 32
+extern const size_t aov_count; // at most 32, the bits of an AovSet
 
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds to set the channels of a comma-separated list.  Fails on an unknown or repeated name.
+// Adds the channels of a comma-separated list to *set. Fails on an unknown or repeated name.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
-// Returns whether a channel of the set has that need.
+// Returns whether any channel in set has this need.
 bool aov_needs(AovSet set, AovNeed need);
 
-// Appends the names of the set's channels to layers, in the table's order.
+// Appends the names and types of the channels in set to layers, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);
 
-// Fills one pixel's values for all channels of the set.
+// Stores one pixel's values for all channels in set, in the table's order.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Traces tiles one after the other, because a path costs about as much as a sample of the picture.
+// Traces one tile at a time, without overlap, because the pass takes only about as long as one
+// sample per pixel.
 #include "render/aov_pass.h"
 
 #include "render/tile.h"
 
 #include <stdlib.h>
 
-// kernels/aov.cl, embedded at build time.
+// The text of kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 
 static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *frame, cl_mem output,
@@ -28,7 +29,8 @@ static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *f
     return cl_succeeded(status, "run a kernel for channels", error);
 }
 
-// Drivers finish compiling in the first run, over a tile without pixels.
+// Creates a kernel and runs it over a tile without pixels, because drivers finish compiling in the
+// first run.
 static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, cl_mem output,
                         Error *error)
 {

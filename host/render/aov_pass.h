@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene of a renderer -> the channels of a picture.  Separate kernels compute them, so pictures
-// without channels pay nothing.
+// A renderer's scene -> the channels of --aov. Separate kernels compute the channels, so pictures
+// without channels take no extra time.
 #pragma once
 
 #include "render/aov.h"
@@ -8,12 +8,12 @@
 
 typedef struct {
     const RendererSetup *setup;
-    const Renderer *renderer; // the renderer of the picture
-    CameraData camera;        // of the picture
-    CameraData center;        // the same camera with one sample a pixel
-    const uint32_t *samples;  // of each pixel, row by row; NULL if all have the same number
+    const Renderer *renderer; // the renderer that drew the picture
+    CameraData camera;        // the picture's camera
+    CameraData center;        // the same camera with one sample per pixel
+    const uint32_t *samples;  // sample counts of the pixels, row by row; NULL if all are equal
     AovScene scene;
-    const CertaintyMap *certainty; // of the picture; NULL if no channel needs it
+    const CertaintyMap *certainty; // the picture's map; NULL if no channel needs it
 } AovSource;
 
 typedef struct {
@@ -22,16 +22,16 @@ typedef struct {
     bool counts_tests;
     Program program;
     cl_kernel trace_paths, count_tests;
-    cl_mem paths, tests; // of a tile, on the device
+    cl_mem paths, tests; // device buffers for one tile
     PathData *host_paths;
     uint32_t (*host_tests)[TALLY_KINDS];
 } AovPass;
 
-// Compiles the kernels for the channels of set; source must outlive the pass.
+// Builds the kernels for the channels in set. source must outlive the pass.
 bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error);
 void aov_pass_close(AovPass *pass);
 
-// Fills layers until the observer stops it.  layers must have the names of the set and the
-// picture's size.
+// Computes the channels into layers, tile by tile, until the observer returns false. layers must
+// have the names of set (aov_name_layers) and the picture's size.
 bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
                    Error *error);

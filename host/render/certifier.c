@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program is the reference renderer's with one more kernel, so scene, settings and frame are
-// those of any renderer.  Tiles run one after the other: reading a pixel back is cheap beside
+// Certifies with an fp64 renderer, the reference, whose program also contains the kernel
+// certify_tile. Tiles do not overlap, because reading a pixel back is cheap compared with
 // certifying it.
 #include "render/certifier.h"
 
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// kernels/certify.cl, embedded at build time.
+// The text of kernels/certify.cl, embedded at build time.
 extern const char certify_source[];
 
 KernelChoice certifier_choice(void)
@@ -67,7 +67,8 @@ static bool make_room(Certifier *certifier, Error *error)
     return cl_succeeded(status, "allocate a tile's marks", error);
 }
 
-// Drivers finish compiling in the first run, over a tile without pixels.
+// Creates the kernel and runs it over a tile without pixels, because drivers finish compiling in
+// the first run.
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;

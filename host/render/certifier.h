@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT
-// FlatScene and camera -> the certainty of each pixel's decisions, and the pixels repaired in fp64
-// (kernels/certify.cl).
+// FlatScene and camera -> the certainty of each pixel, and new colors for pixels repaired in fp64
+// (kernels/certify.cl). A pixel is certain if rounding changes neither its rays' hits nor the
+// lights that reach them.
 #pragma once
 
 #include "render/renderer.h"
 
 typedef struct {
-    Renderer reference; // in fp64; its program contains the kernel
+    Renderer reference; // an fp64 renderer; its program contains the kernel
     cl_kernel kernel;
-    cl_mem colors, marks; // of a tile, on the device
+    cl_mem colors, marks; // device buffers for one tile
     float (*host_colors)[3];
     CertaintyMark *host_marks;
 } Certifier;
 
-// Prepares to certify an fp32 picture of the same scene and settings.  setup's choice must be
-// certifier_choice, and flat must have its node layout and outlive the certifier.  Fails if the
-// device has no double arithmetic or does not round float divisions correctly, which the bounds
-// require.
+// Prepares to certify fp32 pictures of this scene with these settings. setup must contain
+// certifier_choice(). flat must have the node layout of that choice and outlive the certifier.
+// Fails on devices without double arithmetic or correctly rounded float division, because the
+// bounds require both.
 bool certifier_open(Certifier *certifier, const RendererSetup *setup, const FlatScene *flat,
                     const RenderSettings *settings, Error *error);
 void certifier_close(Certifier *certifier);
 
 KernelChoice certifier_choice(void);
 
-// A mark per pixel, rows from the top.
+// One mark per pixel, top row first.
 typedef struct {
     uint32_t width, height;
     CertaintyMark *marks;             // owned
-    uint64_t counts[CERTAINTY_KINDS]; // of pixels
+    uint64_t counts[CERTAINTY_KINDS]; // number of pixels of each Certainty
 } CertaintyMap;
 
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error);
@@ -39,8 +40,8 @@ typedef struct {
     CertaintyMap *map;
 } CertifiedPicture;
 
-// Fills the map and replaces the colors of repaired pixels, tile by tile, until the observer stops
-// it.
+// Fills the map and replaces the colors of repaired pixels, tile by tile, until the observer
+// returns false.
 bool certifier_certify(const Certifier *certifier, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error);

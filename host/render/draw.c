@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keeps two tiles in flight, each in its own queue.  One is traced while the other is read back or
-// waits for its last work-groups.  All tiles use the same padded grid with offset 0, because PoCL
-// compiles a kernel again for each local size and grid kind.
+// Keeps two tiles in flight, each in its own queue. One tile is traced while the other is read back
+// or finishes its last work-groups. All tiles use the same padded grid with offset 0, because PoCL
+// compiles a kernel again for each new local size and kind of grid.
 #include "render/draw.h"
 
 #include "render/tile.h"
@@ -13,7 +13,7 @@
 // A tile in flight.
 typedef struct {
     cl_command_queue queue; // one per slot, so that tiles overlap
-    cl_mem pixels, tallies; // on the device
+    cl_mem pixels, tallies; // device buffers
     uint (*host_tallies)[TALLY_KINDS];
     cl_event done;
     Tile tile;
@@ -48,7 +48,7 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     return slot->host_tallies != NULL;
 }
 
-// The device must have finished writing before the slot is freed.
+// Waits until the device has finished writing, and frees the slot.
 static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
@@ -96,7 +96,7 @@ bool draw_warm_up(Renderer *renderer, Error *error)
     return ok;
 }
 
-// Reads the slot's colors into the picture.
+// Starts to copy the slot's colors into the framebuffer. slot->done signals the end of the copy.
 static cl_int read_pixels(const Drawing *drawing, Slot *slot)
 {
     Framebuffer *framebuffer = drawing->framebuffer;
@@ -128,7 +128,7 @@ static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Erro
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// Waits for a tile and adds its tallies.
+// Waits for a tile and adds its tallies to the progress.
 static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
 {
     Renderer *renderer = drawing->renderer;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Packets are compiled once a run would lose more time without them than compiling takes.
+// Selects single rays instead of packets for short runs, in which compiling packets would take
+// longer than packets save.
 #include "render/quick_kernel.h"
 
-// Measured compile times, and the core time that packets save per sample in scenes with fewer
-// triangles than FEW_TRIANGLES.
+// Measured compile times in seconds, and the core time in seconds that packets save per sample. The
+// saving applies to scenes with fewer than FEW_TRIANGLES triangles.
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
-// Returns setup with another kernel choice.
+// Returns a copy of setup with this kernel choice.
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 {
     RendererSetup other = *setup;

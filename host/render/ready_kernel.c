@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One cache lock covers both the build and the first run, because PoCL 3.1 loses builds when cold
-// processes share a cache.
+// One cache lock covers both the build and the first run. PoCL 3.1 loses builds when several
+// processes share a cold cache.
 #include "render/ready_kernel.h"
 
 #include "base/clock.h"
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-// Runs the kernel over a tile without pixels: one work-group, on a dummy renderer with empty
+// Runs one work-group of the kernel over a tile without pixels, with a dummy renderer and empty
 // buffers.
 static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error *error)
 {
@@ -51,7 +51,8 @@ bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *tra
 {
     char key[PROGRAM_KEY_SIZE];
     program_key(setup->device, &setup->source, traits, key);
-    // Manifests of kernels under development would go stale at every edit.
+    // The cache ignores kernels under development, because every edit would make their manifests
+    // stale.
     return setup->source.kernel_folder == NULL && cache_has_program(setup->cache, key);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Program on a device -> a kernel ready to draw: built, and run once over an empty tile, because
-// drivers finish compiling at the first run.  It needs no scene, so it can be made while one is
-// read.
+// A program on a device -> a kernel that is ready to draw. The kernel has run once over an empty
+// tile, because drivers finish compiling in the first run. Making a kernel needs no scene, so
+// another thread can read the scene meanwhile.
 #pragma once
 
 #include "device/cache_build.h"
@@ -9,19 +9,19 @@
 
 typedef struct {
     Program program;
-    cl_kernel handle; // NULL in an empty value
+    cl_kernel handle; // NULL if the ReadyKernel is empty
     char key[PROGRAM_KEY_SIZE];
-    uint32_t group_width, group_height; // of the first run
-    double seconds;                     // spent on making it
-    bool was_compiled;                  // by an earlier process, according to the cache
+    uint32_t group_width, group_height; // work-group size of the first run
+    double seconds;                     // time spent on making the kernel
+    bool was_compiled; // the cache says that an earlier process compiled the kernel
 } ReadyKernel;
 
-// The inputs of a renderer.  The device must outlive it.
+// The inputs of a Renderer. The device must outlive the Renderer.
 typedef struct {
     const Device *device;
     const Cache *cache;
     ProgramSource source;
-    ReadyKernel *ready; // made beforehand; the renderer takes it if it fits.  May be NULL
+    ReadyKernel *ready; // may be NULL; the renderer takes this kernel if it fits
 } RendererSetup;
 
 // Returns whether the cache says that an earlier process compiled the kernel for traits.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepares a renderer: buffers, program and kernel.  draw.c draws.
+// Prepares a renderer: buffers, program and kernel. draw.c draws.
 #include "render/renderer.h"
 
 #include "base/clock.h"
@@ -8,8 +8,9 @@
 #include <assert.h>
 #include <string.h>
 
-// The cost of compiling an uncached program, and the fraction of tracing time that specialization
-// saves.  Measured with packets: 0 to 7 %.  The ray rate is one core's on a medium scene.
+// The time to compile a program that is not cached, and the fraction of tracing time that a
+// specialized program saves. The fraction is 0 to 7 % with packets. RAYS_PER_SECOND is the rate of
+// one core in a medium scene.
 #define COMPILE_SECONDS   1.5
 #define SPECIALIZED_SAVES 0.03
 #define RAYS_PER_SECOND   3e6
@@ -84,7 +85,7 @@ static bool specialization_pays(const RendererSetup *setup, const SceneTraits *s
             expected_saving(setup->device, settings) > COMPILE_SECONDS);
 }
 
-// Takes the ready kernel if it fits, else makes one.
+// Moves setup's ready kernel into the renderer if it fits. Otherwise makes a kernel.
 static bool take_kernel(Renderer *renderer, const RendererSetup *setup, const SceneTraits *traits,
                         Error *error)
 {

@@ -5,24 +5,25 @@
 #include "image/framebuffer.h"
 #include "render/ready_kernel.h"
 
-// Which program draws the scene.  The picture is the same.
+// Selects the program that draws: one for all scenes, or one specialized for this scene. Both draw
+// the same picture.
 typedef enum {
     SPECIALIZE_AUTO, // specialized if already compiled, or if it saves more time than compiling
-                     // costs
+                     // takes
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;
 
 typedef struct {
-    uint32_t width, height;             // of the crop
-    uint32_t left, top;                 // of the crop in the whole picture
-    uint32_t whole_width, whole_height; // of the whole picture; 0 without a crop
-    uint32_t samples;                   // per pixel and axis
-    uint32_t max_level;                 // rays of this level return the background
+    uint32_t width, height;             // size of the crop
+    uint32_t left, top;                 // position of the crop in the whole picture
+    uint32_t whole_width, whole_height; // size of the whole picture; 0 without a crop
+    uint32_t samples;                   // samples along each side of a pixel
+    uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
-    uint64_t ready_tiles; // the first tiles that exist already and are skipped
-    uint32_t part, parts; // draws tile number part of every parts tiles; 0, 0 draws all
-    uint32_t group_width, group_height; // of a work-group, in work-items
+    uint64_t ready_tiles; // number of first tiles to skip, because they exist already
+    uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
+    uint32_t group_width, group_height; // size of a work-group in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
@@ -44,19 +45,20 @@ static inline bool render_is_part(const RenderSettings *settings)
            settings->height < render_whole_height(settings);
 }
 
-// The scene's buffers among the kernel's arguments.
+// The number of kernel arguments that are buffers of the scene.
 #define RENDERER_ARRAYS 7
 
-// This limit keeps sample coordinates exact in float.
+// The largest RenderSettings::samples. This limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
 
 typedef struct {
     uint64_t tiles_done, tiles;
-    uint64_t tiles_ready;          // of tiles_done, those that existed before
-    uint64_t tallies[TALLY_KINDS]; // zeros without statistics
+    uint64_t tiles_ready;          // number of tiles in tiles_done that existed before the run
+    uint64_t tallies[TALLY_KINDS]; // counts of each TallyKind; zeros without statistics
 } RenderProgress;
 
-// tile_done is called for every finished tile; returning false stops the picture.
+// The renderer calls tile_done after every finished tile. tile_done returns false to stop the
+// picture.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
@@ -66,28 +68,29 @@ typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;
     NodeLayout nodes;
-    KernelEntry entry; // of the kernel
+    KernelEntry entry; // the function that kernel runs
     FrameData frame;
     Program program;
     cl_kernel kernel;
-    bool is_special;                // whether the program is specialized for the scene
+    bool is_special;                // the program is specialized for the scene
     cl_mem arrays[RENDERER_ARRAYS]; // in the order of the kernel's arguments
     size_t upload_size;             // bytes
     double upload_seconds, build_seconds;
     RenderProgress progress; // of the latest picture
 } Renderer;
 
-// Uploads the scene, or shares it with the device, and builds the program.  flat must have the
-// choice's node layout and outlive the renderer.
+// Uploads the scene, or shares its memory with the device, and makes the kernel. flat must have the
+// node layout of setup's kernel choice and outlive the renderer.
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Sets the size, samples, level and tiles of the following pictures from settings.  Pictures are
-// whole, and all other settings remain.
+// Sets the size, samples, max_level and tile size of the next pictures from settings. The pictures
+// must be whole. Other settings do not change.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture seen by camera into framebuffer, which has the settings' size.  Stores the
-// progress in renderer->progress; the observer may have stopped the picture.
+// Draws the picture that camera sees into framebuffer, which must have the settings' size. Returns
+// true even if the observer stops the picture. In that case, renderer->progress has fewer
+// tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Splits a list into launches and keeps two in the queue, so that the device never waits.  All
-// launches stay small enough to be one kind of grid for PoCL, which compiles a kernel again for
-// each kind.
+// Splits a list of requests into launches and keeps two launches in the queue, so that the device
+// never waits. PoCL compiles a kernel again for each kind of grid. Launches are small enough to be
+// of one kind.
 #include "render/sampler.h"
 
 #include <stdlib.h>
 
 #define LAUNCH_ITEMS 16384
 
-// ITEM_SAMPLES and ITEM_REQUESTS of the kernels.
+// Returns the requests per work-item, ITEM_SAMPLES or ITEM_REQUESTS of the kernels.
 static uint32_t item_requests(const Renderer *renderer)
 {
     return renderer->nodes == NODES_WIDE ? PACKET_SIDE * PACKET_SIDE : 1;
@@ -24,7 +24,7 @@ typedef struct {
     const SampleList *list;
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
-    cl_event done[2]; // of alternating launches
+    cl_event done[2]; // launch i signals done[i % 2]
 } Sampling;
 
 // Host memory that the device uses in place.
@@ -72,8 +72,8 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// Waits first: after a fault a running launch may still write to the host memory that is freed
-// here.
+// Waits for the queue first, because after a fault a running launch may still write to the host
+// memory.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->device->queue);

@@ -9,19 +9,19 @@ typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
 } Tile;
 
-// Number and position of the tiles to draw.
+// Return the number of tiles to draw, and the position and size of one of them.
 uint64_t tile_count(const RenderSettings *settings);
 Tile tile_at(const RenderSettings *settings, uint64_t number);
 
-// Returns a tile of the largest size.
+// Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
 // Returns the number of pixels in all tiles to draw.
 uint64_t tile_pixels(const RenderSettings *settings);
 
-// Sets the frame to draw that tile.
+// Sets the frame's tile.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
 
-// Returns in grid the work-items along both sides of a tile, padded to whole work-groups.  All
-// tiles, clipped ones included, have the same grid.
+// Stores in grid the number of work-items along both sides of a tile, rounded up to whole
+// work-groups. All tiles have the same grid, including clipped tiles.
 void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);
