@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds the camera's axes in fp64 and rounds each once.
+// Computes the camera's axes in fp64 and rounds each component to float once.
 #include "scene/camera.h"
 
 #include "base/trigonometry.h"
@@ -20,7 +20,8 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
     const Vec3 down = vec3_cross(forward, right);
     const double half = viewpoint->fov_degrees / 2;
     const double half_height = sine_of_degrees(half) / cosine_of_degrees(half);
-    // Sample coordinates count half steps from the center, so both axes have the same step.
+    // Sample coordinates count half steps from the picture's center. Both axes have the same step,
+    // because pixels are square.
     const double half_step = half_height / ((double)height * samples);
     CameraData camera;
     store(camera.eye, normalize_point(normalization, viewpoint->eye));

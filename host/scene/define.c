@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads material definitions. Missing properties have the course's values for the material's kind.
+// Reads material definitions. Missing properties get the course's values for the material's shader.
 #include "scene/define.h"
 
 #include "base/limits.h"
@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Exponents up to this are computed by squaring, with the same bits on every device.
+// Powers with integer exponents up to this are computed by squaring, which gives the same bits on
+// every device.
 #define LARGEST_INTEGER_EXPONENT 1024
 
 static bool read_color(Tokens *tokens, float color[3])

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials are named FILE:NAME, so that two files' materials do not collide.
+// Adds a model that Assimp reads. Materials are named FILE:NAME, so that materials of two files do
+// not collide.
 #include "scene/foreign_mesh.h"
 
 #include "mesh/foreign_process.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Materials without highlights are matte.
+// Converts a model's material. Materials without highlights become matte.
 static Material material_of(const ForeignMaterial *given)
 {
     const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
@@ -46,7 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// The caller adds the model's own path.
+// Adds the model's files to the scene's inputs and hashes. File 0 is the model itself, which keeps
+// the caller's path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -60,7 +62,7 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
     return true;
 }
 
-// Moves the parts' meshes into objects.
+// Moves the meshes of the model's parts into scene objects.
 static bool add_parts(Scene *scene, ForeignModel *model, const MeshOrder *order,
                       uint32_t first_material, Error *error)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Derives the camera distance and the lights from the bounding sphere of the mesh's bounds.
+// Places cameras and lights around the bounding sphere of the mesh's bounding box.
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
@@ -15,7 +15,8 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-// Returns half the diagonal of the bounds, and their center in *center.
+// Returns half the diagonal of the bounding box, or 1 if the diagonal is zero. Stores the box's
+// center in *center.
 static double radius_of(const Scene *scene, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
@@ -33,7 +34,8 @@ static bool add_cameras(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const double directions[6][3] = {{2, -2.6, 1.4}, {0, -1, 0}, {1, 0, 0},
                                             {0, 1, 0},      {-1, 0, 0}, {0, 0, 1}};
-    // The bounding sphere touches the picture's upper and lower edge: 1 / sin(fov / 2).
+    // The factor is 1 / sin(fov / 2), so the bounding sphere touches the picture's upper and lower
+    // edges.
     const double distance = radius * 2.6131259297527532;
     for (int view = 0; view < 6; view++) {
         const double *d = directions[view];
@@ -56,7 +58,7 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
            array_push(&scene->lights, ((Light){fill, 0.3}), error);
 }
 
-// A mesh that replaces a scene is visible from both sides.
+// Returns the options for a mesh that replaces a scene file. The mesh is visible from both sides.
 static MeshOrder order_of(PlyParse *parse)
 {
     return (MeshOrder){.object = {.material = 1, .two_sided = true, .smooth = true},
@@ -64,7 +66,7 @@ static MeshOrder order_of(PlyParse *parse)
                        .parse = parse};
 }
 
-// Adds the parts that a scene of objects lacks. Frees the scene on failure.
+// Adds cameras and lights to a scene of meshes, if ok. Otherwise, and on failure, frees the scene.
 static bool complete(Scene *scene, bool ok, Error *error)
 {
     Vec3 center;

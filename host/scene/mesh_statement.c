@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adds a file's meshes and applies the transforms in the written order, in fp64.
+// Adds a file's meshes to the scene and applies the statement's transforms in the written order, in
+// fp64.
 #include "scene/mesh_statement.h"
 
 #include "base/clock.h"
@@ -18,8 +19,9 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Normals may have any length, and rotation may grow a component by the square root of three. Only
-// the ratios of their lengths count, so all normals of a mesh are shortened if one could overflow.
+// Returns the factor for a mesh's normals before they are rotated. Rotation can enlarge a component
+// by the square root of 3, so normals that could overflow are shortened. One factor serves all
+// normals of a mesh, because only the ratios of their lengths count.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -46,7 +48,7 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
     }
 }
 
-// The objects that the statement has added.
+// The objects that the statement added.
 typedef struct {
     MeshObject *data;
     size_t count;
@@ -119,7 +121,7 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Repeated scaling could otherwise leave the range that the rest of the program requires.
+// Fails if a position is outside [-1e30, 1e30], the range that the rest of the program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -149,7 +151,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Erro
     return ok;
 }
 
-// The message names the scene's line if the file's own message has no position.
+// Loads the mesh file. If the file's own message has no position, the message names the statement's
+// position in the scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
     Error *error = tokens->error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids number the spheres first, then the triangles, mesh after mesh.
+// Primitive ids number the spheres first, then the triangles, mesh by mesh.
 #include "scene/names.h"
 
 #include <assert.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes center and scale from the bounds, and rejects scenes that do not fit the frame.
+// Computes center and scale from the scene's bounds, and rejects scenes whose sizes differ too
+// much.
 #include "scene/normalize.h"
 
 #define LARGEST_RATIO 0x1p40

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The normalized frame in which a scene is traced: moved to the origin in fp64 and scaled by a
-// power of two, so that float keeps all its bits for the geometry. A scene moved or scaled as a
-// whole has the same numbers in the frame, and thus the same picture.
+// clrt traces scenes in normalized coordinates: moved to the origin in fp64 and scaled by a power
+// of two. Float then uses all its bits for the geometry. Moving a scene, or scaling it by a power
+// of two, keeps its normalized coordinates, apart from rounding in fp64.
 #pragma once
 
 #include "scene/scene.h"
 
-// A point in the frame is (point - center) * scale.
+// A point's normalized coordinates are (point - center) * scale.
 typedef struct {
     Vec3 center;
     double scale; // a power of two
 } Normalization;
 
-// Centers the bounds of the triangles (of the spheres if there are none) and scales their largest
-// side into [1, 2). Lights, eyes and the other spheres may lie outside. Otherwise a ground sphere
-// of radius 1e9 would push the mesh into the last bits.
+// Returns the normalization that centers the triangles' bounding box and scales its longest side
+// into [1, 2). Scenes without triangles use the spheres' box. Otherwise spheres do not count,
+// because a ground sphere of radius 1e9 would leave the mesh too few bits.
 Normalization normalization_of(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 
-// Converts a point in the frame to the scene's own coordinates.
+// Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
-// Fails if float arithmetic would overflow (a ratio past 2^40): a light, an eye or a sphere is too
-// far from the geometry, or a sphere is too small or too large for it.
+// Fails if a normalized coordinate of a light, eye or sphere center exceeds 2^40, or a normalized
+// radius is outside [2^-40, 2^40]. Float arithmetic could overflow beyond these limits.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

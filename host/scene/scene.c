@@ -37,7 +37,8 @@ bool scene_init(Scene *scene, Error *error)
            array_push(&scene->materials, mirror, error);
 }
 
-// Azimuth and rotation in degrees and distance from the origin, as in the course's viewer.
+// Returns a viewpoint of the course's viewer, from azimuth and rotation in degrees and the distance
+// from the origin.
 static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
 {
     const double level = distance * cosine_of_degrees(azimuth);

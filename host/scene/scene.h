@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as its file describes it, in the file's own coordinates and in fp64. Elements refer to
-// each other by index, because the arrays may move while they grow.
+// A scene as its file describes it, in fp64 and in the file's coordinates. Elements refer to each
+// other by index, because arrays may move when they grow.
 #pragma once
 
 #include "../kernels/shared.h"
@@ -8,15 +8,15 @@
 #include "base/vec.h"
 #include "mesh/mesh.h"
 
-// Limits that keep sample coordinates exact in float and loops bounded.
+// Limits that keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 65536
 #define MAX_LEVEL_LIMIT  1000
 
-#define COURSE_MATERIALS 4 // the first materials of every scene
+#define COURSE_MATERIALS 4 // the course's materials come first in every scene
 
 typedef struct {
     Vec3 position;
-    double intensity; // 0 or more; white, without attenuation
+    double intensity; // 0 or more; lights are white and do not attenuate
 } Light;
 
 typedef struct {
@@ -28,10 +28,10 @@ typedef struct {
 typedef struct {
     Mesh mesh;
     uint32_t material;
-    uint32_t input;         // index of its file in the scene's inputs
-    uint64_t number_before; // triangles of earlier objects of that file, dropped ones included
+    uint32_t input;         // index of the mesh's file in Scene::inputs
+    uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
     bool two_sided;
-    bool smooth; // shade with the vertex normals, if there are any
+    bool smooth; // shade with the vertex normals if the mesh has them
 } MeshObject;
 
 // A camera. up and look_at - eye must be neither zero nor parallel.
@@ -42,37 +42,37 @@ typedef struct {
 
 typedef struct {
     char name[64];
-    uint32_t material; // index
+    uint32_t material; // index in Scene::materials
 } MaterialName;
 
 typedef struct {
     ARRAY(Light) lights;
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
-    ARRAY(Material) materials;          // the course's come first
-    ARRAY(MaterialName) material_names; // of the defined materials
+    ARRAY(Material) materials; // the course's materials, then defined and imported materials
+    ARRAY(MaterialName) material_names; // names of defined and imported materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
-    bool is_mesh;          // the file was a mesh alone; viewpoints and lights are clrt's own
+    bool is_mesh;          // the file is a mesh, so clrt chooses viewpoints and lights
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;
     uint32_t max_level;
-    ARRAY(char *) inputs; // paths of the files it was read from; owned
-    ARRAY(char *) notes;  // messages about omitted parts of these files; owned
-    double mesh_seconds;  // loading time spent on meshes
-    // XXH3 of the bytes of the scene file and its meshes in the order read, and of the meshes
-    // alone. The latter is zero without meshes.
+    ARRAY(char *) inputs; // paths of the files read; owned
+    ARRAY(char *) notes;  // messages about omitted parts of the files; owned
+    double mesh_seconds;  // time spent on loading meshes
+    // hash combines the XXH3 hashes of the scene file and its meshes, in the order read. mesh_hash
+    // combines only the hashes of the meshes, and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
 // Fills scene with the defaults of a scene file: the course's constants and four materials.
 bool scene_init(Scene *scene, Error *error);
 
-// Adds the course's six viewpoints if the scene has none of its own.
+// Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
 
-// Mixes size bytes of input into scene->hash; scene_hash_mesh also into scene->mesh_hash.
+// Mix a hash of the bytes into scene->hash. scene_hash_mesh also mixes it into scene->mesh_hash.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
 void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
 
@@ -80,17 +80,17 @@ void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
 #define SCENE_HASH_SIZE 33
 void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE]);
 
-// Adds the file at path to the inputs.
+// Appends a copy of path to the scene's inputs.
 bool scene_add_input(Scene *scene, const char *path, Error *error);
 
-// Adds "PATH: TEXT" to the notes.
+// Appends "PATH: TEXT" to the scene's notes.
 bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error);
 
 size_t scene_triangle_count(const Scene *scene);
 void scene_free(Scene *scene);
 
-// Returns a message about a fault of the camera's position or direction, NULL without one.
+// Returns the reason why the viewpoint is invalid, or NULL if it is valid.
 const char *viewpoint_fault(const Viewpoint *viewpoint);
 
-// Returns the material of a define statement that gives only its kind.
+// Returns the material of a define statement without properties.
 Material material_of_shader(Shader shader);

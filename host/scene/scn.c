@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a scene file statement by statement. The table at the end is the grammar. Each statement
-// has a keyword, a form that messages quote, and a function named after the statement.
+// Reads a scene file statement by statement. The table of statements is the grammar. Each statement
+// has a keyword, a usage text that messages quote, and a function that reads it.
 #include "scene/scn.h"
 
 #include "base/file.h"
@@ -19,10 +19,10 @@ typedef struct {
     Tokens tokens;
     Scene *scene;
     PlyParse *parse_mesh;
-    uint32_t material; // of the objects that follow, or MATERIAL_OWN
-    MeshObject object; // the sides and normals of the objects that follow
-    Vec3 up;           // of the cameras that follow
-    Token waiting_up;  // the latest `up` until a camera follows it
+    uint32_t material; // material of the objects that follow, or MATERIAL_OWN
+    MeshObject object; // two_sided and smooth of the objects that follow
+    Vec3 up;           // up vector of the cameras that follow
+    Token waiting_up;  // the latest `up` statement, if no camera follows it yet
     Error *error;
 } Parser;
 
@@ -218,7 +218,8 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses text. The parser already has its scene, mesh reader and Error.
+// Parses text. The caller has set the parser's scene, parse_mesh and error. Frees the scene on
+// failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
@@ -239,7 +240,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
-// Loads scene text. The input list has the text's file after its meshes.
+// Parses a scene file and adds its path to the inputs, after the paths of its meshes.
 static bool load_text(Parser *parser, const File *file, const char *path)
 {
     if (!parse(parser, file->bytes, file->size, path))

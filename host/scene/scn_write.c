@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a statement for everything that scene text can describe. A statement about objects
-// precedes the first object with its value.
+// Writes a scene as scene text. A statement that sets a property of objects precedes the first
+// object with the new value.
 #include "scene/scn_write.h"
 
 #include "base/number.h"
@@ -15,8 +15,8 @@ static const char *const shaders[] = {[SHADER_SILHOUETTE] = "silhouette",
 typedef struct {
     const Scene *scene;
     FILE *stream;
-    MaterialName *names; // of the materials in this text, by index
-    MeshObject current;  // state of the object statements so far
+    MaterialName *names; // names of the materials in the written text, by index
+    MeshObject current;  // the properties that statements have set so far
 } Writer;
 
 // Writes the fewest digits that read back as the same number.
@@ -32,7 +32,7 @@ static void write_number(FILE *stream, double value)
     fprintf(stream, " %s", text);
 }
 
-// write_number for a float, which needs fewer digits.
+// Writes the fewest digits that read back as the same float.
 static void write_float(FILE *stream, float value)
 {
     char text[32];
@@ -123,7 +123,8 @@ static bool is_definable(const char *name)
            number_parse(name, name + strlen(name), &number) == NULL;
 }
 
-// Chooses the materials' names: their own, or numbered ones if no scene can define the own ones.
+// Chooses the materials' names. A material keeps its name if scene text can define this name and no
+// earlier material has it. Otherwise, the new name is material_ and the material's index.
 static void choose_names(Writer *writer)
 {
     const Scene *scene = writer->scene;
@@ -140,7 +141,7 @@ static void choose_names(Writer *writer)
     }
 }
 
-// Omits the properties that a material's kind does not use.
+// Writes the define statements. Only Blinn-Phong materials have specular properties.
 static void write_defines(const Writer *writer)
 {
     FILE *stream = writer->stream;

@@ -57,7 +57,8 @@ static bool ends_token(char c, bool quoted)
     return quoted ? c == '"' || is_line_end(c) : c == ' ' || c == '\t' || is_line_end(c);
 }
 
-// Without a closing quote, the quote counts as part of the word, and the message shows it.
+// Returns whether the line has a closing quote. Otherwise the opening quote is part of the token,
+// so that messages show it.
 static bool has_closing_quote(const Tokens *tokens)
 {
     const char *c = tokens->next + 1;
@@ -101,7 +102,7 @@ bool token_is(Token token, const char *word)
            memcmp(token.text, word, token.length) == 0;
 }
 
-// Quotes the token for a message, shortened and without terminal control bytes.
+// Writes the token for a message: in quotes, shortened, and with ? for control characters.
 static void describe_token(Token token, char *out, size_t size)
 {
     if (token.text == NULL) {

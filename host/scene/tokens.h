@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits scene text into tokens, line by line, each with its position for messages. Blanks
-// separate tokens. A token that begins with // or # comments out the rest of its line.
+// Splits scene text into tokens and records their positions for messages. Blanks separate tokens. A
+// token that begins with // or # comments out the rest of its line.
 #pragma once
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 typedef struct {
-    const char *text; // not terminated; NULL at the end of the statement
+    const char *text; // not zero-terminated; NULL at the end of the line
     size_t length;
     unsigned line, column; // from 1
 } Token;
@@ -17,8 +17,8 @@ typedef struct {
 typedef struct {
     const char *next, *end;
     const char *line_start;
-    const char *name;  // of the file, for messages
-    const char *usage; // of the current statement, for messages; NULL before its keyword
+    const char *name;  // the file's name, for messages
+    const char *usage; // usage text of the current statement, for messages; NULL before its keyword
     unsigned line;
     Token last;
     Error *error;
@@ -26,27 +26,29 @@ typedef struct {
 
 Tokens tokens_of(const char *text, size_t size, const char *name, Error *error);
 
-// Moves to the next line with a token and returns its first token; text is NULL at the end.
+// Moves to the next line with a token and returns its first token. Returns a token with NULL text
+// at the end of the file.
 Token tokens_next_statement(Tokens *tokens);
 
-// Returns the next token of this line; text is NULL at the line's end. A token that begins with a
-// double quote extends to the next quote, includes blanks, and is returned without the quotes.
+// Returns the next token of the line, or a token with NULL text at the line's end. A token in
+// double quotes may contain blanks, and is returned without the quotes.
 Token tokens_next(Tokens *tokens);
 
-// Returns whether token is exactly that word.
+// Returns whether token is exactly this word.
 bool token_is(Token token, const char *word);
 
-// Reads count numbers into values, each finite and in [low, high].
+// Read numbers. tokens_numbers reads count numbers from -COORDINATE_MOST to COORDINATE_MOST;
+// tokens_number_within reads one number from low to high.
 bool tokens_numbers(Tokens *tokens, int count, double *values);
 bool tokens_number_within(Tokens *tokens, double *value, double low, double high);
 
-// Reads an integer between low and high.
+// Reads an integer from low to high.
 bool tokens_integer(Tokens *tokens, int64_t *value, int64_t low, int64_t high);
 
 // Fails unless the line has ended.
 bool tokens_end(Tokens *tokens);
 
-// Fails at the token (or at the line's end) with "name:line:column: MESSAGE: found TOKEN; the
-// statement is 'USAGE'".
+// Sets the error to "NAME:LINE:COLUMN: MESSAGE: found TOKEN; the statement is 'USAGE'" and returns
+// false.
 __attribute__((format(printf, 3, 4))) bool tokens_fail(const Tokens *tokens, Token token,
                                                        const char *format, ...);

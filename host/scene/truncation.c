@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray's weight is the product of the reflectivities on its path. It is at most a power of the
-// largest reflectivity in use.
+// A ray's weight is the product of the reflectivities on its path. At level N, it is at most the
+// scene's largest reflectivity to the power of N.
 #include "scene/truncation.h"
 
 static double larger(double a, double b)
