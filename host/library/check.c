@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NaN fails every range check.
+// A NaN fails every range check.
 #include "library/check.h"
 
 #include <stdarg.h>
@@ -57,7 +57,8 @@ bool check_color(ClrtError *error, const char *what, const double color[3])
     return check_given(error, what, color) && check_three(error, what, color, 0, 1);
 }
 
-// Members that this version does not know must be zero, their default.
+// Returns whether all bytes are zero. Members that this version does not know must be zero, which
+// selects their default.
 static bool is_zero(const unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // libclrt renders scenes from your own program: `cc picture.c $(pkg-config --libs clrt)`.
 //
-// A picture has the bits that `clrt SCENE -o picture.pfm` writes for the same scene and settings.
-// The library prints nothing, never ends the program, installs no signal handlers and does not
-// touch the environment.  OpenCL drivers may do so.  A failed call returns false or NULL and fills
-// error unless it is NULL.  It changes nothing unless its comment says so.  Calls copy arrays and
-// structs, so the caller may free or reuse them afterwards.
+// A picture equals, bit for bit, the picture that `clrt SCENE -o picture.pfm` writes with the same
+// settings. The library prints nothing, never ends the program, installs no signal handlers and
+// sets no environment variables. OpenCL drivers may do so. A failed call returns false or NULL and
+// stores the reason in *error, unless error is NULL. A failed call changes nothing else unless its
+// comment says so. Calls copy arrays and structs, so the caller may free or reuse them afterwards.
 //
-// Threads: calls for different scenes and renderers may run concurrently.  Several renderers may
-// draw one scene as long as nobody changes it.  A renderer draws one picture at a time.
+// Threads may call functions concurrently for different scenes and renderers. Several renderers may
+// draw one scene while no thread changes it. A renderer draws one picture at a time.
 //
-// Every struct begins with its size, `.size = sizeof(...)`.  A later version of the library, with
-// more members, treats missing members as zero.  Zero is always the default.
+// Structs that callers pass begin with their size, `.size = sizeof(...)`. Later versions of the
+// library may add members to structs. A missing member counts as zero, which selects its default.
 #pragma once
 
 #include <stdbool.h>
@@ -27,9 +27,9 @@ extern "C" {
 // Returns the version of the linked library, such as "0.1.0".
 CLRT_API const char *clrt_version(void);
 
-// Why a call failed.  Values 2 to 4 are also exit statuses of `clrt`.
+// The reasons for failed calls. Values 2 to 4 are also exit statuses of `clrt`.
 typedef enum {
-    CLRT_STOPPED = 1,  // the caller's progress function stopped it
+    CLRT_STOPPED = 1,  // the caller's progress function stopped the picture
     CLRT_ARGUMENT = 2, // an argument is invalid
     CLRT_SCENE = 3,    // the scene cannot be read, stored or drawn
     CLRT_DEVICE = 4    // no device, or a device failure
@@ -44,17 +44,17 @@ typedef struct {
 
 typedef struct ClrtScene ClrtScene;
 
-// Reads a scene file (man 5 clrt-scene) or a single mesh, as `clrt` does.  Models other than PLY
-// need clrt's program clrt-foreign, which the call starts.
+// Reads a scene file (man 5 clrt-scene) or a mesh file, as `clrt` does. For mesh files other than
+// PLY, the call starts clrt's program clrt-foreign.
 CLRT_API ClrtScene *clrt_scene_load(const char *path, ClrtError *error);
 
-// Returns an empty scene: a white background, ambient light of 0.05, and the materials below.
+// Returns an empty scene with a white background, ambient light of 0.05 and the materials below.
 CLRT_API ClrtScene *clrt_scene_create(ClrtError *error);
 
 // Accepts NULL.
 CLRT_API void clrt_scene_free(ClrtScene *scene);
 
-// The materials of every scene; added materials follow.
+// The numbers of the materials that every scene has. Added materials have higher numbers.
 enum {
     CLRT_MATERIAL_SILHOUETTE,
     CLRT_MATERIAL_MATTE,
@@ -64,9 +64,10 @@ enum {
 
 typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_PHONG } ClrtShading;
 
-// The visible color is (1 - reflectivity) * shaded + reflectivity * reflected.  For MATTE, shaded
-// is diffuse * (ambient + kd * received light).  BLINN_PHONG adds highlights of specular * ks *
-// cosine ^ shininess.  For SILHOUETTE, shaded is diffuse.
+// The visible color is (1 - reflectivity) * shaded + reflectivity * the reflected ray's color. For
+// SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
+// intensity * cosine over the visible lights. BLINN_PHONG adds specular * ks * S, where S sums
+// intensity * (n . h) ^ shininess.
 typedef struct {
     size_t size;
     ClrtShading shading;
@@ -76,41 +77,41 @@ typedef struct {
     double reflectivity;            // in [0, 1]
 } ClrtMaterial;
 
-// Stores the number of the new material in *number.
+// Adds a material and stores its number in *number.
 CLRT_API bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material,
                                       uint32_t *number, ClrtError *error);
 
-// Coordinates are at most 1e30 in magnitude, radii are in [1e-30, 1e30].
+// Adds a sphere. Coordinates are at most 1e30 in magnitude, and the radius is in [1e-30, 1e30].
 CLRT_API bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], double radius,
                                     uint32_t material, ClrtError *error);
 
-// Triangles with counter-clockwise corners seen from the front.  clrt drops triangles with two
-// equal corners.
+// A triangle mesh. Corners are in counter-clockwise order, seen from the front. clrt drops
+// triangles with two equal corners.
 typedef struct {
     size_t size;
-    const double *positions;   // X Y Z of each vertex
-    const float *normals;      // X Y Z of each vertex, any length; zero for none; NULL without
-    const uint32_t *triangles; // three vertices of each triangle, from 0
+    const double *positions;   // X Y Z per vertex, each below 1e30 in magnitude
+    const float *normals;      // X Y Z per vertex, of any length; 0 0 0 for none; may be NULL
+    const uint32_t *triangles; // three vertex indices per triangle, from 0
     size_t vertex_count, triangle_count; // each at most 2147483647
     uint32_t material;
-    bool two_sided; // visible from behind, too
-    bool flat;      // shaded without the normals
+    bool two_sided; // also visible from behind
+    bool flat;      // ignores the normals
 } ClrtMesh;
 
 CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error);
 
-// Adds a white point light of an intensity in [0, 1e30], without attenuation.
+// Adds a white point light without attenuation. The intensity is in [0, 1e30].
 CLRT_API bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double intensity,
                                    ClrtError *error);
 
 typedef struct {
     size_t size;
     double eye[3], look_at[3];
-    double up[3];       // 0 0 0 means 0 0 1
+    double up[3];       // 0 0 0 selects 0 0 1
     double fov_degrees; // vertical, in [1e-6, 179.9999]
 } ClrtCamera;
 
-// Appends a view to the scene.
+// Appends a view to the scene. Views are numbered from 1.
 CLRT_API bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error);
 
 // Sets the color of rays that hit nothing: R G B in [0, 1].
@@ -121,59 +122,61 @@ CLRT_API bool clrt_scene_set_ambient(ClrtScene *scene, double intensity, ClrtErr
 
 typedef struct {
     size_t size;
-    uint32_t width, height; // from the scene file; else 512 512
-    uint32_t max_level;     // from the scene file; else 3
+    uint32_t width, height; // from the scene file; otherwise 512
+    uint32_t max_level;     // from the scene file; otherwise 3
     uint32_t view_count;
     uint32_t light_count, material_count, sphere_count;
     uint64_t triangle_count;
-    uint64_t dropped_triangle_count; // dropped for two equal corners
+    uint64_t dropped_triangle_count; // triangles dropped because of two equal corners
 } ClrtSceneInfo;
 
-// Fills the first info->size bytes of info; the caller sets size.
+// Describes the scene in the first info->size bytes of *info. The caller sets info->size.
 CLRT_API bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error);
 
 // Renderers
 
 typedef struct ClrtRenderer ClrtRenderer;
 
-// Opens an OpenCL device and compiles the kernels for it.  Compiling takes a second or two unless
-// the driver has cached them.  device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type
-// (cpu, gpu, accelerator, all) or part of a name.  NULL selects the first GPU, else the first
-// device.
+// Opens an OpenCL device and compiles its kernels. Compiling takes one to two seconds unless the
+// driver has cached the kernels. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type
+// (cpu, gpu, accelerator, all) or part of a name. NULL selects the first GPU or, without a GPU, the
+// first device.
 //
-// threads is the number of threads that build trees; 0 selects as many as the affinity mask and the
-// control groups' quotas allow.  The driver sets the number of threads of a CPU device.  The
-// library sets no environment variable, so the program must: PoCL reads POCL_MAX_PTHREAD_COUNT
-// (later versions: POCL_CPU_MAX_CU_COUNT) at its first call.
+// threads is the number of threads that build trees. 0 selects as many as the affinity mask and the
+// control groups' quotas allow. The driver sets the number of threads that draw on a CPU device.
+// The library sets no environment variable, so the program itself must limit PoCL's threads. PoCL
+// reads POCL_MAX_PTHREAD_COUNT (later versions: POCL_CPU_MAX_CU_COUNT) at its first call.
 //
-// A lock in $XDG_CACHE_HOME/clrt/library, else ~/.cache/clrt/library, keeps processes that compile
-// concurrently from losing PoCL's kernels.  Checksums in this folder detect damaged kernels, which
-// are compiled again.  PoCL finds no device unless it can write to its cache there or to
-// $POCL_CACHE_DIR.
+// The library stores a lock and checksums in $XDG_CACHE_HOME/clrt/library or ~/.cache/clrt/library.
+// The lock keeps processes that compile concurrently from losing PoCL's kernels. The checksums
+// detect damaged kernels, which are then compiled again. PoCL finds no device unless it can write
+// its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
-// Called for every finished tile, in the drawing thread; returns whether to continue.  It must not
-// free the renderer, and may draw only with another one.
+// A function that the drawing thread calls after every finished tile. It returns whether to
+// continue. It must not free the renderer or call clrt_render with the same renderer.
 typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
 
 typedef struct {
     size_t size;
     uint32_t width, height; // in pixels, each in [1, 65536]
-    uint32_t view;          // of the scene, from 1; 0 means 1
-    uint32_t samples;       // per pixel and axis: N means N x N, at most 64; 0 means 1
+    uint32_t view;          // number of the scene's view, from 1; 0 means 1
+    uint32_t samples;       // N for N x N samples per pixel, at most 64; 0 means 1
     uint32_t max_level; // rays of this level return the background; at most 1000; 0: the scene's
-    const ClrtCamera *camera; // replaces the scene's view; NULL for none
-    ClrtProgress *progress;   // NULL for none
+    const ClrtCamera *camera; // used instead of view; may be NULL
+    ClrtProgress *progress;   // may be NULL
     void *user;               // passed to progress
 } ClrtPicture;
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
-// The first picture of a new or changed scene also builds its tree; a new size or camera costs
-// nothing. Returns false with CLRT_STOPPED if progress stopped the picture before its last tile.
-// An incomplete picture has whole tiles of 128 x 128 pixels, and the rest of rgb is unchanged.
+// The first picture of a new or changed scene also builds the scene's tree. A new size or camera
+// costs nothing.
+//
+// If progress stops the picture before its last tile, returns false with CLRT_STOPPED. In this
+// case, rgb contains complete tiles of 128 x 128 pixels, and its other values are unchanged.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
 

@@ -4,10 +4,10 @@
 #include "library/renderer_handle.h"
 #include "scene/camera.h"
 
-// The side of a tile, in pixels; the picture does not depend on it.
+// The side of a tile in pixels. The picture does not depend on the size of tiles.
 #define TILE 128
 
-// Copies the caller's settings into wanted and fills in defaults.
+// Copies the caller's settings into wanted, fills in defaults and checks the numbers.
 static bool take_settings(ClrtPicture *wanted, const ClrtPicture *picture, const Scene *scene,
                           ClrtError *error)
 {
@@ -38,7 +38,8 @@ static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, cons
     return true;
 }
 
-// Checks the caller's camera; the scene's own cameras have been checked.
+// Fails if the caller's camera is too far from the scene. The scene's own cameras have been checked
+// before.
 static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, ClrtError *error)
 {
     Error cause = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every scene uses the general kernels, which are compiled once per renderer.
+// Draws all scenes with the general kernels, so that a renderer compiles kernels only once.
 #include "library/renderer_handle.h"
 
 #include "accel/compile.h"
@@ -28,8 +28,9 @@ static bool make_kernel(ClrtRenderer *renderer, Error *cause)
     return ready_kernel_make(&renderer->kernel, &renderer->setup, &traits, group, cause);
 }
 
-// Only one thread at a time may run this.  The OpenCL loader and drivers initialize themselves at
-// the first calls, and PoCL 3.1 crashes if two threads make them.
+// Opens the device and makes the kernel, in one thread at a time. The OpenCL loader and drivers
+// initialize themselves at the first calls, and PoCL 3.1 crashes if two threads make these calls
+// concurrently.
 static bool open_renderer(ClrtRenderer *renderer, const char *device, Error *cause)
 {
     static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
@@ -84,7 +85,7 @@ static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
     return ok;
 }
 
-// Each picture sets its own size.
+// Uploads the scene. The size of 1 x 1 pixels is a placeholder, because each picture sets its size.
 static bool open_scene(ClrtRenderer *renderer, Error *cause)
 {
     ReadyKernel lent = renderer->kernel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inside of a ClrtRenderer: a device with compiled kernels, and the latest scene in the
+// The contents of a ClrtRenderer: a device with compiled kernels, and the latest scene in the
 // device's layout.
 #pragma once
 
@@ -12,14 +12,14 @@ struct ClrtRenderer {
     Device device;
     Cache cache;
     RendererSetup setup;
-    ReadyKernel kernel; // lent to the renderer of each scene
+    ReadyKernel kernel; // shared with the Renderer of each scene
     uint32_t threads;
-    atomic_bool is_busy; // drawing a picture
-    uint64_t state;      // of the scene below; 0 for none
+    atomic_bool is_busy; // true while a picture is drawn
+    uint64_t state;      // ClrtScene::state of the uploaded scene; 0 without a scene
     Normalization normalization;
     FlatScene flat;
     Renderer renderer;
 };
 
-// Loads the scene, unless it is the current one.
+// Uploads the scene, unless the renderer already has the scene in this state.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caller's numbers -> the elements of a scene other than meshes.
+// The caller's numbers -> the materials, spheres, lights and cameras of a scene.
 #include "base/limits.h"
 #include "library/check.h"
 #include "library/scene_handle.h"

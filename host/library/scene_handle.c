@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ClrtScene: a Scene and its state, which every change increases.
+// A ClrtScene is a Scene with a state number. Every change gives the scene a new, higher number.
 #include "library/scene_handle.h"
 
 #include "library/check.h"
@@ -25,7 +25,7 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
                                         "material %u is not among the scene's %zu", number, count);
 }
 
-// Returns a new scene read from path, or an empty one for NULL.
+// Returns a new scene, read from path or empty if path is NULL. Returns NULL on failure.
 static ClrtScene *make(const char *path, ClrtError *error)
 {
     Error cause = {0};
