@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The soft memory limit rises with each file that is read, up to a hard limit. A short file thus
 // cannot use as much memory as a long one. Otherwise, a short file whose nodes share children could
-// fill the hard limit. Clearing those pages would take the system a long time.
+// use memory up to the hard limit. Clearing those pages would take the system a long time.
 #include "foreign/limits.h"
 
 #include "base/confinement.h"

@@ -43,7 +43,7 @@ bool image_format_takes_layers(const char *name);
 const char *image_format_names(void);
 
 // Returns half of the smallest step between adjacent 8-bit values, in linear color. For float
-// formats, returns half of the step below 1.
+// formats, returns half of the distance between floats just below 1.
 double image_format_half_step(const char *format, Encoding encoding);
 
 // Starts a process that loads the format's writer, and returns at once. Only main may call this

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parent sends a request with strings and pixels over a socket pair, and the child answers. The
-// parent writes pictures above LARGEST_SENT itself, because a second copy costs too much.
+// parent writes pictures above LARGEST_SENT itself, to avoid a second copy.
 #include "image/image_process.h"
 
 #include "base/array.h"

@@ -173,10 +173,9 @@ typedef struct {
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
 // The first picture of a new or changed scene also builds the scene's tree. A new size or camera
-// costs nothing.
-//
-// If progress stops the picture before its last tile, returns false with CLRT_STOPPED. In this
-// case, rgb contains complete tiles of 128 x 128 pixels, and its other values are unchanged.
+// costs nothing. Returns false with CLRT_STOPPED if progress stops the picture before its last
+// tile. In this case, rgb contains complete tiles of 128 x 128 pixels, and its other values are
+// unchanged.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
 

@@ -66,7 +66,7 @@ static MeshOrder order_of(PlyParse *parse)
                        .parse = parse};
 }
 
-// Adds cameras and lights to a scene of meshes, if ok. Otherwise, and on failure, frees the scene.
+// Adds cameras and lights to a scene of meshes. Frees the scene if ok is false or memory runs out.
 static bool complete(Scene *scene, bool ok, Error *error)
 {
     Vec3 center;

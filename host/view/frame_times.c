@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorting the times yields the median and the slowest ones.
+// Sorts the times to find the median and the slowest frames.
 #include "view/frame_times.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker's jobs.  Each ends with a status update.
+// The worker's jobs. Each job ends with a status update.
 #include "view/worker_inside.h"
 
 #include "base/clock.h"
@@ -14,7 +14,8 @@ typedef struct {
     Layer *layer;
 } Tracing;
 
-// The status may be changed only between these two calls.
+// Locks and returns the status. Only code between begin_update and end_update may change the
+// status.
 static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -35,7 +36,7 @@ static void report_busy(Worker *worker, const char *busy)
     end_update(worker);
 }
 
-// Returns whether the pass is still useful.
+// Returns whether the window still needs the job's pass.
 static bool is_current(Worker *worker, const Job *job)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -66,9 +67,9 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return is_current(worker, job);
 }
 
-// Updates the measured cost of a sample.  The first measurement replaces the guess.  Later ones
-// count for at most twice the previous cost, because busy processors may have slowed down a single
-// picture.
+// Updates the measured time per sample. part is the finished fraction of the pass. The first
+// measurement replaces the guess. Later measurements count as at most twice the previous time,
+// because other processes may have slowed down a single picture.
 static void learn(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
@@ -80,7 +81,7 @@ static void learn(Worker *worker, const Pass *pass, double seconds, double part)
     worker->has_measured = true;
 }
 
-// Records a complete picture.  The caller holds the lock.
+// Records a complete picture in the status. The caller holds the lock.
 static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
@@ -115,7 +116,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Gives up a picture that cannot be traced; a different request will be tried.
+// Reports that a picture cannot be traced, and marks it as reached. The worker then waits for a
+// different request.
 static void give_up(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -144,7 +146,7 @@ void jobs_trace(Worker *worker, const Job *job)
     give_up(worker, job, &error);
 }
 
-// Records that the renderer was made, or failed with error.
+// Reports that the renderer is ready, or failed with error.
 static void report_taken(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -157,7 +159,7 @@ static void report_taken(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
-// Records that the scene was read, or failed with error.
+// Reports that the scene was read, or that reading failed with error.
 static void report_loaded(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -179,7 +181,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     return ok;
 }
 
-// Publishes the model for the window.  Its tree may still be missing.
+// Publishes the model for the window. The model's tree may still be missing (has_tree).
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);
@@ -216,7 +218,8 @@ static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
     end_update(worker);
 }
 
-// Publishes the first scene before the device is open and the tree is built.
+// Runs the first load and opens the device. Publishes the scene first, so that the window opens
+// early.
 bool jobs_begin(Worker *worker)
 {
     Error error = {0};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Half the picture is as many steps wide as the picture has pixels.
+// A step of the camera is half a pixel. From the center to the picture's edge there are as many
+// steps as the picture has pixels.
 #include "view/lens.h"
 
-// In the normalized frame, where geometry is 1 to 2 large.  Nearer objects are drawn, but without
-// depth.
+// The near plane in normalized coordinates, in which the longest side of the geometry is 1 to 2.
+// Nearer objects are drawn, but without depth.
 #define NEAREST 0.01f
 
-// Stores the axis along a step, scaled so that the picture's edge is at 1.
+// Stores the direction of step, scaled so that its dot product with a point at depth 1 on the
+// picture's edge is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = {(double)step[0], (double)step[1], (double)step[2]};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scene file -> the input of both views: the scene, its triangles in the normalized frame and their
-// tree.  One thread makes a model and others read it, so it is reference-counted.
+// Scene file -> the input of the OpenGL view and the ray-traced view: the scene, its normalized
+// triangles and their tree. Models are reference-counted, because one thread makes a model and
+// others read it.
 #pragma once
 
 #include "accel/bvh.h"
@@ -13,18 +14,18 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     Triangles triangles;
-    Bvh bvh; // without nodes until the tree is built
+    Bvh bvh; // empty until the tree is built
 } Model;
 
-// Reads the scene or mesh at path, a string that outlives the model, and returns it with one
-// reference.  Returns NULL with the reason on failure.
+// Reads the scene or mesh at path and returns a model with one reference, or NULL on failure. The
+// string path must outlive the model.
 Model *model_load(const char *path, uint32_t threads, Error *error);
 
-// Builds the tree.  No other thread may hold the model or read its tree yet.
+// Builds the tree. No other thread may read model->bvh before the function returns.
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error);
 
 // Adds a reference and returns the model.
 Model *model_hold(Model *model);
 
-// Drops a reference; the last one frees the model.  Accepts NULL.
+// Drops a reference. Dropping the last reference frees the model. Accepts NULL.
 void model_release(Model *model);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The constants are the course's.
+// The constants are from the course's viewer.
 #include "view/orbit.h"
 
 #include "base/trigonometry.h"
@@ -14,7 +14,8 @@
 #define COURSE_DISTANCE    6.5
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Makes two axes perpendicular to up.  For z they are x and y, the course's reference for angles.
+// Makes perpendicular axes, of which the last is up. If up is z, the others are x and y, the
+// course's reference for angles.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);

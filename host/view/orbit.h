@@ -6,28 +6,30 @@
 
 typedef struct {
     Vec3 pivot;       // the center of the orbit
-    Vec3 look_at, up; // of the camera
-    Vec3 axes[3];     // the last is up
+    Vec3 look_at, up; // of the camera that orbits
+    Vec3 axes[3];     // unit length; the last is up
     double azimuth;   // degrees below the plane perpendicular to up; negative if the eye is above
     double rotation;  // degrees around up
     double distance;  // from the eye to the pivot
-    double unit;      // the length unit of steps and limits: 1 in the course
+    double unit;      // length unit of zoom steps and distance limits; 1 for the course's cameras
     double fov_degrees;
 } Orbit;
 
-// Returns the orbit of a camera.  The course's cameras orbit the origin, others their look_at
-// point.
+// Returns the orbit of a camera. The course's cameras orbit the origin. Other cameras orbit their
+// look_at point.
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 
 // Returns the camera at the orbit's current position.
 Viewpoint orbit_viewpoint(const Orbit *orbit);
 
-// Apply a drag, in pixels.  The course's limits stop the motion.
+// Apply a mouse drag in pixels. The azimuth and the distance stay within the course's limits.
 void orbit_turn(Orbit *orbit, double right, double down);
 void orbit_zoom(Orbit *orbit, double down);
 
-// Moves the camera sideways: the pivot follows the pointer in a window of the course's height.
+// Moves the camera and the pivot sideways by a mouse drag in pixels. In a window of the course's
+// height, the pivot follows the pointer.
 void orbit_pan(Orbit *orbit, double right, double down);
 
-// Applies a turn of the wheel, in notches; away from the user is positive.
+// Zooms by a turn of the mouse wheel in notches. Notches away from the user are positive and zoom
+// in.
 void orbit_wheel(Orbit *orbit, double notches);

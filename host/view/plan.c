@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Tracing gets only part of a frame's time, because displaying takes time and tracing times vary.
+// While the camera moves, tracing may take only part of a frame's time, because display takes time
+// and tracing times vary.
 #include "view/plan.h"
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
-// Two tiles are in flight when a picture is stopped.
+// Tiles are short, because a stopped picture still finishes the two tiles in flight.
 #define TILE_SECONDS  0.012
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8
@@ -22,7 +23,8 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
-// Returns the smallest divisor that meets the time limit.
+// Returns the smallest divisor of the resolution that meets the time limit, or else the largest
+// divisor.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next picture to trace, so that the camera moves smoothly and a still picture
-// sharpens.  The first picture has as many pixels as a frame's time allows, the next one all
-// pixels, then all samples.  The last pass counts rays and tests.
+// Chooses the next pass, so that the camera moves smoothly and a still picture becomes sharp. The
+// first pass traces as many pixels as a frame's time allows. The next passes trace all pixels, then
+// all samples. The last pass counts rays and tests.
 #pragma once
 
 #include <stdbool.h>
@@ -12,10 +12,10 @@
 // The requested picture and its cost.
 typedef struct {
     bool is_wanted;
-    uint64_t subject; // names the scene, camera and size; pictures of other subjects are useless
+    uint64_t subject; // identifies scene, camera and size; pictures of other subjects are useless
     uint32_t width, height;
-    uint32_t samples;      // per pixel and axis
-    double sample_seconds; // per sample, as measured
+    uint32_t samples;      // samples along each side of a pixel
+    double sample_seconds; // measured tracing time per sample
 } PlanRequest;
 
 // The best picture so far.
@@ -27,9 +27,9 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // within a frame's time; never interrupted, so that something is displayed
-    PASS_FULL,   // all pixels, or all samples
-    PASS_COUNT   // the same picture with counters
+    PASS_MOVING, // fits a frame's time; never interrupted, so that something is displayed
+    PASS_FULL,   // all pixels, with one sample or with all samples
+    PASS_COUNT   // the full picture again, with counters
 } PassKind;
 
 typedef struct {
@@ -37,7 +37,7 @@ typedef struct {
     uint32_t divisor; // one traced pixel covers divisor x divisor pixels
     uint32_t samples;
     uint32_t width, height; // of the traced picture
-    uint32_t tile;          // side, small enough to stop without delay
+    uint32_t tile;          // side of a tile in pixels, small enough to stop quickly
 } Pass;
 
 Pass plan_pass(const PlanRequest *request, const PlanReached *reached);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls stat a few times, five times a second.
+// Checks the files with stat, five times a second.
 #include "view/reload.h"
 
 #include "base/file.h"

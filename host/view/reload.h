@@ -12,14 +12,15 @@ typedef struct {
 
 typedef enum { RELOAD_SCENE = 1, RELOAD_KERNELS = 2 } ReloadBits;
 
-// Watches the files of the scene, which may be NULL.  After a failed read a file may be missing, so
-// the scene file's folder is watched, too.
+// Watches the file at path and the other files of scene, which may be NULL. Also watches the folder
+// of path if has_failed, because a file may be missing.
 bool reload_follow(Reload *reload, const Scene *scene, const char *path, bool has_failed,
                    Error *error);
 
-// Watches the kernels in a folder; NULL for none.
+// Watches the kernels in folder, which may be NULL.
 bool reload_follow_kernels(Reload *reload, const char *folder, Error *error);
 
-// Checks the files if it is time, and returns the ReloadBits of the changed ones.
+// Checks the files at most five times a second, and returns the ReloadBits of the changes. now is
+// in seconds.
 unsigned reload_look(Reload *reload, double now);
 void reload_free(Reload *reload);

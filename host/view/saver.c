@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files get the scene's name and the first free number.
+// Names the files after the scene, with the first free number.
 #include "view/saver.h"
 
 #include <limits.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// File name endings; NULL for a format missing in this build.
+// File extensions for the displayed and the traced picture; NULL if this build lacks the format.
 typedef struct {
     const char *shown, *traced;
 } Endings;
@@ -25,7 +25,7 @@ static bool is_free(const char *stem, unsigned number, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Writes the scene file's name without folder and ending.
+// Stores the scene file's name in stem, without folder and extension.
 static void write_stem(char stem[SAVER_TEXT_SIZE], const char *scene_path)
 {
     const char *slash = strrchr(scene_path, '/');

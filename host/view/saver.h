@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures -> files, on a thread, because loading OpenImageIO would freeze the window.
+// Pictures -> files. A separate thread writes the files, because loading OpenImageIO would freeze
+// the window.
 #pragma once
 
 #include "image/image_file.h"
@@ -11,22 +12,22 @@
 
 // The caller fills the first four members.
 typedef struct {
-    Framebuffer shown;              // for the 8-bit file, in the window's values; owned
+    Framebuffer shown;              // for the 8-bit file; values as displayed in the window; owned
     Framebuffer traced;             // for the float file; owned
-    const char *scene_path;         // names the files
+    const char *scene_path;         // determines the files' names
     char settings[SAVER_TEXT_SIZE]; // stored in both files
-    char notice[SAVER_TEXT_SIZE];   // the files written
-    Error error;                    // or the reason for a failure
+    char notice[SAVER_TEXT_SIZE];   // a message that names the written files
+    Error error;                    // the reason for a failure
     pthread_t thread;
     bool is_running;
     atomic_bool is_done;
     void (*wake)(void);
 } Saver;
 
-// Starts writing both pictures to the current folder; calls wake at the end.
+// Starts a thread that writes both pictures to the current folder and then calls wake.
 bool saver_start(Saver *saver, void (*wake)(void), Error *error);
 
-// Returns true once, when writing has succeeded or failed.
+// Returns true once after writing has succeeded or failed, and then frees the pictures.
 bool saver_is_done(Saver *saver);
 
 // Waits for the files and frees the pictures.

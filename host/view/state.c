@@ -47,7 +47,7 @@ static void change_level(State *state, const StateScene *scene, int step)
         state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
 }
 
-// Returns the setting that a key toggles; NULL for none.
+// Returns the setting that a key toggles, or NULL.
 static bool *switch_of(State *state, int key)
 {
     switch (key) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The window's settings as a plain value: events change it and views draw it.  It depends on no
-// window, device or clock.
+// The window's settings as a plain struct. Events change the state, and views draw it. The state
+// depends on no window, device or clock.
 #pragma once
 
 #include "view/orbit.h"
 
-// Keys are characters as typed; these are the keys without a character.
+// Keys are typed characters. These constants stand for keys without a character.
 enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN };
 
 typedef enum {
@@ -19,10 +19,10 @@ typedef enum {
 typedef struct {
     EventKind kind;
     int key;
-    double right, down; // in pixels; for the wheel, down is in notches away from the user
+    double right, down; // in pixels; for EVENT_WHEEL, down is in notches away from the user
 } Event;
 
-// Commands of an event beyond changes of the state, as bits.
+// Bits of the commands that an event triggers in addition to changes of the state.
 enum { COMMAND_CAMERA = 1, COMMAND_SAVE = 2, COMMAND_RELOAD = 4, COMMAND_QUIT = 8 };
 
 // The properties of a scene that the state depends on.
@@ -30,20 +30,20 @@ typedef struct {
     const Viewpoint *viewpoints;
     size_t viewpoint_count;
     bool is_course;  // the viewpoints are the course's
-    uint32_t levels; // of inner nodes; 0 without a tree
+    uint32_t levels; // number of levels with inner nodes; 0 without a tree
 } StateScene;
 
 typedef struct {
-    bool traced; // by rays; otherwise by OpenGL
+    bool traced; // ray traced; otherwise drawn by OpenGL
     bool smooth; // anti-aliased
     bool uses_bvh;
     bool boxes, normals; // drawn over the picture
-    bool help, text;     // the overlays
-    bool turning;        // the camera turns by itself
-    uint32_t level;      // of the boxes: 0 the leaves, else inner nodes, with the root at 1
-    int exposure;        // half stops
-    uint32_t view;       // the latest viewpoint, from 1
-    bool moved;          // the camera has left that viewpoint
+    bool help, text;     // overlays that are displayed
+    bool turning;        // the camera turns automatically
+    uint32_t level; // displayed boxes: 0 for leaves; n for inner nodes at level n, the root at 1
+    int exposure;   // in half stops
+    uint32_t view;  // number of the latest viewpoint, from 1
+    bool moved;     // the camera has left this viewpoint
     Orbit orbit;
     Viewpoint camera;
 } State;
@@ -51,16 +51,17 @@ typedef struct {
 // Returns the initial state; view counts from 1.
 State state_begin(const StateScene *scene, uint32_t view, bool smooth, bool uses_bvh);
 
-// Applies an event to the state and returns its commands.
+// Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 
-// Turns the camera by that many seconds of motion if it turns by itself.
+// Turns the camera by the motion of this many seconds if the camera turns automatically.
 void state_advance(State *state, double seconds);
 
-// Switches to a scene that was read again.  A camera that has not moved follows the file's.
+// Switches to a scene that was read again. A camera that has not moved takes the new file's
+// viewpoint.
 void state_adopt(State *state, const StateScene *scene);
 
-// Switches to another scene, at its first camera.
+// Switches to another scene and its first viewpoint.
 void state_open(State *state, const StateScene *scene);
 
 // Returns the factor by which the exposure multiplies colors.

@@ -8,22 +8,22 @@
 
 #define STATUS_TEXT_SIZE 8192
 
-// The facts about the picture besides the state.
+// Facts about the picture that are not part of the state.
 typedef struct {
     const char *scene_name;
     uint32_t width, height; // of the window, in pixels
-    uint32_t samples;       // per pixel and axis, with anti-aliasing
+    uint32_t samples;       // samples along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
     bool is_finished;       // nothing remains to be traced
     double progress;        // of the current pass, from 0 to 1
     double frame_seconds;   // of the latest frame
-    bool has_counts;        // the next two are known
+    bool has_counts;        // rays and tests_per_ray are known
     uint64_t rays;
     double tests_per_ray;
-    uint32_t box_count;  // of displayed boxes
+    uint32_t box_count;  // number of displayed boxes
     const char *busy;    // the current operation; empty for none
     const char *notice;  // the latest result; empty for none
-    const char *failure; // why the latest change has no effect; empty if it has
+    const char *failure; // why the latest change has no effect; empty without a failure
 } Figures;
 
 // Writes the state alone, as one line without a line end, for tests and -v.

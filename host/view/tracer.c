@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens new objects before it closes old ones, so that a failure leaves the old ones in use.
+// Opens new objects before it closes old objects, so that the old objects remain in use after a
+// failure.
 #include "view/tracer.h"
 
 #include "scene/camera.h"
@@ -68,7 +69,8 @@ static uint32_t max_level(const Tracer *tracer, const Model *model)
     return wanted >= 0 ? (uint32_t)wanted : model->scene.max_level;
 }
 
-// Each pass sets its own size and samples.
+// Returns the settings of a new renderer. Size and samples are placeholders, because each pass sets
+// them.
 static RenderSettings first_settings(const Tracer *tracer, const Model *model)
 {
     return (RenderSettings){.width = 1,

@@ -7,13 +7,13 @@
 #include "view/plan.h"
 
 typedef struct {
-    const char *device; // as for device_open
+    const char *device; // name of the device for device_open
     KernelRequest kernel;
     Specialization specialization;
     BvhBuilder builder;
     uint32_t group_width, group_height; // 0: the kernels' default
     int64_t max_level;                  // negative: the scene's
-    uint32_t threads;                   // for work on the host
+    uint32_t threads;                   // number of threads on the host
     const char *kernel_folder;          // NULL: the embedded kernels
     const Cache *cache;
 } TracerOptions;
@@ -23,22 +23,23 @@ typedef struct {
     Device device;
     RendererSetup setup;
     uint32_t group[2];
-    Model *model; // the current model, held; NULL for none
+    Model *model; // the current model, with a reference; may be NULL
     bool uses_bvh;
     FlatScene flat;
     Renderer renderer;
-    Renderer counter; // the same with counters, opened on first use
+    Renderer counter; // the same renderer with counters, opened on first use
 } Tracer;
 
-// Opens the device.  The options must outlive the tracer.  The caller closes it, also after a
-// failure.
+// Opens the device. The options must outlive the tracer. The caller closes the tracer after success
+// and after failure.
 bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(Tracer *tracer);
 
-// Returns the settings for trees that suit the device.
+// Returns the settings for building trees that suit the device.
 BvhSettings tracer_tree(const Tracer *tracer);
 
-// Switches to the model, with its tree or by brute force.  On failure it keeps the previous one.
+// Switches to the model, to be traced with its tree or by brute force. On failure, the tracer keeps
+// the previous model.
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
 
 // A picture to draw: a camera and a pass.
@@ -50,9 +51,10 @@ typedef struct {
 // Returns the settings of a pass's picture.
 RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
 
-// Draws into framebuffer, which has the settings' size, until the observer stops it.
+// Draws the shot into framebuffer until the observer returns false. framebuffer must have the size
+// of tracer_settings.
 bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 
-// Returns the progress and the counters of the latest pass.
+// Returns the progress and counters of the latest pass of this kind.
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The main loop: events and the worker's status change the state, the state becomes a request to
-// the worker, and changes are drawn.
+// The main loop. Events and the worker's status change the state. The loop posts the state to the
+// worker as a request, and draws changes.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep, in seconds; files are checked between sleeps.
+// The loop's longest sleep in seconds. The loop checks files between sleeps.
 #define REST_SECONDS 0.1
 
 static uint32_t samples_of(const Viewer *viewer)
@@ -51,7 +51,7 @@ static bool take_events(Viewer *viewer, Error *error)
     return true;
 }
 
-// Plays a key once the effect of the previous one has been displayed.
+// Plays the next key once the effect of the previous key is displayed.
 static bool play_script(Viewer *viewer, Error *error)
 {
     if (!script_is_running(&viewer->script) || !viewer_is_settled(viewer) || viewer->is_dirty)
@@ -61,7 +61,8 @@ static bool play_script(Viewer *viewer, Error *error)
     return event.key == 0 || take_event(viewer, &event, error);
 }
 
-// A turning camera waits until its traced picture is complete, and stands still before a save.
+// Turns the camera if it turns automatically. The camera waits until its traced picture is
+// complete, and stands still before a save.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
@@ -125,7 +126,8 @@ static bool step(Viewer *viewer, Error *error)
     return viewer_recover(viewer, error);
 }
 
-// The scene is read first, because it determines the window's size.
+// Waits until the first scene is read, because the scene determines the window's size. Returns
+// false on a fault.
 static bool await_scene(Viewer *viewer)
 {
     do {
@@ -169,8 +171,8 @@ static ViewerEnd show(Viewer *viewer, Error *error)
     return VIEWER_CLOSED;
 }
 
-// Stops the picture being traced.  If the driver does not return in time, the end of the process
-// cleans up everything that the driver may still use.
+// Stops tracing and frees the viewer. If the driver does not return in time, the viewer's memory
+// stays allocated until the process ends, because the driver may still use it.
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
@@ -212,7 +214,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
     ViewerEnd end = VIEWER_NO_DEVICE;
-    // Watching starts before the first read, so that changes during the read count.
+    // Watching starts before the first read, so that changes during the read are detected.
     if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&
         reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
         viewer->worker = worker_start(&setup, &viewer->request, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shows a scene file in a window, by OpenGL and by tracing, until the user closes it.
+// Shows a scene file in a window, drawn by OpenGL or ray traced, until the user closes the window.
 #pragma once
 
 #include "image/image_file.h"
@@ -7,14 +7,14 @@
 
 typedef struct {
     const char *scene_path;
-    uint32_t view;          // from 1
+    uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // per pixel and axis, with anti-aliasing
+    uint32_t samples;       // samples along each side of a pixel, with anti-aliasing
     bool smooth, uses_bvh;  // initial values
     Encoding encoding;
     TracerOptions tracer;
-    const char *keys;    // to play; NULL for none
-    uint32_t quit_after; // frames; 0: until the user quits
+    const char *keys;    // keys to play; may be NULL
+    uint32_t quit_after; // number of frames to show; 0: until the user quits
     bool statistics;     // print frame times at the end
     bool verbose;        // print the state whenever it changes
     double patience;     // seconds to wait for the device at the end
@@ -22,5 +22,5 @@ typedef struct {
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;
 
-// Shows the scene.  Returns when the window is closed or cannot be opened.
+// Shows the scene until the window is closed or a failure occurs.
 ViewerEnd viewer_run(const ViewerSettings *settings, Error *error);

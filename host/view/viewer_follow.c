@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Transfers results of the worker, the saver and the file system into the viewer.
+// Transfers the worker's results, dropped files and changes of files into the viewer.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"

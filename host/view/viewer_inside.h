@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer's state, shared by its files.  viewer.c runs the loop, viewer_follow.c takes results
-// of the worker and the file system, and viewer_show.c draws, prints and saves.
+// The viewer's data, shared by its source files. viewer.c runs the loop, viewer_follow.c takes
+// results of the worker and the file system, and viewer_show.c draws, prints and saves.
 #pragma once
 
 #include "view/frame_times.h"
@@ -16,7 +16,7 @@
 #define STATE_SIZE 1024
 
 typedef struct {
-    ViewerSettings settings; // copied, with the cache, because the worker may outlive the call
+    ViewerSettings settings; // copied like the cache, because the worker may outlive viewer_run
     Cache cache;
     Window window;
     Views views;
@@ -24,32 +24,32 @@ typedef struct {
     Worker *worker;
     WorkerRequest request;
     WorkerStatus status;
-    Model *model; // held; NULL until the first one is read
+    Model *model; // with a reference; NULL until the first scene is read
     StateScene scene;
     State state;
-    ARRAY(char *) dropped; // paths, owned, because the worker may be reading any of them
+    ARRAY(char *) dropped; // paths; owned, because the worker may still read any of these files
     Reload reload;
-    bool is_failure_followed; // whether the watched files include the folder, after a failed read
+    bool is_failure_followed; // the scene's folder is watched, too, because a read failed
     Script script;
     Saver saver;
     bool wants_save;
     FrameTimes frame_times;
     double advanced;       // the time up to which the camera has turned by itself
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
-    Error failure;         // of the window's own operations
+    Error failure;         // failure of the window's own operations
     char notice[SAVER_TEXT_SIZE];
-    char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // the latest ones printed
-    char title[STATE_SIZE];                                      // of the window
+    char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // as printed last
+    char title[STATE_SIZE];                                      // the window's current title
     bool is_dirty, quits;
 } Viewer;
 
-// Processes the worker's status.  Returns false if nothing can be displayed anymore.
+// Processes the worker's status. Returns false if nothing can be displayed anymore.
 bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
 
-// Switches to a file dropped on the window.
+// Switches to a file that was dropped on the window, if any.
 bool viewer_take_drop(Viewer *viewer, Error *error);
 
 // Requests a new read of changed files.
@@ -61,12 +61,13 @@ bool viewer_renew(Viewer *viewer, Error *error);
 // Reopens the window and rebuilds its contents if the driver has lost the context.
 bool viewer_recover(Viewer *viewer, Error *error);
 
-// Returns whether all effects of the keys played so far are complete.
+// Returns whether the effects of all keys played so far are complete.
 bool viewer_is_settled(const Viewer *viewer);
 
 // Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
-// Saves the latest drawn picture if requested and complete; then reports the written files.
+// viewer_save starts to save the latest picture if a save is requested and the picture is complete.
+// viewer_follow_saver reports the written files.
 void viewer_save(Viewer *viewer);
 void viewer_follow_saver(Viewer *viewer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the picture first and the text over it, which describes the picture's settings.
+// Draws the picture, then the text over it. The text describes the picture's settings.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -77,7 +77,7 @@ static void update_title(Viewer *viewer, const Figures *figures)
     memcpy(viewer->title, text, sizeof text);
 }
 
-// Prints a changed state on standard error, with -v, once nothing moves.
+// With -v, prints a changed state to standard error once nothing moves.
 static void print_state(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
@@ -90,7 +90,7 @@ static void print_state(Viewer *viewer, const Figures *figures)
     memcpy(viewer->printed_state, text, sizeof text);
 }
 
-// Prints a new failure; the overlay keeps displaying it.
+// Prints a new failure once. The overlay continues to display it.
 static void print_failure(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE];
@@ -102,7 +102,8 @@ static void print_failure(Viewer *viewer, const Figures *figures)
     memcpy(viewer->printed_failure, text, sizeof text);
 }
 
-// Returns whether the frame shows a moving camera at a new position; only those frames are timed.
+// Returns false if the camera turns and the traced picture is still the previous one. Such frames
+// are neither timed nor counted.
 static bool is_new_frame(const Viewer *viewer)
 {
     return !viewer->state.turning || !viewer->state.traced ||
@@ -140,7 +141,7 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Copies the traced floats.
+// Copies the latest traced picture, or the displayed picture if none is traced.
 static bool copy_traced(Viewer *viewer, Framebuffer *copy, Error *error)
 {
     pthread_mutex_lock(&viewer->canvas.mutex);

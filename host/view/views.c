@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene hides lines behind it in the ray-traced view, too: OpenGL draws its depth, and the
-// traced picture covers its colors.
+// Surfaces also hide the lines behind them in the ray-traced view. OpenGL draws the scene's depth,
+// and the traced picture then covers the scene's colors.
 #include "view/views.h"
 
 #include "image/encode.h"

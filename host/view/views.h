@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All OpenGL objects of a model, and the drawing order of a frame.
+// The OpenGL objects that draw a model, and the drawing order of a frame.
 #pragma once
 
 #include "view/draw/boxes.h"
@@ -19,7 +19,7 @@ typedef struct {
     LineView boxes, normals;
     RayView rays;
     TextView text;
-    bool has_boxes, has_normals; // they match the model and the level
+    bool has_boxes, has_normals; // the loaded lines match the model and level
     uint32_t level;
 } Views;
 
@@ -27,20 +27,20 @@ typedef struct {
 typedef struct {
     const State *state;
     const Model *model;
-    bool has_tree; // of the model
+    bool has_tree; // the model's tree is built
     Canvas *canvas;
-    Viewpoint camera; // of the picture; a traced one may lag behind the state's
+    Viewpoint camera; // the picture's camera; a traced picture may lag behind the state
     uint32_t width, height;
     Encoding encoding;
 } Frame;
 
-// Makes everything that needs no model, in the current context.  The caller closes the views, also
-// after a failure.
+// Makes the objects that need no model, in the current OpenGL context. The caller closes the views
+// after success and after failure.
 bool views_open(Views *views, Error *error);
 void views_close(Views *views);
 
-// Switches to another model, which OpenGL copies.
+// Copies another model into the OpenGL objects.
 bool views_load(Views *views, const Model *model, Error *error);
 
-// Draws the frame, without text, into the target.
+// Draws the frame without text, and copies it to the window.
 bool views_draw(Views *views, const Frame *frame, Error *error);

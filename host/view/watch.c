@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file's signature is one number: a hash of its times, size and inode.
+// A file's signature is a hash of its modification time, size and inode.
 #include "view/watch.h"
 
 #include <dirent.h>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
-// A missing file has a signature, too.
+// Returns the signature of a file. Missing files have a signature, too (look_at).
 static uint64_t look_of(const struct stat *status)
 {
     const uint64_t numbers[] = {(uint64_t)status->st_mtim.tv_sec, (uint64_t)status->st_mtim.tv_nsec,

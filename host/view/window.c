@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Letters arrive as characters, so every keyboard layout works.  GLFW's callbacks find the window
-// by the user pointer.
+// Reads letters as characters instead of keys, so that every keyboard layout works. GLFW's
+// callbacks find the Window by GLFW's user pointer.
 #include "view/window.h"
 
 #include <epoxy/gl.h>
@@ -56,7 +56,8 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
             add_event(handle, (Event){.kind = EVENT_KEY, .key = keys[i][1]});
 }
 
-// Finds the effect of a drag with the buttons and keys held down; returns false for none.
+// Stores the effect of a drag with the pressed buttons and keys. Returns false if no button is
+// pressed.
 static bool find_drag(GLFWwindow *handle, EventKind *kind)
 {
     const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
@@ -84,7 +85,7 @@ static void take_scroll(GLFWwindow *handle, double right, double down)
     add_event(handle, (Event){.kind = EVENT_WHEEL, .right = right, .down = down});
 }
 
-// Takes the first of several files, because the window shows one scene.
+// Keeps only the first of several files, because the window shows one scene.
 static void take_drop(GLFWwindow *handle, int count, const char **paths)
 {
     Window *window = glfwGetWindowUserPointer(handle);
@@ -121,7 +122,7 @@ static void listen(Window *window)
     glfwGetCursorPos(window->handle, &window->mouse_x, &window->mouse_y);
 }
 
-// Shrinks the size to fit the screen, with the same aspect ratio.
+// Shrinks the size to fit the screen, and keeps the aspect ratio.
 static void fit_screen(uint32_t *width, uint32_t *height)
 {
     int x, y, room_x = 0, room_y = 0;

@@ -8,39 +8,40 @@
 #define WINDOW_EVENTS 256
 
 typedef struct {
-    void *handle; // GLFW's
+    void *handle; // a GLFWwindow
     Event events[WINDOW_EVENTS];
     int event_count;
-    char *dropped;           // the path of a file; owned; NULL for none
-    double mouse_x, mouse_y; // of the latest event
-    bool is_touched;         // must be drawn again
+    char *dropped;           // path of a dropped file, or NULL; owned
+    double mouse_x, mouse_y; // pointer position at the latest event
+    bool is_touched;         // the window must be drawn again
 } Window;
 
-// Connects to the display; on failure the message suggests -o FILE.
+// Connects to the display. On failure, the message suggests -o FILE.
 bool window_connect(Error *error);
 void window_disconnect(void);
 
-// Opens a window of that size in pixels, or as large as the screen permits, and makes its context
-// current.
+// Opens a window of this size in pixels, or smaller if it does not fit the screen. Makes the
+// window's context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
 
-// Waits for events or window_wake, at most that many seconds.
+// Waits for events or window_wake, but at most this many seconds.
 void window_wait(Window *window, double seconds);
 
-// Ends a wait; callable from any thread.
+// Ends window_wait. Any thread may call this function.
 void window_wake(void);
 
-// Takes the next event; returns false for none.
+// Removes the next event from the queue and stores it in *event. Returns false if the queue is
+// empty.
 bool window_take_event(Window *window, Event *event);
 
-// Returns the path of the latest dropped file, which the caller frees; NULL for none.
+// Returns the path of the latest dropped file, or NULL. The caller frees the path.
 char *window_take_drop(Window *window);
 
-// Returns the size in pixels; zeros while the window is minimized.
+// Stores the window's size in pixels, or zeros while the window is minimized.
 void window_measure(const Window *window, uint32_t *width, uint32_t *height);
 
-// Returns the number of pixels per font dot for legible text.
+// Returns how many pixels wide a dot of the font must be for legible text.
 uint32_t window_text_scale(const Window *window);
 
 void window_set_title(Window *window, const char *title);

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-// Compilers recurse deeply, and a thread's stack may be smaller than the process's.
+// The worker's stack in bytes. OpenCL compilers recurse deeply, and the default stack of a thread
+// may be too small.
 #define STACK_SIZE ((size_t)16 << 20)
 
 static Pass next_pass(const Worker *worker)
@@ -19,7 +20,8 @@ static Pass next_pass(const Worker *worker)
     return plan_pass(&plan, &worker->status.reached);
 }
 
-// Returns false if nothing remains to be done.  The caller holds the lock.
+// Stores the next job in *job. Returns false if nothing remains to be done. The caller holds the
+// lock.
 static bool choose_job(Worker *worker, Job *job)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
@@ -36,7 +38,7 @@ static bool choose_job(Worker *worker, Job *job)
     }
     job->pass = next_pass(worker);
     job->kind = JOB_PASS;
-    // Pictures still to be traced are encoded again, too.
+    // A new gain encodes the latest picture again, even if more passes remain.
     if (request->is_traced && request->gain != done->gain && job->pass.kind != PASS_MOVING)
         job->kind = JOB_ENCODE;
     return job->kind == JOB_ENCODE || job->pass.kind != PASS_NONE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by the worker's own files: worker.c chooses jobs, jobs.c runs them.
+// The worker's data, shared by its source files. worker.c chooses jobs, and jobs.c runs them.
 #pragma once
 
 #include "view/worker.h"
@@ -13,9 +13,9 @@ struct Worker {
     WorkerStatus status;
     Model *model;
     bool stops;
-    // Used only by the worker thread.
+    // Only the worker thread uses the members below.
     Tracer tracer;
-    double sample_seconds; // per sample
+    double sample_seconds; // tracing time per sample
     bool has_measured;     // sample_seconds is measured, not guessed
     double woken;
 };
@@ -24,11 +24,12 @@ typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_ENCODE, JOB_PASS } JobKind;
 
 typedef struct {
     JobKind kind;
-    WorkerRequest request; // at the time of the choice
+    WorkerRequest request; // the request when the job was chosen
     Pass pass;
 } Job;
 
-// The jobs.  jobs_begin also opens the device; it returns false if nothing can be displayed.
+// Run the jobs. jobs_begin runs the first load and opens the device. It returns false if nothing
+// can be displayed.
 bool jobs_begin(Worker *worker);
 void jobs_load(Worker *worker, const Job *job);
 void jobs_take(Worker *worker, const Job *job);

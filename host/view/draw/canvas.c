@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Passes alternate between two layers.
+// A pass fills the layer that does not hold the latest complete picture.
 #include "view/draw/canvas.h"
 
 #include "image/encode.h"
@@ -78,7 +78,7 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
     return ok ? layer : NULL;
 }
 
-// Encodes part of a row.  Values above white become white.
+// Encodes count pixels from first on, multiplied by gain. Values above 1 become 1.
 static void encode_row(const Canvas *canvas, Layer *layer, size_t first, size_t count, double gain)
 {
     enum { STEP = 256 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pictures passed from the tracing thread to the window's thread: the latest complete one, and
-// the one in progress, tile by tile.  The tracing thread writes a tile and then counts it under the
-// lock.  The window's thread holds the lock while it reads counted tiles.
+// Passes pictures from the tracing thread to the window's thread: the latest complete picture, and
+// the tiles of the picture in progress. The tracing thread writes a tile, then counts it under the
+// lock. The window's thread holds the lock while it reads counted tiles.
 #pragma once
 
 #include "image/image_file.h"
@@ -11,11 +11,11 @@
 
 typedef struct {
     Framebuffer framebuffer; // only for the tracing thread until the layer is complete
-    unsigned char *bytes;    // for the window: three per pixel, top row first
+    unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
     uint64_t pass;           // number of the pass that fills the layer, ascending; 0: empty
-    RenderSettings settings; // of that pass: size and tiles
+    RenderSettings settings; // size and tiles of this pass
     uint64_t tiles_done;
-    uint64_t revision; // counts re-encodings of the counted tiles' bytes
+    uint64_t revision; // number of times that the bytes were encoded again
     bool is_hidden;    // not displayed before it is complete
     bool is_whole;
 } Layer;
@@ -24,7 +24,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // passes begun
+    uint64_t passes; // number of passes begun
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;
@@ -32,11 +32,11 @@ typedef struct {
 void canvas_open(Canvas *canvas, Encoding encoding);
 void canvas_close(Canvas *canvas);
 
-// Prepares the layer that is not the latest complete one for a picture of that size.  Returns NULL
-// without memory.
+// Prepares a layer for a new picture of this size, and keeps the latest complete picture. Returns
+// NULL if memory runs out.
 Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidden, Error *error);
 
-// Encodes the tiles up to tiles_done, with colors multiplied by gain, and counts them.
+// Encodes the new tiles up to tiles_done, with colors multiplied by gain, and then counts them.
 void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double gain);
 
 // Marks the layer complete, which makes it the latest picture.
@@ -45,10 +45,10 @@ void canvas_finish(Canvas *canvas, Layer *layer);
 // Marks the layer empty.
 void canvas_drop(Canvas *canvas, Layer *layer);
 
-// Encodes the latest complete picture again.
+// Encodes the latest complete picture again, with colors multiplied by gain.
 void canvas_encode_again(Canvas *canvas, double gain);
 
-// Return the latest complete picture, and the one in progress to be displayed above it; NULL for
-// none.  The caller holds the lock.
+// Return the latest complete picture, and the picture in progress that is displayed above it. Both
+// may be NULL. The caller holds the lock.
 Layer *canvas_whole(Canvas *canvas);
 Layer *canvas_unfinished(Canvas *canvas);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bit n of a corner's number is its coordinate along axis n.
+// Bit n of a corner's number selects the corner's coordinate along axis n.
 #include "view/draw/cube.h"
 
 static GLuint make(GLuint attribute, const unsigned char *corners, int count, float low)
@@ -20,7 +20,7 @@ static GLuint make(GLuint attribute, const unsigned char *corners, int count, fl
 
 GLuint cube_make_faces(GLuint attribute)
 {
-    // Counter-clockwise seen from outside.
+    // The corners are counter-clockwise, seen from outside.
     static const unsigned char corners[CUBE_FACE_VERTICES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
                                                               0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
                                                               0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene's numbers in the shaders' layout.
+// Converts a scene's lights and materials to the shaders' layout.
 #include "view/draw/light.h"
 
 #include <string.h>

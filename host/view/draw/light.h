@@ -5,7 +5,8 @@
 #include "scene/normalize.h"
 #include "view/draw/shader.h"
 
-// The largest number of lights; the course's viewer, on OpenGL's fixed pipeline, has eight.
+// The largest number of lights. The course's viewer has eight, because it uses OpenGL's fixed
+// pipeline.
 #define LIGHT_LIMIT 64
 
 // The conversion of colors for the window.
@@ -14,10 +15,10 @@ typedef struct {
     bool is_srgb;
 } Tone;
 
-// Sets the uniforms shared by all objects, in the current program.
+// Sets the uniforms of the lights, which all objects share. program must be the current program.
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 
-// Packs a material into three vectors: color and kd, specular color and ks, and the rest.  The
-// second number of the last vector is unused.
+// Packs a material into three vectors: diffuse and kd; specular and ks; shader, 0, shininess and
+// reflectivity.
 void light_store_material(float vectors[3][4], const Material *material);

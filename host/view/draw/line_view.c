@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each box is an instance of a cube's edges or of its diagonal.
+// Draws each box as an instance of a cube's edges or of a cube's diagonal.
 #include "view/draw/line_view.h"
 
 #include "view/draw/cube.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The course's lines are 0.15 long.  Its scenes are 2 to 4 large, and 1 to 2 large in the
-// normalized frame.
+// The course's viewer draws lines of length 0.15. Its scenes have a size of 2 to 4, which
+// normalization reduces to 1 to 2. The lines here are therefore half as long.
 #include "view/draw/normals.h"
 
 #define LINE_LENGTH 0.075

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Uploads only new tiles.  A picture of the target's size is displayed pixel by pixel.
+// Uploads only new tiles. A picture with the target's size is drawn without filtering.
 #include "view/draw/ray_view.h"
 
 bool ray_view_open(RayView *view, Error *error)
@@ -35,7 +35,7 @@ static void copy_tile(const Layer *layer, const Tile *tile)
                     (GLsizei)tile->height, GL_RGB, GL_UNSIGNED_BYTE, layer->bytes + 3 * first);
 }
 
-// Updates the copy from the layer.  The caller holds the canvas's lock.
+// Updates the copy from the layer. The caller holds the canvas's lock.
 static void update_copy(LayerCopy *copy, const Layer *layer)
 {
     const RenderSettings *settings = &layer->settings;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Canvas -> OpenGL: the latest traced picture, covered by the finished tiles of the next.
+// Draws a canvas with OpenGL: the latest traced picture, covered by the finished tiles of the next
+// picture.
 #pragma once
 
 #include "view/draw/canvas.h"
@@ -20,5 +21,5 @@ typedef struct {
 bool ray_view_open(RayView *view, Error *error);
 void ray_view_close(RayView *view);
 
-// Covers the whole target, of width x height pixels.
+// Draws the canvas over the whole target, which has width x height pixels.
 void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of OpenGL 3.1 to 4.6 accept GLSL 1.40, in core profiles and others.
+// Uses GLSL 1.40, which OpenGL 3.1 to 4.6 accept in all profiles.
 #include "view/draw/shader.h"
 
 #define MESSAGE_SIZE 1024

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes each sphere's position relative to the eye in fp64 for every frame.  For a ground sphere
-// of radius 1e9, float would have no bits left for it.
+// Computes each sphere's position relative to the eye in fp64 for every frame. For a ground sphere
+// of radius 1e9, float cannot resolve this position.
 #include "view/draw/sphere_view.h"
 
 #include "view/draw/cube.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Center, radius and three vectors of the material.
+// The numbers of a sphere: center, radius and three vectors of the material. HEIGHT_PLACE is for
+// the eye's height above the sphere.
 #define SPHERE_NUMBERS 16
 #define HEIGHT_PLACE   13
 
@@ -81,7 +82,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     glBindBuffer(GL_ARRAY_BUFFER, view->spheres);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(SPHERE_NUMBERS * count * sizeof(float)),
                  view->numbers.data, GL_STREAM_DRAW);
-    // Back faces cover the sphere even from inside its cube.
+    // Draws back faces, because they cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_FACE_VERTICES, (GLsizei)count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The target has two frame buffers.  A linear blit to half the size averages the larger into the
-// smaller.
+// The target has two framebuffers. A linear blit to half the size averages the larger framebuffer
+// into the smaller one.
 #include "view/draw/target.h"
 
 #include <stdlib.h>
@@ -78,7 +78,7 @@ void target_show(const Target *target)
     glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
 }
 
-// OpenGL's first row is the bottom one.
+// Converts bytes to floats. Reverses the rows, because OpenGL's first row is at the bottom.
 static void store_rows(Framebuffer *framebuffer, const unsigned char *bytes)
 {
     const size_t width = framebuffer->width, height = framebuffer->height;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// An offscreen picture, larger than the window if anti-aliased.  The window's own buffer would lose
-// the pixels covered by other windows.
+// An offscreen picture, larger than the window if anti-aliased. The window's own buffer would lose
+// pixels that other windows cover.
 #pragma once
 
 #include "image/framebuffer.h"
 #include "view/draw/shader.h"
 
 typedef struct {
-    GLuint frames[2];       // drawn, displayed
-    GLuint buffers[3];      // color and depth of the first, color of the second
-    uint32_t width, height; // of the displayed frame
-    uint32_t factor;        // of the drawn frame's sides to the displayed one's
+    GLuint frames[2];       // the framebuffer that is drawn, and the one that is displayed
+    GLuint buffers[3];      // color and depth of frames[0], color of frames[1]
+    uint32_t width, height; // size of the displayed frame
+    uint32_t factor;        // ratio of the drawn frame's sides to the displayed frame's sides
 } Target;
 
 void target_open(Target *target);
@@ -22,5 +22,5 @@ bool target_begin(Target *target, uint32_t width, uint32_t height, uint32_t fact
 // Finishes the picture and displays it in the window.
 void target_show(const Target *target);
 
-// Reads the displayed picture as colors from 0 to 1.
+// Reads the displayed picture into a new framebuffer, with colors from 0 to 1.
 bool target_read(const Target *target, Framebuffer *framebuffer, Error *error);

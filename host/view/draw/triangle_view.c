@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles share vertices as in the meshes, and each object takes one draw call.
+// Triangles share vertices as in the meshes. Each object takes one draw call.
 #include "view/draw/triangle_view.h"
 
 #include <stddef.h>

@@ -13,9 +13,9 @@ typedef struct {
 bool triangle_view_open(TriangleView *view, Error *error);
 void triangle_view_close(TriangleView *view);
 
-// Replaces the triangles in OpenGL's buffers by the model's.
+// Copies the model's triangles into the OpenGL buffers, in place of the previous triangles.
 bool triangle_view_load(TriangleView *view, const Model *model, Error *error);
 
-// Draws the triangles with the uniforms of lens and lights.
+// Draws the triangles as seen through lens, with colors converted by tone.
 void triangle_view_draw(const TriangleView *view, const Model *model, const Lens *lens,
                         const Tone *tone);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Shades the scene's materials under its lights, without shadows; mirrors reflect the background.
-// As in the traced picture, a light counts only if both the shading normal and the face are turned
-// to it.
+// Shades the scene's materials under its lights, without shadows. Mirrors reflect the background.
+// As in the traced picture, a light counts only if the shading normal and the face both point
+// toward it.
 #define LIGHTS       64
-#define SILHOUETTE   0.5 // separates the numbers of the shaders
+#define SILHOUETTE   0.5 // shader numbers below this are silhouettes
 #define BLINN_PHONG  1.5
 
 uniform vec4 lights[LIGHTS]; // position and intensity

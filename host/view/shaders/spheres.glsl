@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Intersects spheres with each pixel's ray; a cube around each sphere selects the pixels.
+// Intersects a sphere with each pixel's ray. A cube around the sphere selects the pixels.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 corner;
@@ -21,8 +21,9 @@ void main()
 flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 out vec4 color;
 
-// Returns the nearer hit in front of the eye, negative for none.  Both roots are computed from the
-// larger one and from the eye's height, so that large spheres keep their digits.
+// Returns the distance of the nearest hit in front of the eye, or a negative number without a hit.
+// The root of smaller magnitude is computed from the other root and the eye's height, which avoids
+// cancellation for large spheres.
 float meeting(vec3 direction)
 {
     vec3 center = sphere_shown.xyz;

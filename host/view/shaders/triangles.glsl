@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws smooth or flat triangles; the derivatives of the position give the face's normal.
+// Draws triangles with smooth or flat normals. The derivatives of the position yield the face's
+// normal.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 position, normal;
