@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     Vec3 origin, direction; // direction has length 1
     double weight;          // weight of this ray's color in the sample's color
-    uint32_t primitive;     // id of the hit primitive; NOTHING for a miss, with all fields below 0
+    uint32_t primitive;     // id of the hit primitive; NOTHING for a miss: the next fields are zero
     double distance, error; // error is a bound on the error of distance
     Vec3 point, normal;
     uint32_t material;

@@ -11,7 +11,7 @@
 #define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes, in addition to the memory already mapped
 #define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes; even the shortest file may use them
 #define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
-#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; a model with too deeply nested nodes crashes
+#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; models with too deep trees of nodes crash
 #define TIME_LIMIT    120                 // seconds of processor time, and of wall time
 #define FILE_LIMIT    32
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenImageIO writes other
 // formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB. Only runs that
-// need it load it, in a separate process while they trace.
+// need OpenImageIO load it, in a separate process while they trace.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -30,11 +30,11 @@ typedef struct {
 // build does not write the format.
 const char *image_format_of_path(const char *path);
 
-// Returns the format's name in lower case, for names in any case, also "jpeg" and "tiff". Returns
-// NULL if this build does not write the format.
+// Returns the format called name, in any case, including "jpeg" and "tiff". Returns NULL if this
+// build does not write the format.
 const char *image_format_named(const char *name);
 
-// Returns whether the format stores floats. This build must write the format.
+// Returns whether the format stores floats. format must be one that this build writes.
 bool image_format_is_float(const char *format);
 // Returns whether a format stores layers. Only EXR does.
 bool image_format_takes_layers(const char *name);

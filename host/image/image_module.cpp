@@ -91,7 +91,7 @@ bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, 
                                    : output.write_image(type, picture.pixels);
 }
 
-// Closes the writer even after a failure, because its target does not exist later.
+// Closes the writer even after a failure, because the writer's target does not exist later.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
@@ -144,8 +144,8 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     if (picture.layer_count > 0)
         describe_layers(spec, picture);
     describe_place(spec, picture);
-    // Without this, OpenEXR and TIFF store the current time, and equal pictures make different
-    // files.
+    // Without this attribute, OpenEXR and TIFF store the current time, and equal pictures make
+    // different files.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     describe_origin(spec, picture);
@@ -195,9 +195,9 @@ bool names_things(const OIIO::ImageSpec &spec, int channel)
            !is_color(spec.channel_name(channel));
 }
 
-// Reads all channels. Channels of 32-bit integers hold ids, so their bits replace the floats' bits
-// unchanged; other channels are converted to type. Each call of read_image reads adjacent channels
-// of the same kind.
+// Reads all channels. Channels of 32-bit integers hold ids, which are stored unchanged in place of
+// floats. Other channels are converted to type. Each call of read_image reads adjacent channels of
+// the same kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {

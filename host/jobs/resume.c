@@ -106,7 +106,7 @@ static bool go_on(Resume *resume, const Provenance *own, RenderSettings *setting
     uint64_t key[2];
     make_key(own, settings, key);
     const bool is_stored = resume->stored.values != NULL;
-    // If this fails, no journal exists yet, and a later run can still resume from the stored
+    // If take_stored fails, no journal exists yet, and a later run can still resume from the stored
     // picture.
     if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
         return false;

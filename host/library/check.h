@@ -13,8 +13,9 @@ __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFaul
 // Calls check_fail with the message of cause.
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
-// Return whether the argument is valid; what names it in messages. Failures set CLRT_ARGUMENT.
-// Numbers must be from low to high, vector components from -most to most, colors from 0 to 1.
+// Return whether the argument is valid. The parameter what names the argument in messages. Failures
+// set CLRT_ARGUMENT. Numbers must be from low to high, vector components from -most to most, colors
+// from 0 to 1.
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);

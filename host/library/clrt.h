@@ -51,7 +51,7 @@ CLRT_API ClrtScene *clrt_scene_load(const char *path, ClrtError *error);
 // Returns an empty scene with a white background, ambient light of 0.05 and the materials below.
 CLRT_API ClrtScene *clrt_scene_create(ClrtError *error);
 
-// Accepts NULL.
+// Frees the scene. Accepts NULL.
 CLRT_API void clrt_scene_free(ClrtScene *scene);
 
 // The numbers of the materials that every scene has. Added materials have higher numbers.
@@ -67,7 +67,7 @@ typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_P
 // The visible color is (1 - reflectivity) * shaded + reflectivity * the reflected ray's color. For
 // SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
 // intensity * cosine over the visible lights. BLINN_PHONG adds specular * ks * S, where S sums
-// intensity * (n . h) ^ shininess.
+// intensity * (normal . half vector) ^ shininess.
 typedef struct {
     size_t size;
     ClrtShading shading;
@@ -153,7 +153,7 @@ typedef struct ClrtRenderer ClrtRenderer;
 // its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
-// Accepts NULL.
+// Frees the renderer. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
 // A function that the drawing thread calls after every finished tile. It returns whether to

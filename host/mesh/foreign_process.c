@@ -21,7 +21,8 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-// The time exceeds the program's own limit, so that normally the program's alarm ends it.
+// The time exceeds the program's own limit, so that normally the program's alarm ends the program
+// first.
 const ForeignReader foreign_reader = {.seconds = 125, .bytes = (size_t)8 << 30};
 
 typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
@@ -87,7 +88,8 @@ static int start(pid_t *child, const char *program, const char *model, const int
 
 typedef enum { STREAM_WHOLE, STREAM_LATE, STREAM_LONG, STREAM_LOST } StreamFate;
 
-// Waits until the pipe has data or has ended, and then returns STREAM_WHOLE.
+// Waits until the pipe has data or ends. Returns STREAM_WHOLE, STREAM_LATE after the deadline, or
+// STREAM_LOST on failure.
 static StreamFate await(int pipe, double deadline)
 {
     for (;;) {

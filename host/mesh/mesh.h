@@ -24,7 +24,7 @@ typedef struct {
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
                          // normal; NULL if the file has no normals
     uint32_t (
-        *triangles)[3]; // triangle_count triples of vertex indices, counter-clockwise in front
+        *triangles)[3]; // triangle_count vertex triples, counter-clockwise seen from the front
     size_t vertex_count, triangle_count;
     size_t dropped_count;    // triangles that mesh_drop_triangles removed
     MeshFault equal_corners; // removed triangles with two equal corners

@@ -14,7 +14,7 @@ typedef struct {
     PlyHeader header;
     Mesh *mesh;
     ARRAY(Triangle) triangles;
-    size_t last_bad_position, last_bad_normal; // so that a bad vertex counts once
+    size_t last_bad_position, last_bad_normal; // latest bad vertices, so that each counts once
 } Loader;
 
 static void count_once(MeshFault *fault, size_t *last, size_t vertex)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses header lines into elements and their properties, in one pass. The elements vertex and
-// face, and the properties that a mesh uses, must not repeat. Other elements and properties may.
+// face, and the properties that a mesh uses, must not repeat. Other elements and properties may
+// repeat.
 #include "mesh/ply_header.h"
 
 #include "base/number.h"

@@ -34,8 +34,8 @@ typedef struct {
     const char *place;       // start of the last line or value read; failures report this position
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // name of the element being read; empty in the header
-    int64_t index;    // index of the element being read; negative if failures concern all of them
-    bool is_tolerant; // reads words such as inf and nan as NaN
+    int64_t index;           // index of the element being read; negative: messages omit it
+    bool is_tolerant;        // reads words such as inf and nan as NaN
     Error *error;
 } PlyReader;
 

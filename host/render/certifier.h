@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FlatScene and camera -> the certainty of each pixel, and new colors for pixels repaired in fp64
-// (kernels/certify.cl). A pixel is certain if rounding changes neither its rays' hits nor the
-// lights that reach them.
+// (kernels/certify.cl). A pixel is certified if rounding can change neither the hits of its rays
+// nor the lights that reach them.
 #pragma once
 
 #include "render/renderer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects single rays instead of packets for short runs, in which compiling packets would take
-// longer than packets save.
+// Selects single rays instead of packets for runs so short that compiling packets would take longer
+// than packets save.
 #include "render/quick_kernel.h"
 
 // Measured compile times in seconds, and the core time in seconds that packets save per sample. The

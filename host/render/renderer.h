@@ -68,7 +68,7 @@ typedef struct {
     const Device *device; // borrowed
     RenderSettings settings;
     NodeLayout nodes;
-    KernelEntry entry; // the function that kernel runs
+    KernelEntry entry; // the entry function of kernel
     FrameData frame;
     Program program;
     cl_kernel kernel;

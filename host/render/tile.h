@@ -19,7 +19,7 @@ Tile tile_largest(const RenderSettings *settings);
 // Returns the number of pixels in all tiles to draw.
 uint64_t tile_pixels(const RenderSettings *settings);
 
-// Sets the frame's tile.
+// Sets the tile that the frame draws.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
 
 // Stores in grid the number of work-items along both sides of a tile, rounded up to whole

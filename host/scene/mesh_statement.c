@@ -151,8 +151,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Erro
     return ok;
 }
 
-// Loads the mesh file. If the file's own message has no position, the message names the statement's
-// position in the scene file.
+// Loads the mesh file. If the failure has no position in the mesh file, the message gives the
+// path's position in the scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
     Error *error = tokens->error;

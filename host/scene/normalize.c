@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes center and scale from the scene's bounds, and rejects scenes whose sizes differ too
-// much.
+// Computes center and scale from the scene's bounds, and rejects scenes whose objects differ too
+// much in size or distance.
 #include "scene/normalize.h"
 
 #define LARGEST_RATIO 0x1p40

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray's weight is the product of the reflectivities on its path. At level N, it is at most the
-// scene's largest reflectivity to the power of N.
+// A ray's weight is the product of the reflectivities on its path. At level N, the weight is at
+// most the scene's largest reflectivity to the power of N.
 #include "scene/truncation.h"
 
 static double larger(double a, double b)

@@ -34,7 +34,7 @@ typedef struct {
     Saver saver;
     bool wants_save;
     FrameTimes frame_times;
-    double advanced;       // the time up to which the camera has turned by itself
+    double advanced;       // time up to which the camera has turned automatically
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
     char notice[SAVER_TEXT_SIZE];

@@ -20,8 +20,8 @@ typedef struct {
 } Watch;
 
 // Replace the set of watched files. The caller calls watch_begin, adds all files again, and calls
-// watch_end, which removes the others. Known files keep their reported signatures, so no change is
-// lost.
+// watch_end, which removes all other files. Known files keep their reported signatures, so no
+// change is lost.
 void watch_begin(Watch *watch);
 bool watch_add(Watch *watch, const char *path, Error *error);
 void watch_end(Watch *watch);

@@ -37,7 +37,7 @@ typedef struct {
     double progress;               // finished fraction of the current pass
     double frame_seconds;          // duration of the latest pass
     uint64_t moving_frames;        // number of pictures traced while the camera moved
-    uint64_t moving_coarse;        // how many of these have a reduced resolution
+    uint64_t moving_coarse;        // number of moving_frames at reduced resolution
     uint64_t tallies[TALLY_KINDS]; // valid if reached.is_counted
 } WorkerStatus;
 

@@ -7,7 +7,7 @@
 typedef struct {
     Boxes *boxes;
     const Bvh *bvh;
-    uint32_t level; // 0: leaves
+    uint32_t level; // 0 for leaves; the root is at 1
     Error *error;
 } Collection;
 
