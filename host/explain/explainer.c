@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Runs the kernel explain_sample for one sample and converts the values it records to scene
-// coordinates.
+// Runs the kernel explain_sample and converts its results to scene coordinates.
 #include "explain/explainer.h"
 
 #include <stdlib.h>
 
-// The text of kernels/explain.cl, embedded at build time.
+// kernels/explain.cl, embedded at build time.
 extern const char explain_source[];
 
 static uint32_t level_room(const Explainer *explainer)
@@ -142,10 +141,10 @@ static double scalar_at(const Explainer *explainer, const void *values, size_t p
                               : (double)((const float *)values)[place];
 }
 
-// The values that the kernel recorded for one ray or one of its lights.
+// The kernel's values for one ray or light.
 typedef struct {
     const Explainer *explainer;
-    size_t value, word; // offsets of the first entries in host_values and host_words
+    size_t value, word; // first indices in host_values and host_words
 } Notes;
 
 static Notes notes_of(const Explainer *explainer, uint32_t level)
@@ -227,7 +226,7 @@ static void take_ray(Explainer *explainer, uint32_t level)
 
 static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
-    double result[4]; // large enough for floats and doubles
+    double result[4]; // fits floats and doubles
     cl_command_queue queue = explainer->renderer->device->queue;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
     cl_int status = clEnqueueReadBuffer(queue, explainer->values, CL_TRUE, 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One sample of a picture -> its rays in scene coordinates, with the hit and the state of each
-// light. A separate kernel traces the sample again with the functions that drew the picture.
+// One sample of a picture -> its rays in scene coordinates, with hits and the state of each light.
+// A separate kernel traces the sample again with the picture's functions.
 #pragma once
 
 #include "render/renderer.h"
@@ -8,9 +8,9 @@
 
 typedef struct {
     LightState state;
-    double cosine;           // of the angle between the normal and the direction to the light
-    double distance;         // from the hit point to the light
-    uint32_t blocker;        // id of the primitive that blocks the light, or NOTHING
+    double cosine;           // between the normal and the direction to the light
+    double distance;         // to the light
+    uint32_t blocker;        // id of the blocking primitive, or NOTHING
     double blocker_distance; // from the hit point; 0 unless state is LIGHT_BLOCKED
     double diffuse;          // intensity * cosine; 0 unless state is LIGHT_SEEN
     double specular;         // intensity * highlight; 0 unless state is LIGHT_SEEN
@@ -18,15 +18,15 @@ typedef struct {
 
 typedef struct {
     Vec3 origin, direction; // direction has length 1
-    double weight;          // weight of this ray's color in the sample's color
+    double weight;          // weight in the sample's color
     uint32_t primitive;     // id of the hit primitive; NOTHING for a miss: the next fields are zero
-    double distance, error; // error is a bound on the error of distance
+    double distance, error; // error bounds the error of distance
     Vec3 point, normal;
     uint32_t material;
     bool uses_lights;             // false for silhouettes
     double share;                 // weight of `shaded` in the sample's color
-    Vec3 shaded;                  // color of the surface without reflections
-    const ExplainedLight *lights; // one entry per light of the scene
+    Vec3 shaded;                  // surface color without reflections
+    const ExplainedLight *lights; // one per light of the scene
 } ExplainedRay;
 
 // If the last ray hits a reflective surface, it has reached max_level, and its reflection shows the
@@ -34,7 +34,7 @@ typedef struct {
 typedef struct {
     uint32_t ray_count;
     const ExplainedRay *rays; // the camera ray, then the reflected rays
-    double background_weight; // weight of the background in the sample's color
+    double background_weight; // weight in the sample's color
     double steps[3];          // the sample's color in units of 2^-32
 } ExplainedSample;
 
@@ -46,14 +46,14 @@ typedef struct {
     bool is_fp64;
     Program program;
     cl_kernel kernel;
-    cl_mem values, words, result, count; // device buffers for the results of one sample
+    cl_mem values, words, result, count; // device buffers for one sample
     void *host_values;                   // doubles if is_fp64, otherwise floats
     uint32_t *host_words;
-    ExplainedRay *rays;     // one entry per level
-    ExplainedLight *lights; // one entry per level and light of the scene
+    ExplainedRay *rays;     // one per level
+    ExplainedLight *lights; // one per level and light of the scene
 } Explainer;
 
-// The inputs of an Explainer. They must outlive the Explainer.
+// Inputs that must outlive the Explainer.
 typedef struct {
     const RendererSetup *setup;
     const Renderer *renderer;
@@ -70,6 +70,5 @@ void explainer_close(Explainer *explainer);
 bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample,
                      Error *error);
 
-// Stores the pixel's color in color. sums holds the sums of ExplainedSample::steps over the pixel's
-// samples.
+// Stores the pixel's color. sums holds the sums of ExplainedSample::steps over its samples.
 void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Implements Assimp's file access. Each file is read once and kept in memory, because Assimp opens
-// it several times to guess its format. Assimp cannot read outside the model's folder, regardless
-// of the paths in a model.
+// Each file is read once and kept in memory, because Assimp opens it several times to guess its
+// format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
 #include "foreign/files.h"
 
 #include "foreign/limits.h"
@@ -25,14 +24,14 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
-// Returns whether file is in folder or below. Both paths must be free of links.
+// Returns whether file is in folder or below. Neither path may contain links.
 static bool is_below(const char *file, const char *folder)
 {
     const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether path is in the model's folder after links are resolved. A downloaded model may
+// Returns whether path is in the model's folder after links are resolved, because models may
 // contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {
@@ -158,8 +157,8 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-// Records a material library that cannot be opened. Assimp then tries other names for the library,
-// so only the first counts.
+// Records a missing material library. Assimp then tries other names for the library, so only the
+// first counts.
 static void note_missing(Files *files, const char *path)
 {
     const size_t folder = folder_length(files);

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The soft memory limit rises with each file that is read, up to a hard limit. A short file thus
-// cannot use as much memory as a long one. Otherwise, a short file whose nodes share children could
-// use memory up to the hard limit. Clearing those pages would take the system a long time.
+// The soft memory limit rises with each file read, up to a hard limit. Otherwise, a short file
+// whose nodes share children could use memory up to the hard limit.
 #include "foreign/limits.h"
 
 #include "base/confinement.h"
 
 #include <unistd.h>
 
-#define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes, in addition to the memory already mapped
-#define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes; even the shortest file may use them
+#define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes beyond the memory already mapped
+#define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes that even the shortest file may use
 #define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
 #define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; models with too deep trees of nodes crash
-#define TIME_LIMIT    120                 // seconds of processor time, and of wall time
+#define TIME_LIMIT    120                 // seconds of processor and of wall time
 #define FILE_LIMIT    32
 
 // AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
@@ -35,8 +34,7 @@ static rlim_t smaller(rlim_t a, rlim_t b)
     return a < b ? a : b;
 }
 
-// Sets the soft and the hard limit. Both are at most 3/4 of the machine's memory, which leaves
-// memory for other processes.
+// Limits memory to at most 3/4 of the machine's, because other processes need some.
 static void limit_memory(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

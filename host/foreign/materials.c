@@ -33,8 +33,8 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Returns false for materials that importers invent. An invented material has Assimp's default
-// name, or no name and a gray or white color.
+// Returns false for materials that importers invent. They have Assimp's default name, or no name
+// and a gray or white color.
 bool material_is_given(const struct aiMaterial *material)
 {
     const float gray = 0.6f, white = 1;

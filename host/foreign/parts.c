@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes and multiplies their matrices in fp64. An identity matrix leaves
-// coordinates unchanged. A mirroring matrix reverses the corner order, so that triangles keep their
-// front sides.
+// Walks the tree of nodes and multiplies their matrices in fp64. An identity leaves coordinates
+// unchanged. A mirroring matrix reverses the corner order, so that fronts stay fronts.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -18,7 +17,7 @@ typedef struct {
 } Placement;
 
 typedef struct {
-    double columns[3][3]; // columns of the matrix that transforms normals
+    double columns[3][3]; // of the matrix that transforms normals
     bool is_identity, is_mirror;
 } Turn;
 
@@ -60,7 +59,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Returns whether the matrix is the identity. Negative zero counts as zero.
+// Negative zero counts as zero.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -70,7 +69,7 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Returns the matrix for normals: the cofactors, which equal the inverse transpose up to a positive
+// Normals are transformed by the cofactors, which equal the inverse transpose up to a positive
 // factor.
 static Turn turn_of(const Placement *placement)
 {
@@ -104,7 +103,7 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Transforms a normal. Normalizes it before and after, so that large values do not overflow.
+// Normalizes before and after the transform, so that large values do not overflow.
 static void turn_normal(const struct aiVector3D *given, const Turn *turn, float normal[3])
 {
     const Vec3 unit = vec3_normalize(vec3((double)given->x, (double)given->y, (double)given->z));
@@ -136,8 +135,8 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh, const
     }
 }
 
-// Returns whether the face's indices are below vertex_count. An index that Assimp failed to check
-// would refer to a vertex of another mesh.
+// Rejects indices that Assimp failed to check, because they would refer to vertices of another
+// mesh.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -201,8 +200,7 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for count more vertices in the part. Vertices without a normal get a zero normal,
-// also those of earlier meshes.
+// Reserves memory for count more vertices. Vertices without a normal get a zero normal.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenImageIO writes other
-// formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB. Only runs that
-// need OpenImageIO load it, in a separate process while they trace.
+// formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB, so a separate
+// process loads it on demand while clrt traces.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -9,8 +9,7 @@
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
-// A text stored in the file. PNG and EXR store it under its name. TIFF and JPEG store it as a line
-// of the description.
+// A text in the file: under its name in PNG and EXR, as a line of the description in TIFF and JPEG.
 typedef struct {
     const char *name, *value;
 } ImageText;
@@ -21,17 +20,15 @@ typedef struct {
     const ImageText *texts;
     size_t text_count;
     // A crop's position in the whole picture and the whole picture's size, for formats that store
-    // them. whole_width is 0 without a crop.
+    // them; 0 without a crop.
     uint32_t left, top, whole_width, whole_height;
     const Layers *layers; // channels other than colors, for formats that store them; may be NULL
 } ImageSettings;
 
-// Returns the format that the path's extension names. Returns NULL if there is no extension or this
-// build does not write the format.
+// Returns the format that the path's extension names, or NULL if this build writes no such format.
 const char *image_format_of_path(const char *path);
 
-// Returns the format called name, in any case, including "jpeg" and "tiff". Returns NULL if this
-// build does not write the format.
+// Returns the format called name (also jpeg, tiff), or NULL if this build writes no such format.
 const char *image_format_named(const char *name);
 
 // Returns whether the format stores floats. format must be one that this build writes.
@@ -42,18 +39,17 @@ bool image_format_takes_layers(const char *name);
 // Returns the names of all formats that this build writes, for messages.
 const char *image_format_names(void);
 
-// Returns half of the smallest step between adjacent 8-bit values, in linear color. For float
-// formats, returns half of the distance between floats just below 1.
+// Returns half of the smallest step of 8-bit values, in linear color. For floats, returns half of
+// the step below 1.
 double image_format_half_step(const char *format, Encoding encoding);
 
-// Starts a process that loads the format's writer, and returns at once. Only main may call this
-// function, before other threads start.
+// Starts a process that loads the format's writer. Only main may call this function, before other
+// threads start.
 void image_prepare(const char *format);
 
 // Returns whether the format can store a picture of this size.
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error);
 
-// Writes the picture to path, or to standard output if path is "-". base/output_file.h describes
-// how clrt replaces the file.
+// Writes the picture to path, or to standard output if path is "-" (base/output_file.h).
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);

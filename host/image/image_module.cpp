@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// This file holds all of clrt's C++: two C functions that call OpenImageIO and catch every
-// exception.
+// All of clrt's C++: two C functions that call OpenImageIO and catch every exception.
 #include "image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -30,11 +29,11 @@ void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     }
 }
 
-// Interleaves the colors and layers, which are separate arrays, one strip of rows at a time. This
-// avoids a second copy of the picture.
+// Interleaves the arrays of colors and layers, one strip of rows at a time, to avoid a second copy
+// of the picture.
 bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
 {
-    constexpr int strip = 32; // rows; a multiple of OpenEXR's chunks, which have 16 rows with ZIP
+    constexpr int strip = 32; // rows; a multiple of OpenEXR's ZIP chunks of 16 rows
     const int first_row = output.spec().y;
     constexpr size_t color_size = 3 * sizeof(float);
     const size_t width = static_cast<size_t>(picture.width);
@@ -58,7 +57,7 @@ bool write_strips(OIIO::ImageOutput &output, const ImageModulePicture &picture)
     return true;
 }
 
-// Stores a crop's position in EXR files. Other programs read such positions from no other format.
+// Stores a crop's position in EXR, the only format from which other programs read it.
 void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     if (picture.whole_width == 0 || std::strcmp(picture.format, "openexr") != 0)
@@ -69,8 +68,7 @@ void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     spec.full_height = picture.whole_height;
 }
 
-// Stores the texts. TIFF and JPEG have no fields with custom names, so their description receives
-// one line per text.
+// TIFF and JPEG have no fields with custom names, so their description has one line per text.
 void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     std::string lines;
@@ -91,7 +89,7 @@ bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, 
                                    : output.write_image(type, picture.pixels);
 }
 
-// Closes the writer even after a failure, because the writer's target does not exist later.
+// Closes the writer while its target still exists, even after a failure.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
@@ -100,8 +98,8 @@ bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
     return output.close() && written;
 }
 
-// Writes to memory and then to the file, if the format supports memory. On a full disk, some
-// writers report no error, and libjpeg ends the process.
+// Writes to memory first if the format supports it. On a full disk, some writers report no error,
+// and libjpeg ends the process.
 bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                           const ImageModulePicture &picture)
 {
@@ -118,7 +116,7 @@ bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec
     return std::fclose(file) == 0 && written;
 }
 
-// Writes the EXR file directly, because it may be as large as the picture. Checks the stream here,
+// Writes directly, because EXR files may be as large as the picture. Checks the stream here,
 // because OpenEXR ignores errors in the last bytes.
 bool write_to_file(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                    const ImageModulePicture &picture)
@@ -195,9 +193,8 @@ bool names_things(const OIIO::ImageSpec &spec, int channel)
            !is_color(spec.channel_name(channel));
 }
 
-// Reads all channels. Channels of 32-bit integers hold ids, which are stored unchanged in place of
-// floats. Other channels are converted to type. Each call of read_image reads adjacent channels of
-// the same kind.
+// Channels of 32-bit integers hold ids, which are stored unchanged in place of floats. Other
+// channels are converted to type. Each call reads adjacent channels of one kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {
@@ -237,8 +234,7 @@ bool read_picture(const char *path, const char *format, ImageModuleContent &cont
     return ok;
 }
 
-// Runs work, catches all exceptions, and returns whether work succeeded. On failure, message
-// receives the reason.
+// Returns whether work succeeds without an exception. Otherwise, message receives the reason.
 template <typename Work> int guarded(char *message, size_t message_size, Work work)
 {
     std::string text;

@@ -47,8 +47,7 @@ static size_t layer_size(const ImageModulePicture *picture)
            sizeof(uint32_t);
 }
 
-// Returns the number of strings in a request. They are the path, the format, the texts and the
-// layer names, in this order.
+// Returns the number of strings in a request: path, format, texts and layer names, in this order.
 static size_t string_count(const ImageModulePicture *picture)
 {
     return 2 + 2 * picture->text_count + picture->layer_count;
@@ -148,8 +147,8 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     return ok;
 }
 
-// Serves requests until the parent ends. The child replaces its standard input and output, so that
-// it does not keep the parent's pipes open.
+// Serves requests until the parent ends. Replaces standard input and output, so that the child does
+// not keep the parent's pipes open.
 static _Noreturn void serve(int socket, pid_t parent)
 {
     Error failure = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects the reader by the file's first bytes. OpenImageIO has decoders for many more formats.
-// clrt never calls them, because hostile files could attack each of them.
+// Selects the reader by the file's first bytes. clrt calls only decoders of formats that it writes,
+// because hostile files could attack each further decoder of OpenImageIO.
 #include "image/image_read.h"
 
 #include "image/image_reader.h"
@@ -61,8 +61,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     return image_reader_run(image, path, format, cause);
 }
 
-// Opens a file for reading. Rejects pipes, because they may never end and cannot be rewound after
-// the signature is read.
+// Rejects pipes, because they may never end and cannot be rewound after the signature is read.
 static FILE *open_file(const char *path, Error *cause)
 {
     struct stat status;

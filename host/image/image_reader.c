@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A child process with limited resources reads the file and sends a header and the values. On
-// failure, the header holds a message. The parent validates the header as if it came from the file.
+// A child process with limited resources reads the file and sends a header and the values, or a
+// header with a message. The parent validates the header like a file.
 #include "image/image_reader.h"
 
 #include "base/confinement.h"
@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes, in addition to the memory already mapped
-#define TIME_LIMIT   120                // seconds of processor time, and of wall time
+#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes beyond the memory already mapped
+#define TIME_LIMIT   120                // seconds of processor and of wall time
 
 typedef struct {
     int ok;
@@ -73,8 +73,7 @@ static _Noreturn void serve(int socket, const char *path, const char *format)
     _exit(0);
 }
 
-// Stores the child's message in cause. Messages may quote a hostile file, so control characters
-// become spaces.
+// Messages may quote a hostile file, so control characters become spaces.
 static bool take_message(const Head *head, Error *cause)
 {
     char message[sizeof head->message];
@@ -85,7 +84,7 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-// Checks every field of the header and allocates the image.
+// Checks every field before use.
 static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
     if (!head->ok)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a PNG file row by row. libpng reports faults with longjmp, which returns to write_picture.
-// write_picture and the functions it calls own no memory, because the jump would leak it.
+// libpng reports faults with longjmp to write_picture. write_picture and the functions it calls own
+// no memory, because the jump would leak it.
 #include "image/png_file.h"
 
 #include "image/encode.h"
@@ -12,9 +12,8 @@
 #include <zlib.h>
 
 // This filter and strategy make the smallest files among all settings that take at most about 20 ms
-// per megapixel. Paeth turns rendered surfaces into runs of zeros. Z_RLE finds only runs, because
-// searching for other matches costs more time than it saves. All compression levels find the same
-// runs, so none is set.
+// per megapixel. Paeth turns rendered surfaces into runs of zeros. Searching for matches other than
+// runs costs more time than it saves. All compression levels find the same runs, so none is set.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
 

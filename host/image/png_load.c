@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a PNG file of any kind as red, green and blue. libpng reports faults with longjmp, which
-// returns to read_picture. The caller of read_picture frees all memory, which Loading holds.
+// Reads any PNG file as red, green and blue. libpng reports faults with longjmp to read_picture,
+// whose caller frees all memory (Loading).
 #include "image/png_load.h"
 
 #include "image/png_faults.h"

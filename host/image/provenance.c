@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-// The last second of the year 9999, in seconds since 1970.
+// The last second of the year 9999.
 #define DATE_LAST 253402300799
 
 static bool read_date(const char *text, int64_t *seconds)
@@ -26,8 +26,8 @@ bool provenance_check_date(Error *error)
            error_set(error, "SOURCE_DATE_EPOCH must be seconds since 1970, not '%s'", text);
 }
 
-// Writes the UTC date in the format of EXIF, TIFF and EXR. Returns false if SOURCE_DATE_EPOCH is
-// not set or not valid.
+// Writes the UTC date in the format of EXIF, TIFF and EXR. Returns false without a valid
+// SOURCE_DATE_EPOCH.
 static bool write_date(char *date, size_t size)
 {
     struct tm parts;

@@ -23,6 +23,5 @@ bool provenance_check_date(Error *error);
 // Writes settings as one line of compact JSON. The text is empty if the JSON does not fit.
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
-// Fills list with the texts for a file. The list has a date only if SOURCE_DATE_EPOCH is set, so
-// that identical runs write identical files.
+// Fills list with the texts for a file, with a date only if SOURCE_DATE_EPOCH is set.
 void provenance_list(Provenance *provenance);

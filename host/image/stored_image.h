@@ -47,8 +47,8 @@ bool stored_image_allocate(StoredImage *image, Error *cause);
 // Returns the index of the channel with this name, or -1 without one.
 int stored_image_channel(const StoredImage *image, const char *name);
 
-// Stores the channel indices of red, green and blue in places. Channel Y replaces missing colors.
-// Returns false if a color is missing and there is no Y.
+// Stores the channel indices of red, green and blue; Y replaces missing colors. Returns false if a
+// color and Y are missing.
 bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
 // Converts 8-bit values to floats.

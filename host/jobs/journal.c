@@ -33,7 +33,7 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// A process killed at its start leaves a file shorter than a head. Such a file gets a new head.
+// A process killed at its start leaves a file shorter than a head, which gets a new head.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;

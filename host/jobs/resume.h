@@ -16,8 +16,7 @@ typedef struct {
     float *tile;    // the colors of one tile, row by row; owned
 } Resume;
 
-// Returns the path of the journal for a picture's path. The caller frees it. Returns NULL if memory
-// runs out.
+// Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
 // Reads the earlier picture unless a journal exists. Only main may call this function, before other
@@ -34,5 +33,5 @@ bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings
 bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuffer *framebuffer,
                  uint64_t number, Error *error);
 
-// Closes the journal and frees resume's memory. Deletes the journal's file if is_done.
+// Closes the journal, and deletes its file if is_done.
 void resume_close(Resume *resume, bool is_done);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture file's settings text has entries on tiles. Without them, the text identifies the whole
-// picture.
+// Without its entries on tiles, a picture file's settings text identifies the whole picture.
 #include "jobs/stored_tiles.h"
 
 #include "cli/options/options.h"
@@ -29,8 +28,7 @@ static bool read_part(RenderSettings *settings, json_t *json)
     return true;
 }
 
-// Reads the image's position in the whole picture. Returns false unless the crop has the image's
-// size and lies inside the whole picture.
+// The crop must have the image's size and lie inside the whole picture.
 static bool read_place(RenderSettings *settings, json_t *json)
 {
     int width, height, edges[4] = {0};
@@ -77,8 +75,8 @@ static void strip(json_t *json)
     json_object_del(json, "tiles_done");
 }
 
-// Stores the number of finished tiles in *tiles. Returns false if the tile sizes differ, unless the
-// stored picture is complete and not a part.
+// Stores the number of finished tiles. The tile sizes must match unless the stored picture is
+// complete and not a part.
 static bool count_done(const StoredImage *image, json_t *json, const RenderSettings *settings,
                        uint64_t *tiles)
 {
@@ -161,8 +159,7 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers)
     return has;
 }
 
-// Stores in places[channel] where the channel's values go: 0 to 2 for a color, 3 + i for layer i,
-// or NOWHERE.
+// Maps each channel to 0 to 2 for a color, 3 + i for layer i, or NOWHERE.
 static void find_places(const StoredImage *image, const Layers *layers, uint32_t *places)
 {
     for (uint32_t channel = 0; channel < image->channel_count; channel++)

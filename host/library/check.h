@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Validates the arguments of the library's callers and reports errors. The functions that the
-// library calls only assert their requirements.
+// Validates the arguments of the library's callers. Other code only asserts its requirements.
 #pragma once
 
 #include "base/error.h"
@@ -13,14 +12,13 @@ __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFaul
 // Calls check_fail with the message of cause.
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
-// Return whether the argument is valid. The parameter what names the argument in messages. Failures
-// set CLRT_ARGUMENT. Numbers must be from low to high, vector components from -most to most, colors
-// from 0 to 1.
+// Return false with CLRT_ARGUMENT if the argument is invalid. The parameter what names the
+// argument. Vector components are in [-most, most], colors in [0, 1].
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
 bool check_color(ClrtError *error, const char *what, const double color[3]);
 
-// Copies a struct of clrt.h into copy, which has size bytes. Members that an older program's struct
-// lacks become zero. Unknown members in a newer program's struct must be zero.
+// Copies a struct of clrt.h into copy, which has size bytes. Members that the given struct lacks
+// become zero. Additional members of the given struct must be zero.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);

@@ -111,7 +111,7 @@ typedef struct {
     double fov_degrees; // vertical, in [1e-6, 179.9999]
 } ClrtCamera;
 
-// Appends a view to the scene. Views are numbered from 1.
+// Appends a view to the scene.
 CLRT_API bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error);
 
 // Sets the color of rays that hit nothing: R G B in [0, 1].
@@ -137,20 +137,20 @@ CLRT_API bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, C
 
 typedef struct ClrtRenderer ClrtRenderer;
 
-// Opens an OpenCL device and compiles its kernels. Compiling takes one to two seconds unless the
-// driver has cached the kernels. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type
-// (cpu, gpu, accelerator, all) or part of a name. NULL selects the first GPU or, without a GPU, the
-// first device.
+// Opens an OpenCL device and compiles the kernels, which takes one to two seconds unless the driver
+// has cached them. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu,
+// accelerator, all) or part of a name. NULL selects the first GPU or, without a GPU, the first
+// device.
 //
 // threads is the number of threads that build trees. 0 selects as many as the affinity mask and the
-// control groups' quotas allow. The driver sets the number of threads that draw on a CPU device.
-// The library sets no environment variable, so the program itself must limit PoCL's threads. PoCL
-// reads POCL_MAX_PTHREAD_COUNT (later versions: POCL_CPU_MAX_CU_COUNT) at its first call.
+// control groups' quotas allow. The driver sets the number of threads that draw on a CPU device. To
+// limit PoCL's threads, the program sets POCL_MAX_PTHREAD_COUNT (later versions:
+// POCL_CPU_MAX_CU_COUNT) before PoCL's first call.
 //
-// The library stores a lock and checksums in $XDG_CACHE_HOME/clrt/library or ~/.cache/clrt/library.
-// The lock keeps processes that compile concurrently from losing PoCL's kernels. The checksums
-// detect damaged kernels, which are then compiled again. PoCL finds no device unless it can write
-// its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
+// The folder clrt/library in $XDG_CACHE_HOME or ~/.cache holds a lock and checksums. The lock keeps
+// processes that compile concurrently from losing PoCL's kernels. The checksums detect damaged
+// kernels, which are then compiled again. PoCL finds no device unless it can write its own cache,
+// in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // Frees the renderer. Accepts NULL.

@@ -4,7 +4,7 @@
 #include "library/renderer_handle.h"
 #include "scene/camera.h"
 
-// The side of a tile in pixels. The picture does not depend on the size of tiles.
+// The side of a tile in pixels, which does not affect the picture.
 #define TILE 128
 
 // Copies the caller's settings into wanted, fills in defaults and checks the numbers.
@@ -38,8 +38,8 @@ static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, cons
     return true;
 }
 
-// Fails if the caller's camera is too far from the scene. The scene's own cameras have been checked
-// before.
+// Fails if the caller's camera is too far from the scene. The scene's own cameras have been
+// checked.
 static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, ClrtError *error)
 {
     Error cause = {0};

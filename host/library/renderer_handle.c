@@ -28,9 +28,8 @@ static bool make_kernel(ClrtRenderer *renderer, Error *cause)
     return ready_kernel_make(&renderer->kernel, &renderer->setup, &traits, group, cause);
 }
 
-// Opens the device and makes the kernel, in one thread at a time. The OpenCL loader and drivers
-// initialize themselves at the first calls, and PoCL 3.1 crashes if two threads make these calls
-// concurrently.
+// Opens the device in one thread at a time. PoCL 3.1 crashes if two threads make the first OpenCL
+// calls concurrently.
 static bool open_renderer(ClrtRenderer *renderer, const char *device, Error *cause)
 {
     static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
@@ -85,7 +84,7 @@ static bool flatten(ClrtRenderer *renderer, const Scene *scene, Error *cause)
     return ok;
 }
 
-// Uploads the scene. The size of 1 x 1 pixels is a placeholder, because each picture sets its size.
+// The size of 1 x 1 pixels is a placeholder, because each picture sets its size.
 static bool open_scene(ClrtRenderer *renderer, Error *cause)
 {
     ReadyKernel lent = renderer->kernel;

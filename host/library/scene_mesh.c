@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Fails if the array has too many elements, or is NULL although count is above 0.
+// An array may be NULL only if it has no elements.
 static bool check_array(const char *what, const void *array, size_t count, ClrtError *error)
 {
     if (count > MESH_COUNT_MOST)
@@ -72,7 +72,7 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
            scene_handle_check_material(scene, mesh->material, error);
 }
 
-// Copies the mesh and checks the copy, because other threads may change the original.
+// Checks the copy, because other threads may change the original.
 static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
 {
     Error cause = {0};

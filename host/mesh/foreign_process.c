@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs clrt-foreign and reads its output from a pipe. Uses posix_spawn instead of fork, because
-// other threads of this process may hold locks. The program limits its own resources before it
-// opens the file. This process limits the program's time and output size.
+// Runs clrt-foreign, and limits the time and size of its output. Uses posix_spawn instead of fork,
+// because other threads may hold locks. The program limits its own resources.
 #include "mesh/foreign_process.h"
 
 #include "base/array.h"
@@ -29,7 +28,7 @@ typedef enum { PIPE_READ, PIPE_WRITE } PipeEnd;
 
 #ifdef CLRT_FOREIGN_FOLDER
 // Finds clrt-foreign in this program's folder, as in a build tree, or in the installation folder
-// for helper programs. Returns false if both folders lack it.
+// for helper programs.
 static bool find_beside(char *path, size_t size)
 {
     char folder[PATH_MAX];
@@ -60,8 +59,8 @@ static bool find_program(char *path, size_t size, const char *model, Error *erro
 }
 #endif
 
-// Starts the program with the pipe as its standard output. Returns 0 or an error number. The
-// program inherits no other file and no signal mask.
+// Starts the program with the pipe as its output and no other inherited file. Returns 0 or an error
+// number.
 static int start(pid_t *child, const char *program, const char *model, const int ends[2])
 {
     posix_spawn_file_actions_t actions;
@@ -88,8 +87,7 @@ static int start(pid_t *child, const char *program, const char *model, const int
 
 typedef enum { STREAM_WHOLE, STREAM_LATE, STREAM_LONG, STREAM_LOST } StreamFate;
 
-// Waits until the pipe has data or ends. Returns STREAM_WHOLE, STREAM_LATE after the deadline, or
-// STREAM_LOST on failure.
+// Waits until the pipe has data or ends (STREAM_WHOLE), or until the deadline (STREAM_LATE).
 static StreamFate await(int pipe, double deadline)
 {
     for (;;) {
@@ -130,8 +128,8 @@ static StreamFate read_all(File *stream, int pipe, const ForeignReader *reader, 
     }
 }
 
-// Kills the program and returns its wait status. After a complete stream the program has usually
-// exited already, and the signal has no effect.
+// Kills the program and returns its wait status. After a complete stream, the program has usually
+// exited already.
 static int finish(pid_t child)
 {
     int status = 0;

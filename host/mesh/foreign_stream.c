@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses the stream record by record. For each kind of record, one function checks the data and
-// adds it to the model.
+// For each kind of record, one function checks the data and adds it to the model.
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
@@ -35,7 +34,7 @@ static void make_printable(char *text, size_t size, char substitute)
             text[i] = substitute;
 }
 
-// Returns a zero-terminated copy of a record's text, or NULL on failure. The caller frees the copy.
+// Returns a zero-terminated copy of a record's text, or NULL on failure.
 static char *copy_text(const Parser *parser, const char *start, size_t size)
 {
     if (size == 0 || size > LONGEST_TEXT || memchr(start, '\0', size) != NULL) {
@@ -71,7 +70,7 @@ static float within(float value, float most)
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Replaces characters of name, so that it is a single word, as scene files require.
+// Replaces characters so that name is a single word, as scene files require.
 static void make_word(char *name)
 {
     make_printable(name, strlen(name), '_');

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The output of clrt-foreign, the program that runs Assimp (host/foreign). It is a sequence of
-// records: a head, then its bytes. The reader validates everything, because a hostile file may have
-// taken over Assimp.
+// The output of clrt-foreign, which runs Assimp (host/foreign): records, each a head and its bytes.
+// The reader validates everything, because a hostile file may have taken over Assimp.
 #pragma once
 
 #include "base/array.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses header lines into elements and their properties, in one pass. The elements vertex and
-// face, and the properties that a mesh uses, must not repeat. Other elements and properties may
-// repeat.
+// Parses header lines into elements and their properties in one pass. Only elements and properties
+// that a mesh does not use may repeat.
 #include "mesh/ply_header.h"
 
 #include "base/number.h"
@@ -9,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one more than in the longest statement, to detect extra words
+#define WORD_LIMIT 6 // one more than in the longest statement
 
 typedef struct {
     PlyHeader *header;
@@ -70,7 +69,7 @@ static void split_line(Parser *parser, const char *text, const char *end)
     }
 }
 
-// Splits the next line into words and advances past it. Fails at the end of the file.
+// Splits the next line into words and advances past it.
 static bool read_line(Parser *parser)
 {
     PlyReader *reader = parser->reader;
@@ -112,8 +111,7 @@ static bool read_format(Parser *parser)
                                            "binary_big_endian 1.0'");
 }
 
-// Fails if a vertex or face element is declared twice or has too large a count. Other elements may
-// repeat.
+// Fails if a vertex or face element repeats or has too large a count.
 static bool check_kind(const Parser *parser, const PlyElement *element)
 {
     const PlyHeader *header = parser->header;
@@ -162,8 +160,8 @@ static bool find_type(const Parser *parser, PlyWord word, PlyType *type)
     return ply_reader_fail(parser->reader, "'%s' is no property type", ply_reader_quote(word).text);
 }
 
-// Fails unless list lengths and corner indices have integer types, corners are a list, and vertex
-// components are not.
+// List lengths and corner indices must be integers. Corners must be a list, and vertex components
+// must not.
 static bool check_property(const Parser *parser, const PlyProperty *property, PlyWord name)
 {
     const PlyReader *reader = parser->reader;
@@ -179,8 +177,7 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Stores the role of the property called name. Fails if the element already has a property with
-// this role.
+// Stores the property's role, which must not repeat in the element.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
 {
     *role = PLY_UNUSED;
@@ -265,7 +262,7 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Marks the normal components as unused, because at least one is missing.
+// Marks the normal components as unused, because one is missing.
 static void forget_normals(PlyHeader *header, const PlyElement *element)
 {
     for (size_t index = 0; index < element->property_count; index++) {

@@ -52,7 +52,7 @@ typedef struct {
 } PlyProperties;
 
 // Parses the header. On success, the reader points at the body and has the body's format. The
-// caller frees the header after success and after failure.
+// caller frees the header, even after a failure.
 bool ply_header_parse(PlyHeader *header, PlyReader *reader);
 void ply_header_free(PlyHeader *header);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds equal positions with an open-addressed hash table, which holds the lowest vertex at each
-// position.
+// Finds equal positions with an open-addressed hash table of the lowest vertex at each position.
 #include "mesh/weld.h"
 
 #include "base/array.h"
@@ -11,10 +10,10 @@
 
 typedef struct {
     uint32_t *vertices; // WELD_UNUSED in empty slots
-    size_t mask;        // number of slots minus one; the number is a power of two
+    size_t mask;        // slots minus one; the number of slots is a power of two
 } Table;
 
-// Copies a vertex's position. Adding 0.0 turns negative zero into zero, so that both are equal.
+// Adding 0.0 turns negative zero into zero, so that both have the same bits.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels that --aov adds to a picture (in film rendering, arbitrary output variables). A
-// table holds each channel's name and the function that computes its values.
+// The channels that --aov adds to a picture (arbitrary output variables in film rendering): a table
+// of names and of functions that compute values.
 #pragma once
 
 #include "image/layers.h"
@@ -22,21 +22,21 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
-// The name of the table's last channel, each pixel's error against the reference.
+// The table's last channel: each pixel's error against the reference.
 #define ERROR_CHANNEL "error"
 
-// The input that a channel needs in addition to the path of the ray through the pixel's center.
+// The input that a channel needs besides the path of the ray through the pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,
-    AOV_NEEDS_TESTS,     // counts, from tracing every sample again as a single ray
-    AOV_NEEDS_CERTAINTY, // a CertaintyMap, from certifying every sample
-    AOV_NEEDS_REFERENCE  // the reference picture; the code that draws it fills the channel
+    AOV_NEEDS_TESTS,     // tracing every sample again as a single ray
+    AOV_NEEDS_CERTAINTY, // certifying every sample
+    AOV_NEEDS_REFERENCE  // drawing the reference; the code that draws it fills the channel
 } AovNeed;
 
 typedef struct {
     const char *name;                     // name in --aov
-    const char *channels[AOV_COMPONENTS]; // channel names in the file; NULL after the last
-    bool is_integer;                      // values are unsigned integers; otherwise floats
+    const char *channels[AOV_COMPONENTS]; // names in the file; NULL after the last
+    bool is_integer;                      // unsigned integers; otherwise floats
     AovNeed need;
     const char *help;
     // Stores one value per channel in values. Floats are stored as their bits.
@@ -44,7 +44,7 @@ typedef struct {
 } Aov;
 
 extern const Aov aov_table[];
-extern const size_t aov_count; // at most 32, the bits of an AovSet
+extern const size_t aov_count; // at most 32
 
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Traces one tile at a time, without overlap, because the pass takes only about as long as one
-// sample per pixel.
+// Tiles do not overlap, because the pass takes only about as long as one sample per pixel.
 #include "render/aov_pass.h"
 
 #include "render/tile.h"
 
 #include <stdlib.h>
 
-// The text of kernels/aov.cl, embedded at build time.
+// kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 
 static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *frame, cl_mem output,
@@ -29,8 +28,8 @@ static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *f
     return cl_succeeded(status, "run a kernel for channels", error);
 }
 
-// Creates a kernel and runs it over a tile without pixels, because drivers finish compiling in the
-// first run.
+// Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
+// run.
 static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, cl_mem output,
                         Error *error)
 {

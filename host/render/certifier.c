@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Certifies with an fp64 renderer, the reference, whose program also contains the kernel
-// certify_tile. Tiles do not overlap, because reading a pixel back is cheap compared with
-// certifying it.
+// Uses an fp64 renderer whose program also contains the kernel certify_tile. Tiles do not overlap,
+// because reading a pixel back is cheap compared with certifying it.
 #include "render/certifier.h"
 
 #include "render/tile.h"
@@ -9,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The text of kernels/certify.cl, embedded at build time.
+// kernels/certify.cl, embedded at build time.
 extern const char certify_source[];
 
 KernelChoice certifier_choice(void)
@@ -67,8 +66,8 @@ static bool make_room(Certifier *certifier, Error *error)
     return cl_succeeded(status, "allocate a tile's marks", error);
 }
 
-// Creates the kernel and runs it over a tile without pixels, because drivers finish compiling in
-// the first run.
+// Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
+// run.
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;

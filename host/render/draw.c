@@ -96,7 +96,7 @@ bool draw_warm_up(Renderer *renderer, Error *error)
     return ok;
 }
 
-// Starts to copy the slot's colors into the framebuffer. slot->done signals the end of the copy.
+// Starts to copy the slot's colors into the framebuffer; slot->done signals the end.
 static cl_int read_pixels(const Drawing *drawing, Slot *slot)
 {
     Framebuffer *framebuffer = drawing->framebuffer;

@@ -3,8 +3,8 @@
 // than packets save.
 #include "render/quick_kernel.h"
 
-// Measured compile times in seconds, and the core time in seconds that packets save per sample. The
-// saving applies to scenes with fewer than FEW_TRIANGLES triangles.
+// Measured compile times in seconds, and the core seconds that packets save per sample in scenes
+// with fewer than FEW_TRIANGLES triangles.
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 #define FEW_TRIANGLES          20000

@@ -8,9 +8,8 @@
 #include <assert.h>
 #include <string.h>
 
-// The time to compile a program that is not cached, and the fraction of tracing time that a
-// specialized program saves. The fraction is 0 to 7 % with packets. RAYS_PER_SECOND is the rate of
-// one core in a medium scene.
+// The time to compile an uncached program, and the fraction of tracing time that specialization
+// saves (0 to 7 % with packets). RAYS_PER_SECOND is one core's rate in a medium scene.
 #define COMPILE_SECONDS   1.5
 #define SPECIALIZED_SAVES 0.03
 #define RAYS_PER_SECOND   3e6

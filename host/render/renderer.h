@@ -5,8 +5,7 @@
 #include "image/framebuffer.h"
 #include "render/ready_kernel.h"
 
-// Selects the program that draws: one for all scenes, or one specialized for this scene. Both draw
-// the same picture.
+// The program that draws: general, or specialized for this scene. The picture is the same.
 typedef enum {
     SPECIALIZE_AUTO, // specialized if already compiled, or if it saves more time than compiling
                      // takes
@@ -18,12 +17,12 @@ typedef struct {
     uint32_t width, height;             // size of the crop
     uint32_t left, top;                 // position of the crop in the whole picture
     uint32_t whole_width, whole_height; // size of the whole picture; 0 without a crop
-    uint32_t samples;                   // samples along each side of a pixel
+    uint32_t samples;                   // along each side of a pixel
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
-    uint64_t ready_tiles; // number of first tiles to skip, because they exist already
+    uint64_t ready_tiles; // first tiles that exist already and are skipped
     uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
-    uint32_t group_width, group_height; // size of a work-group in work-items
+    uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;
 } RenderSettings;
@@ -53,12 +52,11 @@ static inline bool render_is_part(const RenderSettings *settings)
 
 typedef struct {
     uint64_t tiles_done, tiles;
-    uint64_t tiles_ready;          // number of tiles in tiles_done that existed before the run
-    uint64_t tallies[TALLY_KINDS]; // counts of each TallyKind; zeros without statistics
+    uint64_t tiles_ready;          // tiles that existed before the run
+    uint64_t tallies[TALLY_KINDS]; // zeros without statistics
 } RenderProgress;
 
-// The renderer calls tile_done after every finished tile. tile_done returns false to stop the
-// picture.
+// tile_done is called after every finished tile, and returns false to stop the picture.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
@@ -79,18 +77,16 @@ typedef struct {
     RenderProgress progress; // of the latest picture
 } Renderer;
 
-// Uploads the scene, or shares its memory with the device, and makes the kernel. flat must have the
-// node layout of setup's kernel choice and outlive the renderer.
+// Uploads the scene, or shares its memory with the device, and makes the kernel. flat must have
+// setup's node layout and outlive the renderer.
 bool renderer_open(Renderer *renderer, const RendererSetup *setup, const FlatScene *flat,
                    const RenderSettings *settings, Error *error);
 void renderer_close(Renderer *renderer);
 
-// Sets the size, samples, max_level and tile size of the next pictures from settings. The pictures
-// must be whole. Other settings do not change.
+// Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture that camera sees into framebuffer, which must have the settings' size. Returns
-// true even if the observer stops the picture. In that case, renderer->progress has fewer
-// tiles_done than tiles.
+// Draws the picture that camera sees into framebuffer, which must have the settings' size. If the
+// observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds a model that Assimp reads. Materials are named FILE:NAME, so that materials of two files do
-// not collide.
+// Materials are named FILE:NAME, so that materials of two files do not collide.
 #include "scene/foreign_mesh.h"
 
 #include "mesh/foreign_process.h"
@@ -10,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Converts a model's material. Materials without highlights become matte.
+// Materials without highlights become matte.
 static Material material_of(const ForeignMaterial *given)
 {
     const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
@@ -47,8 +46,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the scene's inputs and hashes. File 0 is the model itself, which keeps
-// the caller's path.
+// Adds the model's files to the inputs and hashes. File 0 is the model, which keeps the caller's
+// path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -62,7 +61,7 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
     return true;
 }
 
-// Moves the meshes of the model's parts into scene objects.
+// Moves the parts' meshes into scene objects.
 static bool add_parts(Scene *scene, ForeignModel *model, const MeshOrder *order,
                       uint32_t first_material, Error *error)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joins the meshes of all objects. Counts them, allocates once and copies.
+// Counts, allocates once and copies.
 #include "scene/mesh_join.h"
 
 #include "base/array.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places cameras and lights around the bounding sphere of the mesh's bounding box.
+// Places cameras and lights around the bounding sphere of the bounding box.
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
@@ -15,8 +15,8 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-// Returns half the diagonal of the bounding box, or 1 if the diagonal is zero. Stores the box's
-// center in *center.
+// Returns half the diagonal of the bounding box, or 1 if it is zero. Stores the box's center in
+// *center.
 static double radius_of(const Scene *scene, Vec3 *center)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
@@ -34,8 +34,7 @@ static bool add_cameras(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const double directions[6][3] = {{2, -2.6, 1.4}, {0, -1, 0}, {1, 0, 0},
                                             {0, 1, 0},      {-1, 0, 0}, {0, 0, 1}};
-    // The factor is 1 / sin(fov / 2), so the bounding sphere touches the picture's upper and lower
-    // edges.
+    // 1 / sin(fov / 2), so that the bounding sphere touches the picture's upper and lower edges.
     const double distance = radius * 2.6131259297527532;
     for (int view = 0; view < 6; view++) {
         const double *d = directions[view];
@@ -58,7 +57,7 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
            array_push(&scene->lights, ((Light){fill, 0.3}), error);
 }
 
-// Returns the options for a mesh that replaces a scene file. The mesh is visible from both sides.
+// A mesh that replaces a scene file is visible from both sides.
 static MeshOrder order_of(PlyParse *parse)
 {
     return (MeshOrder){.object = {.material = 1, .two_sided = true, .smooth = true},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds a file's meshes to the scene and applies the statement's transforms in the written order, in
-// fp64.
+// Adds a file's meshes and applies the transforms in the written order, in fp64.
 #include "scene/mesh_statement.h"
 
 #include "base/clock.h"
@@ -19,9 +18,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Returns the factor for a mesh's normals before they are rotated. Rotation can enlarge a component
-// by the square root of 3, so normals that could overflow are shortened. One factor serves all
-// normals of a mesh, because only the ratios of their lengths count.
+// Returns the scale for a mesh's normals before a rotation, which can enlarge components by the
+// square root of 3. All normals have one scale, because only the ratios of their lengths count.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -121,7 +119,7 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Fails if a position is outside [-1e30, 1e30], the range that the rest of the program requires.
+// Fails if the transforms leave [-1e30, 1e30], the range that the rest of the program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -151,8 +149,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshOrder *order, Erro
     return ok;
 }
 
-// Loads the mesh file. If the failure has no position in the mesh file, the message gives the
-// path's position in the scene file.
+// Loads the mesh file. Failures without a position in this file are reported at the path in the
+// scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path, const MeshOrder *order)
 {
     Error *error = tokens->error;

@@ -123,8 +123,8 @@ static bool is_definable(const char *name)
            number_parse(name, name + strlen(name), &number) == NULL;
 }
 
-// Chooses the materials' names. A material keeps its name if scene text can define this name and no
-// earlier material has it. Otherwise, the new name is material_ and the material's index.
+// A material keeps a name that scene text can define and no earlier material has. Otherwise, its
+// name is material_ and its index.
 static void choose_names(Writer *writer)
 {
     const Scene *scene = writer->scene;

@@ -12,7 +12,7 @@ typedef struct {
     double latest;         // time of the latest frame in seconds; 0 without one
 } FrameTimes;
 
-// Records that a frame of a moving camera was displayed at this moment, in seconds.
+// Records a displayed frame of a moving camera. moment is in seconds.
 bool frame_times_add(FrameTimes *times, double moment, Error *error);
 
 // Ignores the time to the next frame, because the camera stands still.

@@ -14,8 +14,7 @@ typedef struct {
     Layer *layer;
 } Tracing;
 
-// Locks and returns the status. Only code between begin_update and end_update may change the
-// status.
+// Locks the status. Only code between begin_update and end_update may change it.
 static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -36,7 +35,7 @@ static void report_busy(Worker *worker, const char *busy)
     end_update(worker);
 }
 
-// Returns whether the window still needs the job's pass.
+// Returns whether the window still needs the pass.
 static bool is_current(Worker *worker, const Job *job)
 {
     pthread_mutex_lock(&worker->mutex);
@@ -69,7 +68,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
 
 // Updates the measured time per sample. part is the finished fraction of the pass. The first
 // measurement replaces the guess. Later measurements count as at most twice the previous time,
-// because other processes may have slowed down a single picture.
+// because other processes may have slowed the picture.
 static void learn(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
@@ -81,7 +80,7 @@ static void learn(Worker *worker, const Pass *pass, double seconds, double part)
     worker->has_measured = true;
 }
 
-// Records a complete picture in the status. The caller holds the lock.
+// Records a complete picture. The caller holds the lock.
 static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
@@ -116,8 +115,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Reports that a picture cannot be traced, and marks it as reached. The worker then waits for a
-// different request.
+// Reports that a picture cannot be traced, and marks it as reached, so that only a different
+// request is tried.
 static void give_up(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -146,7 +145,7 @@ void jobs_trace(Worker *worker, const Job *job)
     give_up(worker, job, &error);
 }
 
-// Reports that the renderer is ready, or failed with error.
+// Reports that the renderer is ready, or failed.
 static void report_taken(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -159,7 +158,7 @@ static void report_taken(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
-// Reports that the scene was read, or that reading failed with error.
+// Reports that the scene was read, or that reading failed.
 static void report_loaded(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -218,8 +217,7 @@ static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
     end_update(worker);
 }
 
-// Runs the first load and opens the device. Publishes the scene first, so that the window opens
-// early.
+// Publishes the first scene before the device is open, so that the window opens early.
 bool jobs_begin(Worker *worker)
 {
     Error error = {0};

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A step of the camera is half a pixel. From the center to the picture's edge there are as many
-// steps as the picture has pixels.
+// The camera's steps are half a pixel, so half the picture's width has as many steps as the width
+// has pixels.
 #include "view/lens.h"
 
-// The near plane in normalized coordinates, in which the longest side of the geometry is 1 to 2.
-// Nearer objects are drawn, but without depth.
+// In normalized coordinates, where the geometry is 1 to 2 large. Nearer objects are drawn, but
+// without depth.
 #define NEAREST 0.01f
 
-// Stores the direction of step, scaled so that its dot product with a point at depth 1 on the
-// picture's edge is 1.
+// Stores step's direction, scaled so that its dot product with a point at depth 1 on the edge is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = {(double)step[0], (double)step[1], (double)step[2]};

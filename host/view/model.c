@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages that need no device: reads the scene, normalizes triangles and builds the tree.
+// The stages of the pipeline that need no device.
 #include "view/model.h"
 
 #include "scene/scn.h"

@@ -11,7 +11,7 @@ typedef struct {
     double azimuth;   // degrees below the plane perpendicular to up; negative if the eye is above
     double rotation;  // degrees around up
     double distance;  // from the eye to the pivot
-    double unit;      // length unit of zoom steps and distance limits; 1 for the course's cameras
+    double unit;      // length unit of steps and limits; 1 for the course's cameras
     double fov_degrees;
 } Orbit;
 
@@ -22,14 +22,13 @@ Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 // Returns the camera at the orbit's current position.
 Viewpoint orbit_viewpoint(const Orbit *orbit);
 
-// Apply a mouse drag in pixels. The azimuth and the distance stay within the course's limits.
+// Apply a mouse drag in pixels, within the course's limits.
 void orbit_turn(Orbit *orbit, double right, double down);
 void orbit_zoom(Orbit *orbit, double down);
 
-// Moves the camera and the pivot sideways by a mouse drag in pixels. In a window of the course's
-// height, the pivot follows the pointer.
+// Moves camera and pivot sideways by a mouse drag in pixels. The pivot follows the pointer if the
+// window has the course's height.
 void orbit_pan(Orbit *orbit, double right, double down);
 
-// Zooms by a turn of the mouse wheel in notches. Notches away from the user are positive and zoom
-// in.
+// Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.
 void orbit_wheel(Orbit *orbit, double notches);

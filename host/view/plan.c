@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// While the camera moves, tracing may take only part of a frame's time, because display takes time
-// and tracing times vary.
+// Tracing may take only part of a frame's time, because display takes time and tracing times vary.
 #include "view/plan.h"
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
@@ -23,8 +22,7 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
-// Returns the smallest divisor of the resolution that meets the time limit, or else the largest
-// divisor.
+// Returns the smallest divisor that meets the time limit, or else the largest.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

@@ -14,7 +14,7 @@ typedef struct {
     bool is_wanted;
     uint64_t subject; // identifies scene, camera and size; pictures of other subjects are useless
     uint32_t width, height;
-    uint32_t samples;      // samples along each side of a pixel
+    uint32_t samples;      // along each side of a pixel
     double sample_seconds; // measured tracing time per sample
 } PlanRequest;
 

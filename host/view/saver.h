@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures -> files. A separate thread writes the files, because loading OpenImageIO would freeze
-// the window.
+// Pictures -> files. A thread writes them, because loading OpenImageIO would freeze the window.
 #pragma once
 
 #include "image/image_file.h"
@@ -12,11 +11,11 @@
 
 // The caller fills the first four members.
 typedef struct {
-    Framebuffer shown;              // for the 8-bit file; values as displayed in the window; owned
+    Framebuffer shown;              // for the 8-bit file, in the window's values; owned
     Framebuffer traced;             // for the float file; owned
     const char *scene_path;         // determines the files' names
     char settings[SAVER_TEXT_SIZE]; // stored in both files
-    char notice[SAVER_TEXT_SIZE];   // a message that names the written files
+    char notice[SAVER_TEXT_SIZE];   // message with the written files
     Error error;                    // the reason for a failure
     pthread_t thread;
     bool is_running;

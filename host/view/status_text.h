@@ -12,7 +12,7 @@
 typedef struct {
     const char *scene_name;
     uint32_t width, height; // of the window, in pixels
-    uint32_t samples;       // samples along each side of a pixel, with anti-aliasing
+    uint32_t samples;       // along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
     bool is_finished;       // nothing remains to be traced
     double progress;        // of the current pass, from 0 to 1

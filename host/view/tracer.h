@@ -7,13 +7,13 @@
 #include "view/plan.h"
 
 typedef struct {
-    const char *device; // name of the device for device_open
+    const char *device; // for device_open
     KernelRequest kernel;
     Specialization specialization;
     BvhBuilder builder;
     uint32_t group_width, group_height; // 0: the kernels' default
     int64_t max_level;                  // negative: the scene's
-    uint32_t threads;                   // number of threads on the host
+    uint32_t threads;                   // threads on the host
     const char *kernel_folder;          // NULL: the embedded kernels
     const Cache *cache;
 } TracerOptions;
@@ -30,12 +30,12 @@ typedef struct {
     Renderer counter; // the same renderer with counters, opened on first use
 } Tracer;
 
-// Opens the device. The options must outlive the tracer. The caller closes the tracer after success
-// and after failure.
+// Opens the device. The options must outlive the tracer. The caller closes the tracer, even after a
+// failure.
 bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(Tracer *tracer);
 
-// Returns the settings for building trees that suit the device.
+// Returns the settings for trees that suit the device.
 BvhSettings tracer_tree(const Tracer *tracer);
 
 // Switches to the model, to be traced with its tree or by brute force. On failure, the tracer keeps

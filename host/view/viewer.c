@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep in seconds. The loop checks files between sleeps.
+// The loop's longest sleep in seconds. Files are checked between sleeps.
 #define REST_SECONDS 0.1
 
 static uint32_t samples_of(const Viewer *viewer)
@@ -126,8 +126,7 @@ static bool step(Viewer *viewer, Error *error)
     return viewer_recover(viewer, error);
 }
 
-// Waits until the first scene is read, because the scene determines the window's size. Returns
-// false on a fault.
+// Waits for the first scene, because it determines the window's size.
 static bool await_scene(Viewer *viewer)
 {
     do {
@@ -171,8 +170,8 @@ static ViewerEnd show(Viewer *viewer, Error *error)
     return VIEWER_CLOSED;
 }
 
-// Stops tracing and frees the viewer. If the driver does not return in time, the viewer's memory
-// stays allocated until the process ends, because the driver may still use it.
+// Stops tracing and frees the viewer. If the driver does not return in time, it may still use the
+// viewer, which the end of the process frees.
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)

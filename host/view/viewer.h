@@ -9,7 +9,7 @@ typedef struct {
     const char *scene_path;
     uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // samples along each side of a pixel, with anti-aliasing
+    uint32_t samples;       // along each side of a pixel, with anti-aliasing
     bool smooth, uses_bvh;  // initial values
     Encoding encoding;
     TracerOptions tracer;

@@ -34,8 +34,8 @@ typedef struct {
     Encoding encoding;
 } Frame;
 
-// Makes the objects that need no model, in the current OpenGL context. The caller closes the views
-// after success and after failure.
+// Makes the objects that need no model, in the current OpenGL context. The caller closes the views,
+// even after a failure.
 bool views_open(Views *views, Error *error);
 void views_close(Views *views);
 

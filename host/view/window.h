@@ -11,7 +11,7 @@ typedef struct {
     void *handle; // a GLFWwindow
     Event events[WINDOW_EVENTS];
     int event_count;
-    char *dropped;           // path of a dropped file, or NULL; owned
+    char *dropped;           // path of a file, or NULL; owned
     double mouse_x, mouse_y; // pointer position at the latest event
     bool is_touched;         // the window must be drawn again
 } Window;
@@ -20,8 +20,8 @@ typedef struct {
 bool window_connect(Error *error);
 void window_disconnect(void);
 
-// Opens a window of this size in pixels, or smaller if it does not fit the screen. Makes the
-// window's context current.
+// Opens a window of this size in pixels, or as large as the screen permits. Makes the window's
+// context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
 
@@ -31,8 +31,7 @@ void window_wait(Window *window, double seconds);
 // Ends window_wait. Any thread may call this function.
 void window_wake(void);
 
-// Removes the next event from the queue and stores it in *event. Returns false if the queue is
-// empty.
+// Stores the next event in *event. Returns false if there is no event.
 bool window_take_event(Window *window, Event *event);
 
 // Returns the path of the latest dropped file, or NULL. The caller frees the path.

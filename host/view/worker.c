@@ -4,8 +4,7 @@
 
 #include <stdlib.h>
 
-// The worker's stack in bytes. OpenCL compilers recurse deeply, and the default stack of a thread
-// may be too small.
+// OpenCL compilers recurse deeply, and the default stack of a thread may be too small.
 #define STACK_SIZE ((size_t)16 << 20)
 
 static Pass next_pass(const Worker *worker)

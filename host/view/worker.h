@@ -14,7 +14,7 @@ typedef struct {
     uint64_t subject; // from 1; increases with every new scene, camera or size
     Viewpoint camera;
     uint32_t width, height;
-    uint32_t samples; // samples along each side of a pixel
+    uint32_t samples; // along each side of a pixel
     bool uses_bvh;
     double gain;
     uint64_t loads;    // number of requested scene reads, including the first

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The numbers of a sphere: center, radius and three vectors of the material. HEIGHT_PLACE is for
-// the eye's height above the sphere.
+// Center, radius and three vectors of the material, with the eye's height above the sphere at
+// HEIGHT_PLACE.
 #define SPHERE_NUMBERS 16
 #define HEIGHT_PLACE   13
 

@@ -45,7 +45,7 @@ void text_view_close(TextView *view)
     *view = (TextView){0};
 }
 
-// Copies text and replaces characters that the ASCII font lacks.
+// Replaces characters that the ASCII font lacks.
 static void copy_printable(char copy[TEXT_SIZE], const char *text)
 {
     size_t length = 0;
@@ -66,7 +66,7 @@ static bool is_wider(char *line, char *end, int width)
     return wider;
 }
 
-// Replaces spaces by line ends, so that lines are at most width dots wide if possible.
+// Breaks lines at spaces, so that they are at most width dots wide if possible.
 static void break_lines(char *text, int width)
 {
     char *line = text, *blank = NULL;
@@ -92,8 +92,7 @@ static int count_lines(const char *text)
     return count;
 }
 
-// Splits each quad of four corners into two triangles and scales the positions. Returns the number
-// of vertices.
+// Splits each quad into two scaled triangles. Returns the number of vertices.
 static size_t make_triangles(Vertex *triangles, const Vertex *quads, size_t count, uint32_t scale)
 {
     static const int corners[QUAD_VERTICES] = {0, 1, 2, 0, 2, 3};
