@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The thread makes the general kernel, because nobody knows the scene's specialized one before the
-// scene is read.
+// A background thread opens the device and makes the general kernel. The specialized kernel depends
+// on the scene, which another thread is still reading.
 #include "cli/async_device.h"
 
 #include "base/clock.h"
 #include "render/quick_kernel.h"
 
-// Compilers recurse deeply, and a thread's stack may be smaller than the process's.
+// OpenCL compilers recurse deeply, and the default stack of a thread may be too small.
 #define STACK_SIZE ((size_t)16 << 20)
 
 static void take_choice(AsyncDevice *async, KernelChoice choice)
@@ -30,8 +30,9 @@ static bool open_device(AsyncDevice *async)
     return ok;
 }
 
-// Publishes the device and returns whether this thread should make the kernel: a compiled one
-// unless the caller has declined it, another one only if the caller wants it.
+// Publishes the device and returns whether this thread should make the kernel. The thread loads a
+// cached kernel unless the caller has declined it. It compiles an uncached kernel only on request,
+// so it waits for the decision.
 static bool publish_device(AsyncDevice *async, bool is_open, bool is_compiled)
 {
     pthread_mutex_lock(&async->mutex);
@@ -71,7 +72,7 @@ void async_device_begin(AsyncDevice *async, const Options *options, RendererSetu
     pthread_attr_setstacksize(&attributes, STACK_SIZE);
     async->is_running = pthread_create(&async->thread, &attributes, start, async) == 0;
     pthread_attr_destroy(&attributes);
-    if (!async->is_running) // fall back to running sequentially
+    if (!async->is_running) // fall back to opening the device on this thread
         publish_device(async, open_device(async), true);
 }
 
@@ -85,8 +86,8 @@ void async_device_decide(AsyncDevice *async, bool wanted)
     pthread_mutex_unlock(&async->mutex);
 }
 
-// Returns whether clrt may choose the kernels.  Explicit requests win, and statistics must not
-// depend on what is compiled.
+// Returns whether clrt may choose the kernels. Explicit requests take precedence, and statistics
+// must not depend on the cached kernels.
 static bool leaves_kernels_open(const Options *options)
 {
     const KernelRequest *request = &options->kernel;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The certifier always needs pair nodes, so the scene is flattened again.
+// Certifies the pixels of a drawn picture. The certifier needs pair nodes, so the scene is
+// flattened again.
 #include "cli/certain_picture.h"
 
 #include "accel/compile.h"

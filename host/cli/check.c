@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the scene, takes the census, traces rays to find leaks if there is a device, and reports.
+// Reads the scene, examines its geometry, traces rays to find leaks if there is a device, and
+// reports.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -19,7 +20,7 @@ typedef struct {
     Normalization normalization;
     Census census;
     Device device;
-    LeakCount *leaks; // by object; NULL without a device
+    LeakCount *leaks; // one per object; NULL without a device
     Error frame_fault, device_fault;
 } Check;
 
@@ -61,7 +62,8 @@ static bool trace_leaks(Check *check, const Cache *cache, Error *error)
     return ok;
 }
 
-// Without a device all other checks still run, unless the options name a device or fp64.
+// A missing device is an error only if the options name a device or fp64. Otherwise the report
+// contains the other checks.
 static bool look_for_leaks(Check *check, const Cache *cache, Error *error)
 {
     if (scene_triangle_count(&check->scene) == 0)
@@ -109,7 +111,7 @@ static ExitCode report(const Check *check, double start, Error *error)
     return outcome;
 }
 
-// Prints what the readers dropped.
+// Prints the readers' notes about data that they dropped.
 static void print_notes(const Options *options, const Scene *scene)
 {
     for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two lists here hold every option that writes a file.
+// Lists the files that the command line names. An option that writes a file must appear here.
 #include "cli/command_files.h"
 
 #include "jobs/resume.h"

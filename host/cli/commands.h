@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The program's commands.  Each returns the exit status, and fills error unless it returns
-// EXIT_DONE.
+// The commands of clrt. Functions return the exit status. They fill error unless they return
+// EXIT_DONE, or report EXIT_FAULTS themselves as check and compare do.
 #pragma once
 
 #include "cli/run.h"
 
 #include <stdio.h>
 
-// clrt SCENE -o FILE.
+// clrt SCENE -o FILE: renders the scene to a picture file.
 ExitCode picture_make(Run *run, Error *error);
 
 // clrt SCENE: shows the scene in a window until the user closes it.
@@ -19,7 +19,7 @@ void show_write_keys(FILE *stream);
 // clrt --warm: compiles kernels in advance.
 ExitCode warm_kernels(Run *run, Error *error);
 
-// clrt --explain: prints the features and buffers that a scene uses, those it omits, and why.
+// clrt --explain: prints which kernel features and buffers a scene uses or omits, and why.
 ExitCode explain_scene(Run *run, Error *error);
 
 // clrt --explain-pixel: prints how clrt computes a pixel's color.
@@ -28,16 +28,16 @@ ExitCode explain_pixel(Run *run, Error *error);
 // clrt --list-devices: prints the OpenCL devices as clinfo does, or as versioned JSON.
 ExitCode device_report_write(bool as_json, Error *error);
 
-// clrt check: reports on a scene's geometry.  A missing device is an error only if the options name
-// one.
+// clrt check: reports faults of a scene's geometry. A missing device is an error only if the
+// options name a device or fp64.
 ExitCode check_scene(const Options *options, const Cache *cache, Error *error);
 
-// For pictures: rejects triangles without area if the options say so; otherwise prints how many are
-// dropped.
+// For commands other than check. With --bad-geometry=fail, it rejects triangles without area.
+// Otherwise it prints how many triangles the reader dropped.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
-// clrt compare: reports the difference of two pictures, and writes its map if the options name a
-// file.
+// clrt compare: reports the differences of two pictures, and draws them if the options name an
+// output.
 ExitCode compare_files(const Options *options, Error *error);
 
 // clrt merge: joins the parts of a picture.

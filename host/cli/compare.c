@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads both files, measures and reports.  The limits determine the exit status.
+// Reads two pictures, measures their difference and reports it. The limits of --fail determine the
+// exit status.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

@@ -18,13 +18,14 @@
 typedef struct {
     const Options *options;
     Scene scene;
-    char **mesh_paths; // of the PLY files beside the scene text; NULL for a PLY mesh; owned
-    char **mesh_names; // the file names in mesh_paths; owned, but not its strings
+    char **mesh_paths; // the PLY files beside the scene text; NULL if the output is one PLY mesh;
+                       // owned
+    char **mesh_names; // point to the file names in mesh_paths; the array is owned
 } Conversion;
 
 typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
 
-// Writes to the temporary file.  Its stream is buffered, so fclose reports the errors.
+// Writes to the temporary file. The stream is buffered, so fclose may report the error.
 static bool write_stream(const Conversion *conversion, const OutputFile *file, WriteContent *write,
                          const void *content)
 {
@@ -71,7 +72,7 @@ static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const cha
     return true;
 }
 
-// Warns about the data that PLY cannot store.
+// Prints which data the PLY file does not store.
 static void warn_of_losses(const Conversion *conversion)
 {
     const Scene *scene = &conversion->scene;
@@ -105,7 +106,7 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
     return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-// Names them STEM-1.ply and so on, for a text called STEM.scn.
+// Names the meshes of STEM.scn STEM-1.ply, STEM-2.ply and so on.
 static bool name_meshes(Conversion *conversion, Error *error)
 {
     const char *path = conversion->options->other_path;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The program counter shows whose crash it is: the program's file contains clrt's code, but no
-// drivers, libraries or kernels, and OpenCL never calls back into it.  LLVM installs handlers of
-// its own during a build.  That of SIGABRT never returns to ours, and where two threads crash at
-// once, the others restore no handler at all.  So the program's own sigaction, which precedes the C
-// library's, keeps ours.  Only SIGFPE is free: PoCL steps over divisions by zero with it.
+// Reports whether clrt or a driver crashed. The executable contains no drivers, libraries or
+// kernels, and OpenCL never calls back into it. A program counter outside the executable therefore
+// means that a driver crashed. LLVM installs its own handlers while it compiles a kernel. LLVM's
+// SIGABRT handler does not pass the signal on to ours. If two threads crash at once, LLVM's other
+// handlers do not restore ours. The executable therefore overrides the C library's sigaction and
+// ignores requests to replace these handlers. Only SIGFPE stays replaceable, because PoCL uses it
+// to step over divisions by zero.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -34,7 +36,7 @@ typedef struct {
 static const Crash crashes[] = {CRASH(SIGSEGV), CRASH(SIGBUS), CRASH(SIGILL), CRASH(SIGFPE),
                                 CRASH(SIGABRT)};
 
-// The bounds of the program's own code, which the linker defines.
+// The linker defines the bounds of the executable's code.
 extern const char __executable_start[], etext[];
 
 static pid_t watcher;
@@ -57,7 +59,7 @@ static void print_message(const char *message)
     (void)written; // a closed standard error changes nothing
 }
 
-// Only the first thread prints; the others wait.
+// Only the first thread that crashes prints; other threads wait here for the exit.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))
@@ -66,7 +68,7 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Processes that read or write pictures are forks of this one, and stay silent.
+// Processes that read or write pictures are forks of this process, and print nothing.
 static void handle(int number, siginfo_t *info, void *context)
 {
     const Crash *crash = crashes;

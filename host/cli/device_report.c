@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The device module finds the devices; Jansson writes the JSON.
+// Lists the OpenCL devices.
 #include "cli/commands.h"
 
 #include "device/cache.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces the pixel's samples one after the other.  Text reports each sample at once, so only one is
-// in memory.  JSON is written as a whole.
+// Traces the pixel's samples one after another. Text output prints each sample at once, so only one
+// is in memory. JSON output is written as a whole.
 #include "cli/commands.h"
 
 #include "cli/command_files.h"
@@ -17,7 +17,8 @@ static bool has_pixel(const Run *run, Error *error)
                      options->pixel[0], options->pixel[1], settings->width, settings->height);
 }
 
-// Traces all samples.  Adds them to list, or writes them as text if list is NULL.
+// Traces all samples and stores their mean in color. Adds the samples to list, or prints them as
+// text if list is NULL.
 static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
                             float color[3], Error *error)
 {
@@ -83,7 +84,7 @@ ExitCode explain_pixel(Run *run, Error *error)
         async_device_decide(&run->async_device, false);
         return EXIT_USAGE;
     }
-    run->settings.specialization = SPECIALIZE_NEVER; // too few rays to pay off
+    run->settings.specialization = SPECIALIZE_NEVER; // too few rays to repay compiling
     const ExitCode prepared = run_prepare(run, error);
     if (prepared != EXIT_DONE)
         return prepared;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepares a picture without drawing it, and prints the compiled features and the uploaded buffers.
+// Prepares a picture without drawing it. Prints the compiled features and the uploaded buffers.
 #include "cli/commands.h"
 
 #include "cli/command_files.h"
@@ -21,7 +21,7 @@ static void write_kernels(const Run *run)
            scene_program_reason(run));
 }
 
-// Prints the compiled parts that are needed, or those that are not.
+// Prints the compiled features whose is_needed equals the argument.
 static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed)
 {
     bool is_headed = false;

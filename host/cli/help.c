@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats --help: names on the left, wrapped sentences on the right.
+// Formats --help with names on the left and wrapped sentences on the right.
 #include "cli/help.h"
 
 #include "cli/commands.h"

@@ -99,14 +99,15 @@ static void run(void *context)
 int main(int count, char **words)
 {
     Start start = {.count = count, .words = words};
-    // A closed pipe or a file size limit then fails the write, which is reported and cleaned up.
+    // With these signals ignored, a closed pipe or a file size limit makes writing fail, and clrt
+    // reports the error.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     // Sanitizers install their own handlers and check for leaks at exit.
     if (!CLRT_TIDY_EXIT)
         crash_watch();
     stack_run(run, &start);
-    // The kernel frees at once what drivers and libraries need 0.1 s to free.
+    // Drivers and libraries need 0.1 s to free their memory; the operating system frees it at once.
     if (!CLRT_TIDY_EXIT)
         _exit((int)start.code);
     return (int)start.code;

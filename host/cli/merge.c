@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the parts one after the other and copies their tiles into the whole.  The parts must have
-// the same scene, version and settings, and each part must occur once.
+// Reads the parts one after another and copies their tiles into the whole picture. The parts must
+// have the same scene, version and settings, and each part must occur once.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -16,9 +16,10 @@ typedef struct {
     const Options *options;
     Framebuffer framebuffer;
     Layers layers;
-    Provenance provenance; // of the first part, with the devices of all
+    Provenance provenance; // the first part's, with the devices of all parts
     StoredTiles first;     // of the first part
-    const char **paths;    // by part number; NULL for a missing part; owned
+    const char **paths;    // paths[i] names part i, or is NULL if the part is missing; the array is
+                           // owned
 } Merging;
 
 static bool is_picture(const Merging *merging, const StoredTiles *tiles)
@@ -56,7 +57,7 @@ static bool note_part(Merging *merging, const StoredTiles *tiles, const char *pa
     return true;
 }
 
-// Adds the part's device unless another part has the same.
+// Adds the part's device and driver unless another part has the same.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pipeline from a scene file to a picture file.
+// Renders a scene file to picture files.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -22,10 +22,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Above this value of --error the user may have meant percent.
+// With a value of --error above this, the user may have meant percent.
 #define LARGE_ERROR 0.1
 
-// The observer's context.
+// The context of the render observer.
 typedef struct {
     Run *run;
     Progress progress;
@@ -41,7 +41,7 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// Draws the picture once; --repeat draws it again.
+// Draws the picture once and records its time.
 static bool draw_frame(Run *run, const CameraData *camera, Error *error)
 {
     double moment = clock_seconds();
@@ -73,7 +73,7 @@ static uint32_t samples_across(const Run *run)
     return options_are_adaptive(run->options) ? LADDER_GRID : run->settings.samples;
 }
 
-// Counts the samples of a picture; adaptive ones have counted theirs.
+// Stores the number of pixels, and the number of samples unless refining has already counted them.
 static void count_samples(Run *run)
 {
     Report *report = &run->report;
@@ -121,7 +121,7 @@ static bool certify(Run *run, Error *error)
            certain_picture_make(run, &camera, error);
 }
 
-// Computes the channels beside the colors.  A stopped picture has none of their values.
+// Computes the channels besides the colors. If the picture was stopped, all their values are zero.
 static bool draw_layers(Run *run, Error *error)
 {
     AovPass pass;
@@ -242,7 +242,7 @@ static ExitCode goal_missed(const Run *run, Error *error)
     return EXIT_FAULTS;
 }
 
-// Finds errors that need no work to find.
+// Reports invalid dates and unwritable outputs before any work, and looks for an earlier run.
 static ExitCode check_files(Run *run, Error *error)
 {
     const Options *options = run->options;
@@ -277,7 +277,7 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees the previous picture.
+// Frees the previous frame's picture.
 static void clear(Run *run)
 {
     framebuffer_free(&run->framebuffer);
@@ -289,7 +289,7 @@ static void clear(Run *run)
     run->report.frame_count = 0;
 }
 
-// Sets the viewpoint of the frame with that number.
+// Sets the viewpoint of frame `number`.
 static void look(Run *run, uint32_t number)
 {
     const Options *options = run->options;
@@ -300,7 +300,7 @@ static void look(Run *run, uint32_t number)
                                     run->scene.has_course_views, run->report.turned);
 }
 
-// Makes a black picture with the tiles of an earlier run.
+// Creates a black picture and copies the finished tiles of an earlier run into it.
 static bool begin_picture(Run *run, Error *error)
 {
     Provenance own;
@@ -354,7 +354,7 @@ static ExitCode make_frame(Run *run, uint32_t number, double start, Error *error
     return finish(run, start, error);
 }
 
-// A frame that misses its goal does not keep the others from being drawn.
+// Draws all frames. If a frame misses its goal, the remaining frames are still drawn.
 static ExitCode make_frames(Run *run, double start, Error *error)
 {
     ExitCode outcome = EXIT_DONE;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A terminal gets a line that rewrites itself, with the remaining time.  A log gets a line for
-// every tenth of a picture that takes longer than a second.
+// On a terminal, one line is rewritten and shows the remaining time. A log gets a line for every
+// tenth of the picture, but none in the first second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
@@ -20,8 +20,8 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-// Estimates the remaining time from the tiles drawn in this run; tiles of an earlier run took no
-// time.
+// Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier
+// run took no time.
 static void print_progress(Progress *progress, const RenderProgress *render)
 {
     const double elapsed = clock_seconds() - progress->start;

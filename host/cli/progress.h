@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Observes a picture's tracing: prints progress on standard error, and stops on the signals of
+// Observes rendering: prints progress on standard error, and stops after the signals of
 // base/stop.h.
 #pragma once
 
@@ -7,16 +7,16 @@
 
 typedef struct {
     bool silent;
-    bool terminal;    // standard error is a terminal: rewrite one line
-    double start;     // in seconds of the clock
-    unsigned printed; // percent in the last plain line
-    bool line_open;   // the rewritten line is on the screen
+    bool terminal;    // standard error is a terminal, so one line is rewritten
+    double start;     // from clock_seconds
+    unsigned printed; // percent in the last line of a log
+    bool line_open;   // the terminal shows the rewritten line
 } Progress;
 
 Progress progress_begin(bool silent);
 
-// The observer's function; context is a Progress.
+// A RenderObserver's tile_done; context must point to a Progress.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
-// Clears the line and returns the signal that requested the stop, or 0.
+// Clears the rewritten line. Returns the signal that requested the stop, or 0.
 int progress_end(Progress *progress);

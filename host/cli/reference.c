@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A pass draws one sample per pixel, with the same shift for all pixels.  Each half of the passes
-// makes a picture, and the difference of both measures the reference's own error.  Shifts follow
-// the additive recurrence by powers of the plastic number (Roberts's R2).  The halves have
-// different starts, so their errors are independent, and neither shares samples with an N x N grid
-// of sub-pixel centers.  The camera is shifted, so the kernels are the usual ones.
+// Each pass draws one sample per pixel, with the same sub-pixel shift for all pixels. The kernels
+// need no change, because the camera is shifted. Even and odd passes make two pictures, whose
+// difference measures the reference's own error. Their shifts follow Roberts's R2 sequence, an
+// additive recurrence by powers of the plastic number. The two sequences have different starts, so
+// their errors are independent. No shift lies on the N x N grid of --aa.
 #include "cli/reference.h"
 
 #include "base/clock.h"
@@ -17,11 +17,11 @@
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
 
-// The second run, which draws the halves.
+// The run that draws the reference.
 typedef struct {
     Options options;
     Run run;
-    double (*halves[2])[3]; // sums of the passes
+    double (*halves[2])[3]; // the sums of the even and of the odd passes
     Progress progress;
     uint32_t passes, passes_done;
     bool stopped;
@@ -39,7 +39,8 @@ static Options options_of(const Options *picture)
     Options options = *picture;
     options.kernel = (KernelRequest){.precision = PRECISION_FP64};
     options.samples = 1;
-    // If the picture's levels follow from an error, the reference uses as many as floats can show.
+    // If clrt chose the picture's levels by an error bound, the reference uses as many levels as a
+    // PFM file can show.
     options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);
     options.format = "pfm";
     options.group_width = options.group_height = 0;
@@ -66,7 +67,7 @@ static bool open_run(Reference *reference, const Run *picture, Error *error)
            framebuffer_make(&run->framebuffer, run->settings.width, run->settings.height, error);
 }
 
-// All passes share one progress.
+// Prints one progress for all passes together.
 static bool tile_done(void *context, const RenderProgress *progress)
 {
     Reference *reference = context;
@@ -81,7 +82,7 @@ static bool draw_pass(Reference *reference, uint32_t pass, Error *error)
 {
     Run *run = &reference->run;
     const int half = (int)(pass % 2);
-    const double place = pass / 2; // index in its half
+    const double place = pass / 2; // the index of the pass in its half
     CameraData camera =
         camera_make(&run->viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
@@ -108,7 +109,7 @@ static bool draw_passes(Reference *reference, Run *picture, Error *error)
     return ok;
 }
 
-// Stores the mean of the halves, and returns its error, estimated from their difference.
+// Stores the mean of the two halves. Returns the RMSE of the mean, estimated from their difference.
 static double join_halves(const Reference *reference, Framebuffer *mean)
 {
     const size_t pixels = (size_t)mean->width * mean->height;
@@ -124,7 +125,7 @@ static double join_halves(const Reference *reference, Framebuffer *mean)
     return sqrt(squares / (3 * (double)pixels));
 }
 
-// Returns a view of the picture's values, which it borrows.
+// Returns an image that borrows the framebuffer's values.
 static StoredImage stored_view(const Framebuffer *framebuffer)
 {
     return (StoredImage){.width = framebuffer->width,
@@ -134,7 +135,7 @@ static StoredImage stored_view(const Framebuffer *framebuffer)
                          .values = framebuffer->pixels[0]};
 }
 
-// Returns the largest difference of the three colors.
+// Returns the largest absolute difference among the three colors.
 static float error_of(const float drawn[3], const float truth[3])
 {
     float largest = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A thread pool on the host decides where to sample, between the device's passes.
+// The device traces samples in passes. Between passes, a thread pool on the host decides where to
+// sample next.
 #include "cli/refined_picture.h"
 
 #include "base/clock.h"
@@ -10,23 +11,23 @@
 #include <math.h>
 #include <stdio.h>
 
-// Returns the truncation error that counts towards --error.  Levels chosen by --error are part of
-// its error; other levels are part of the picture.
+// Returns the truncation error that counts toward --error. It is 0 if the scene or --max-level sets
+// the number of levels.
 static double truncation_of(const Run *run)
 {
     const Options *options = run->options;
     return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
 }
 
-// Returns the error left for sampling beside the truncation; negative if truncation alone exceeds
-// the goal.
+// Returns the error that sampling may add to the truncation error; negative if truncation alone
+// exceeds the goal.
 static double error_left(const Run *run)
 {
     const double most = run->options->error_goal, truncation = truncation_of(run);
     return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
 }
 
-// Keeps each pixel's sample count if channels may need it.
+// Allocates run->samples if the options select channels.
 static bool keep_counts(Run *run, Error *error)
 {
     const size_t pixels = (size_t)run->framebuffer.width * run->framebuffer.height;
@@ -63,7 +64,8 @@ static bool draw_adaptively(Run *run, const CameraData *camera, Crew *crew,
     return ok;
 }
 
-// Refines according to the options.  Does nothing if truncation alone exceeds the error goal.
+// Refines until the time or error goal is met. Does nothing if truncation alone exceeds the error
+// goal.
 static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *outcome, Error *error)
 {
     const GoalTime time = {start, run->options->time_goal};

@@ -155,7 +155,7 @@ static json_t *scene_json(const Report *report)
                      "dropped_triangles", integer(report->dropped_triangles));
 }
 
-// Lists the inner nodes at each depth of the tree.
+// Returns a list with the number of inner nodes at each depth of the tree.
 static json_t *inner_nodes_json(const Report *report)
 {
     json_t *list = json_array();
@@ -195,7 +195,7 @@ static json_t *samples_json(const Report *report)
                      "goal_reached", !report->goal_missed);
 }
 
-// Refining has no tiles, because it passes over the picture several times.
+// Returns null for refined pictures, which are drawn in several passes without tiles.
 static json_t *tiles_json(const Report *report)
 {
     const uint64_t found = report->settings->ready_tiles;
@@ -229,7 +229,7 @@ static json_t *certainty_json(const Report *report)
                      integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
 }
 
-// Adds the parts of the report under their names.
+// Adds each section of the report under its name.
 static void add_parts(json_t *json, const Report *report)
 {
     json_object_set_new(json, "scene", scene_json(report));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The costs and results of a run, as text and as JSON.
+// Writes the costs and results of a run as text and as JSON.
 #pragma once
 
 #include "cli/options/options.h"
@@ -10,26 +10,26 @@
 
 // The difference between a picture and its reference.
 typedef struct {
-    uint32_t samples; // of the reference, per pixel; 0 without one
+    uint32_t samples; // of the reference, per pixel; 0 without a reference
     Difference difference;
-    double own_error; // of the reference: RMSE, from its two independent halves
+    double own_error; // the reference's RMSE, estimated from its two independent halves
     double seconds;
 } ReferenceResult;
 
-// The number of pixels for each certainty.
+// The number of pixels of each Certainty (kernels/shared.h).
 typedef struct {
-    uint64_t pixels[CERTAINTY_KINDS]; // zeros unless requested
+    uint64_t pixels[CERTAINTY_KINDS]; // zeros without --aov certainty
     double seconds;
 } CertaintyResult;
 
-// All facts about a run that the reports contain.
+// The facts about a run that the reports contain.
 typedef struct {
     const Options *options;
     const RenderSettings *settings;
     const KernelChoice *choice;
     const char *device_name, *device_version;
     uint32_t view; // from 1
-    double turned; // degrees, on a turntable
+    double turned; // the turntable's angle in degrees
     uint64_t scene_hash[2], mesh_hash[2];
     uint32_t lights, spheres, triangles;
     uint64_t dropped_triangles;
@@ -37,35 +37,35 @@ typedef struct {
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
     size_t upload_size;
     double contrast;   // the limit of adaptive anti-aliasing; 0 without it
-    double estimate;   // of the error, with the bound of the truncation; 0 without one
-    double bound;      // exceeds the error with 95 % confidence
-    bool goal_missed;  // of --error or --time
-    double truncation; // bounds the error from max_level
-    uint64_t pixels;   // drawn in this run
-    uint64_t samples;  // in all these pixels
+    double estimate;   // of the RMSE, including truncation by --error; 0 without a goal
+    double bound;      // the RMSE is lower with 95 % confidence
+    bool goal_missed;  // the goal of --error or --time
+    double truncation; // the largest color error caused by max_level
+    uint64_t pixels;   // drawn by this process
+    uint64_t samples;  // total of these pixels
     bool specialized;
     bool complete;
     uint64_t tiles_done;
     uint64_t tallies[TALLY_KINDS];
     // Seconds.
     double parse, load, build, device, upload, kernel_build, trace, write, total;
-    double frame_seconds[REPEAT_MAX]; // of every picture drawn; the first is trace
+    double frame_seconds[REPEAT_MAX]; // one entry per repetition; the first equals trace
     uint32_t frame_count;
     ReferenceResult reference;
     CertaintyResult certainty;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Report;
 
-// Fills in the facts about a scene and its tree.
+// Stores the hashes and counts of a scene and its tree.
 void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh);
 
-// Returns the tree's builder as --bvh names it, or "none".
+// Returns the builder's name in --bvh, or "none" without a tree.
 const char *report_tree_name(const Report *report);
 
-// Prints the error against the reference.
+// Prints the error against the reference, if one was drawn.
 void report_write_error(const Report *report, FILE *stream);
 
-// Prints the figures of the course's program.
+// Prints time, samples, rays and tests, like the course's program.
 void report_write_text(const Report *report, FILE *stream);
 
 // Writes versioned JSON with sorted keys to path ("-": standard output).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The settings include only those that can change a bit, so files of the same picture are equal.
+// Fills the metadata of a picture. It contains only settings that can change a pixel, so files of
+// the same picture are equal.
 #include "cli/report_provenance.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The state of a run, and its first stages, which all commands share.  Each stage borrows the
-// earlier ones' values and fills its own.  A zeroed Run is valid and freeing it is harmless, so
-// there is one cleanup path.
+// The state of a run, and the stages up to the renderer. Each stage borrows the results of earlier
+// stages. run_free accepts a Run after any stage, even a zeroed one, so errors need one cleanup
+// path.
 #pragma once
 
 #include "accel/flat.h"
@@ -21,36 +21,37 @@ typedef struct {
     RenderSettings settings;
     Renderer renderer;
     Framebuffer framebuffer;
-    Framebuffer reference;   // empty unless requested
-    Layers layers;           // beside the colors
-    uint32_t *samples;       // of each pixel, for the layers; NULL if all have the same number
-    CertaintyMap certainty;  // empty unless requested
-    const char *output_path; // of the picture being drawn
-    Viewpoint viewpoint;     // of that picture
+    Framebuffer reference;   // empty without --reference
+    Layers layers;           // the channels besides the colors
+    uint32_t *samples;       // samples per pixel, for the layers; NULL if all pixels have the same
+                             // number
+    CertaintyMap certainty;  // empty without --aov certainty
+    const char *output_path; // of the current picture
+    Viewpoint viewpoint;     // of the current picture
     Resume resume;           // empty without --resume
     Report report;
     int stopped_by; // a signal; 0 if the picture is complete
 } Run;
 
-// Returns the seconds since *moment, and sets it to now.
+// Returns the seconds since *moment, and sets *moment to the current time.
 double run_lap(double *moment);
 
-// Starts opening the device and making the kernels on another thread.
+// Starts a thread that opens the device and makes the kernel.
 void run_begin(Run *run);
 
-// Reads the scene, and computes its normalized frame and the picture's settings.  On failure no
-// kernels are made.
+// Reads the scene, and computes its normalized coordinate frame and the picture's settings. On
+// failure, it cancels the making of the kernel.
 bool run_load_scene(Run *run, Error *error);
 
-// Waits for the device.  The device and the scene determine the kernels, which determine the
-// layout.
+// Waits for the device and chooses the kernels for device and scene. The kernels determine the
+// layout of nodes.
 bool run_await_device(Run *run, Error *error);
 
-// Flattens the scene into arrays.
+// Builds the tree and flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);
 
-// Runs these two stages and makes the renderer.  Returns the exit status.
+// Calls run_await_device and run_build_scene, and opens the renderer. Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);
 
-// Frees the values of all stages.
+// Frees the results of all stages.
 void run_free(Run *run);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene -> the kernel features and buffers that it needs, each with a reason.
+// Scene -> the kernel features that it needs, with reasons, and its buffers on the device.
 #pragma once
 
 #include "cli/run.h"
@@ -14,11 +14,11 @@ typedef enum {
     SCENE_PARTS
 } ScenePartKind;
 
-// A feature that kernels are compiled with or without.
+// A kernel feature that can be omitted at compile time.
 typedef struct {
     const char *name;
     bool is_needed;
-    bool is_compiled; // general kernels also contain features that the scene lacks
+    bool is_compiled; // general kernels also contain features that the scene does not need
     char reason[160];
 } ScenePart;
 
@@ -30,10 +30,11 @@ typedef struct {
 
 #define SCENE_ARRAYS RENDERER_ARRAYS
 
-// Fill the parts in the order of ScenePartKind, and the arrays.  The run's renderer must be open.
+// scene_parts_list fills parts in the order of ScenePartKind; the run's renderer must be open.
+// scene_arrays_list fills arrays.
 void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS]);
 void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS]);
 
-// Return the reasons for the kernel family, and for special or general kernels.
+// Return the reason for the choice of the kernel family, and for specialized or general kernels.
 const char *scene_family_reason(const Run *run);
 const char *scene_program_reason(const Run *run);

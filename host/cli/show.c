@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The only file of the command line that uses the window, which is optional in a build.
+// Connects the command line to the window. Builds without a window compile the second half.
 #include "cli/commands.h"
 
 #ifdef CLRT_WITH_WINDOW
@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A closed window should disappear at once, unless a tidy exit must free everything.
+// Seconds that a closed window waits for its worker thread. The window should disappear at once,
+// unless a tidy exit must free all memory.
 #define PATIENCE (CLRT_TIDY_EXIT ? 60 : 0.05)
 
 void show_write_keys(FILE *stream)
@@ -53,7 +54,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      .statistics = options->statistics,
                                      .verbose = options->verbose,
                                      .patience = PATIENCE};
-    // Without a display, a missing scene must still be reported.
+    // Checked first, because a missing scene must be reported even without a display.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;
     return codes[viewer_run(&settings, error)];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RLIMIT_STACK bounds the first thread's stack and sets the default of the others.
+// Runs work on a thread with a larger stack if RLIMIT_STACK is small. RLIMIT_STACK bounds the main
+// thread's stack and sets the default for other threads.
 #include "cli/stack.h"
 
 #include <pthread.h>

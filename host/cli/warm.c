@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Compiles the general kernels, and a scene's kernels if a scene is named.
+// Compiles the general kernels, and the specialized kernels of a scene if the command line names
+// one.
 #include "cli/commands.h"
 
 #include <stdio.h>
 
-// Makes the kernel once, which stores it in the cache, and prints the time.
+// Makes the kernel, which stores it in the cache, and prints the time.
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
     ReadyKernel ready;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// clrt rejects options that would have no effect.
+// Checks combinations of options. clrt rejects options that would have no effect.
 #include "cli/options/check.h"
 
 #include "cli/options/table.h"
@@ -10,8 +10,9 @@
 
 // Options that exclude each other, regardless of their values.
 typedef struct {
-    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last
-    const char *sentence;                               // %s is the option's name
+    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
+    const char *sentence;                               // a format; %s is the name of the first
+                                                        // option
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"
@@ -37,7 +38,7 @@ static const Conflict conflicts[] = {
      "missing by --frames"},
 };
 
-// Returns the first of names that the command line gives, other than `but`; NULL for none.
+// Returns the first name on the command line, or NULL. Skips the name `but`.
 static const char *first_given(const Options *options, const char *const names[NAMES_MOST],
                                const char *but)
 {
@@ -58,7 +59,7 @@ bool options_check_conflicts(const Options *options, Error *error)
     return true;
 }
 
-// Returns the first option of the command line that is valid for use and not for other.
+// Returns the first option on the command line that is valid for use but not for other, or NULL.
 static const char *first_for(const Options *options, unsigned use, unsigned other)
 {
     for (size_t i = 0; i < option_count; i++)
@@ -168,7 +169,7 @@ static bool check_frames(Options *options, Error *error)
     return true;
 }
 
-// Goals below this choose fp64: the error of fp32, 4e-5 measured, must be small beside the goal.
+// Error goals below this limit select fp64, because the error of fp32 was measured as 4e-5.
 #define ERROR_OF_FP64 1.6e-4
 
 static void choose_precision(Options *options)

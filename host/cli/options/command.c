@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of commands.  ./NAME opens a scene file with a command's name.
+// The table of commands. To open a scene file called like a command, users write ./NAME.
 #include "cli/options/command.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands.  The first operand may name one; otherwise clrt draws.
+// The commands. If the first operand names no command, clrt renders a scene.
 #pragma once
 
 #include "cli/options/option.h"
@@ -7,23 +7,24 @@
 typedef struct {
     const char *name;
     Action action;
-    unsigned use;         // FOR_...: the command takes options of that use
-    const char *operands; // the arguments after its name
+    unsigned use;         // one FOR_... bit; the command accepts the options with this bit
+    const char *operands; // the arguments after the name, for --help
     const char *help;
-    const char *two_operands; // describes its two file operands; NULL if it takes a scene
+    const char *two_operands; // describes two file operands for a message; NULL: one scene, or the
+                              // parts of merge
 } Command;
 
 extern const Command command_table[];
 extern const size_t command_count;
 
-// Returns NULL if no command has that name.
+// Returns the command called word, or NULL.
 const Command *command_named(const char *word);
 
-// Returns the command that an option selected; NULL for none.
+// Returns the command that an option such as --explain selects, or NULL.
 const Command *command_of_action(Action action);
 
-// Returns whether the command takes the option; NULL means drawing.
+// Returns whether the command accepts the option. If command is NULL, clrt renders.
 bool command_takes(const Command *command, const Option *option);
 
-// Writes the commands that take the option, as "clrt check or clrt compare".
+// Writes the commands that accept the option, for example "clrt check or clrt compare".
 void command_list_takers(const Option *option, char *text, size_t size);

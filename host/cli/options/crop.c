@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cropped pixel has the same bits as in the whole picture.
+// A pixel of the crop has the same bits as in the whole picture.
 #include "cli/options/crop.h"
 
 #include "base/number.h"

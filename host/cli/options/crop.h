@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The crop of a picture: "X0,Y0,X1,Y1" in pixels, or in fractions of the sides if a number has a
-// dot.
+// --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any of them has a dot.
 #pragma once
 
 #include "base/error.h"
@@ -17,9 +16,9 @@ typedef struct {
 // Parses text; returns false if it is malformed.
 bool crop_parse(Crop *crop, const char *text);
 
-// Turns the settings of a whole picture into those of its crop.  Fractions are rounded to the
-// nearest pixel edge, so adjacent crops fit together.
+// Replaces the settings of a whole picture by the crop's settings. Rounds fractions to the nearest
+// pixel edge, so adjacent crops neither overlap nor leave gaps.
 bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error);
 
-// Returns the corners of the crop, in pixels of the whole picture.
+// Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.
 json_t *crop_json(const RenderSettings *settings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// File numbers follow the convention of programs that split and join films.
+// File numbers follow the convention of programs that convert films to numbered pictures and back.
 #include "cli/options/frames.h"
 
 #include "base/array.h"

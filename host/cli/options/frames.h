@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frames of a run, which are views of the scene or steps of a turntable, and their file names.
+// The frames of a run and their file names. A frame is a view of the scene or a step of a
+// turntable.
 #pragma once
 
 #include "base/error.h"
@@ -25,10 +26,10 @@ void frames_complete(Frames *frames);
 // Returns the number of pictures.
 uint32_t frames_count(const Frames *frames);
 
-// Returns the number of the frame at a place, counted from 0.
+// Returns the number of the frame at position place of the sequence; place counts from 0.
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
-// Returns the file name of a frame.  Its number, with leading zeros, replaces the last '#'s of
-// pattern, or is inserted as .0001 before the ending.  The caller frees the name; NULL without
-// memory.
+// Returns the file name of a frame. The number with leading zeros replaces the last run of '#' in
+// pattern. Without '#', a number such as ".0001" precedes the ending. The caller frees the name.
+// Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);

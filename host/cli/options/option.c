@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses whole values: clrt rejects trailing text.
+// Parses the arguments of options. clrt rejects trailing text.
 #include "cli/options/option.h"
 
 #include "base/number.h"

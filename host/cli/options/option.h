@@ -22,29 +22,29 @@ typedef enum {
     OPTION_GROUPS
 } OptionGroup;
 
-// How a setting may change the picture.
+// How changing a setting may affect the picture's pixels.
 typedef enum {
-    CLASS_NONE,        // selects another picture, or affects none
-    CLASS_EXACT,       // same bits
-    CLASS_BOUNDED,     // the error has a stated bound
-    CLASS_STATISTICAL, // the error can be measured
+    CLASS_NONE,        // selects a different picture, or has no effect on pixels
+    CLASS_EXACT,       // all values produce the same bits
+    CLASS_BOUNDED,     // the error stays within a stated bound
+    CLASS_STATISTICAL, // the error has no bound, but can be measured
     OPTION_CLASSES
 } OptionClass;
 
 typedef enum {
-    OPTION_FLAG,   // no text; stores true in a bool
-    OPTION_ACTION, // no text; stores limit in the action
+    OPTION_FLAG,   // no argument; stores true in a bool
+    OPTION_ACTION, // no argument; stores limit in Options::action
     OPTION_COUNT,  // an integer from 1 to limit; stores a uint32_t
     OPTION_PART,   // a number above 0 and up to 1; stores a double
     OPTION_AREA,   // "WxH", each from 1 to limit; stores two uint32_t
-    OPTION_WORD,   // one of the words of argument; stores its index
-    OPTION_TEXT,   // any text; stores the pointer
-    OPTION_ODD     // calls set
+    OPTION_WORD,   // one of the words in Option::argument; stores its index as an int
+    OPTION_TEXT,   // any text; stores the pointer to it
+    OPTION_ODD     // calls Option::set
 } OptionKind;
 
-// The uses of clrt that take an option.
+// The commands and modes that accept an option.
 enum {
-    FOR_FILE = 1,      // a picture in a file, and --warm
+    FOR_FILE = 1,      // writing a picture to a file, and --warm
     FOR_WINDOW = 2,    // the window
     FOR_CHECK = 4,     // clrt check
     FOR_COMPARE = 8,   // clrt compare
@@ -53,22 +53,22 @@ enum {
     FOR_PIXEL = 64,    // --explain-pixel
     FOR_EXPLAIN = 128, // --explain
     FOR_PICTURE = FOR_FILE | FOR_WINDOW,
-    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // everything that traces rays
+    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // all uses that trace rays
 };
 
-// Stores text in options; text is NULL if the command line gives none.
+// Parses text and stores the value in options. text is NULL if the option has no argument.
 typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
     const char *name;
-    const char *argument; // NULL without one; words separated by '|' for a choice; in brackets, and
-                          // given with '=' alone, where it may be left out
-    char letter;          // 0 without a short form
+    const char *argument; // for --help; "a|b" for OPTION_WORD; "[=X]" if optional; NULL: no
+                          // argument
+    char letter;          // the short form; 0: none
     OptionKind kind;
     size_t offset;        // of the field in Options
-    int64_t limit;        // of OPTION_COUNT, OPTION_AREA and OPTION_ACTION
-    const char *fallback; // the text if the command line omits it
-    SetOption *set;       // of OPTION_ODD
+    int64_t limit;        // for OPTION_COUNT, OPTION_AREA and OPTION_ACTION
+    const char *fallback; // the text if the command line omits the argument
+    SetOption *set;       // for OPTION_ODD
     OptionGroup group;
     OptionClass class;
     unsigned uses;
@@ -77,8 +77,8 @@ typedef struct {
 
 bool option_argument_is_optional(const Option *option);
 
-// Returns whether the value is a file name.
+// Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
-// Stores text in the option's field, or rejects it with a message that names the option.
+// Parses text and stores the value in the option's field. On failure, the message names the option.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);

@@ -27,19 +27,20 @@ typedef enum {
     ACTION_EXPLAIN_SCENE
 } Action;
 
-// The exit status; 128 + signal if a signal stopped the process.
+// The exit status. If a signal stopped the process, the status is 128 + the signal's number.
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // by check, broken limits of compare, another hash, or a missed goal
+    EXIT_FAULTS = 1, // failing findings of check, exceeded limits of compare, an unexpected hash,
+                     // or a missed goal
     EXIT_USAGE = 2,
-    EXIT_SCENE = 3, // or an input picture
+    EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
     EXIT_OUTPUT = 5
 } ExitCode;
 
-// The treatment of triangles without area, which no ray can hit.
+// The treatment of triangles without area.
 typedef enum {
-    BAD_GEOMETRY_DROP, // drops those with two equal corners; the others are harmless
+    BAD_GEOMETRY_DROP, // drop those with two equal corners; keep the others, which no ray can hit
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 
@@ -52,7 +53,7 @@ typedef enum {
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 
-// The default side of a tile; a window chooses its own.
+// The default side of a tile in pixels. The window chooses other sizes.
 #define OPTIONS_TILE 128
 
 #define TIME_GOAL_MOST 1000000 // seconds
@@ -66,16 +67,17 @@ typedef enum {
 // Strings point into the command line.
 typedef struct {
     Action action;
-    uint64_t given;         // a bit for each row of option_table that the command line gives
-    const char *scene_path; // NULL for ACTION_WARM without a scene; ACTION_COMPARE's first picture
-    char **part_paths;      // of ACTION_MERGE; part_count of them
+    uint64_t given;         // bit i: the command line contains the option of row i of option_table
+    const char *scene_path; // the first picture of ACTION_COMPARE; NULL for ACTION_WARM without a
+                            // scene
+    char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
-    const char *other_path;  // ACTION_COMPARE's second picture; ACTION_CONVERT's output
-    const char *output_path; // "-": standard output; NULL without -o, which opens the window
+    const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
+    const char *output_path; // "-": standard output; NULL: no -o, so the window opens
     const char *format;      // one of image_format_names; NULL without an output
-    AovSet aovs;             // channels beside the colors
+    AovSet aovs;             // channels besides the colors
     uint32_t samples;        // per pixel and axis
-    double contrast;         // that --aa-adaptive leaves; 0 without it
+    double contrast;         // the argument of --aa-adaptive; 0 without it
     double error_goal;       // largest root mean square error; 0: no goal
     double time_goal;        // seconds of tracing; 0: no goal
     uint32_t view;           // from 1
@@ -85,17 +87,18 @@ typedef struct {
     bool resume;
     Frames frames;
     int64_t max_level; // negative: the scene's
-    bool fits_level;   // max_level is the least level whose error no file shows
+    bool fits_level;   // use the smallest max_level whose error is below half a step of the file's
+                       // values
     bool uses_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one
-    uint32_t threads;           // 0: all that the process may use
+    uint32_t threads;           // 0: as many as the process may use
     bool reference;             // measure the picture against a reference
-    const char *reference_path; // the reference's file; NULL for none
+    const char *reference_path; // the file for the reference; NULL: do not write it
     uint32_t reference_samples; // per pixel, an even number
-    uint32_t repeat;            // how often the picture is drawn, at least 1
+    uint32_t repeat;            // the number of times to draw the picture, at least 1
     uint32_t tile_width, tile_height;
-    uint32_t group_width, group_height; // 0: the kernels' default
+    uint32_t group_width, group_height; // 0: the kernel's default
     KernelRequest kernel;
     Specialization specialization;
     bool statistics;
@@ -103,19 +106,20 @@ typedef struct {
     Encoding encoding;
     bool no_metadata;          // in picture files
     bool hash;                 // print the hash of the pixels
-    const char *expected_hash; // of the pixels; NULL for none
-    const char *keys;          // to play in the window; NULL for none
-    uint32_t quit_after;       // frames in the window; 0: until the user quits
+    const char *expected_hash; // of the pixels; NULL: do not check
+    const char *keys;          // key presses to play in the window; NULL for none
+    uint32_t quit_after;       // the number of frames before the window closes; 0: the user closes
+                               // it
     BadGeometry bad_geometry;
     bool lists_json;       // of ACTION_LIST_DEVICES
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
     bool json;             // of ACTION_CHECK, ACTION_COMPARE, ACTION_EXPLAIN, ACTION_EXPLAIN_SCENE
-    const char *json_path; // NULL or "-": standard output, instead of the text
+    const char *json_path; // NULL or "-": print JSON instead of the text on standard output
     bool quiet, verbose;
 } Options;
 
-// Returns whether each pixel gets its own number of samples.
+// Returns whether the number of samples may differ between pixels.
 static inline bool options_are_adaptive(const Options *options)
 {
     return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;

@@ -12,7 +12,7 @@
 #include <getopt.h>
 #include <string.h>
 
-#define FIRST_LONG 256 // getopt values of long options, above all letters
+#define FIRST_LONG 256 // getopt returns this plus the row of a long option; larger than any letter
 
 static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
 {
@@ -55,8 +55,8 @@ static size_t option_of(int found)
     return 0;
 }
 
-// Settings may be repeated, and the last one counts.  A second file would be lost, so clrt rejects
-// it.
+// If a setting is repeated, the last value counts. A second file name is an error, because the
+// first file would not be written.
 static bool note_given(Options *options, size_t row, Error *error)
 {
     const Option *option = &option_table[row];
@@ -117,7 +117,7 @@ static bool read_scene(Options *options, int count, char **words, Error *error)
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
-// Reads all options and leaves optind at the first operand.
+// Reads all options. Afterwards optind is the index of the first operand.
 static bool read_options(Options *options, int count, char **words, Error *error)
 {
     struct option longs[OPTIONS_MOST + 1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In the order of the table.
+// The setters of OPTION_ODD, in the order of option_table.
 #include "cli/options/setters.h"
 
 #include "base/number.h"
@@ -135,7 +135,8 @@ bool set_reference_samples(Options *options, const char *text, Error *error)
     int64_t samples;
     const char *end = text + strlen(text);
     options->reference = true;
-    // Each half makes a picture, and their difference measures the reference's own error.
+    // Each half of the samples makes a picture. The two pictures' difference measures the
+    // reference's own error.
     if (integer_parse(text, end, &samples) != end || samples < 2 ||
         samples > REFERENCE_SAMPLES_MAX || samples % 2 != 0)
         return error_set(error,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table itself, in the order of --help.
+// The table of options, in the order of --help.
 #include "cli/options/table.h"
 
 #include "cli/options/setters.h"

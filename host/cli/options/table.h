@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// All options of the command line.  The parser, --help, the man page and the completions iterate
-// over it.
+// The table of all options. The parser, --help, the man page and the completions iterate over it.
 #pragma once
 
 #include "cli/options/option.h"
 
 #define OPTIONS_MOST 64
 
-// In the order of their groups.
+// Sorted by group.
 extern const Option option_table[];
 extern const size_t option_count; // at most OPTIONS_MOST
 
@@ -18,5 +17,5 @@ extern const char *const option_group_names[OPTION_GROUPS];
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 
-// Returns whether the command line gives the option, with any value.  The table must contain it.
+// Returns whether the command line contains the option. name must be in option_table.
 bool option_is_given(const Options *options, const char *name);
