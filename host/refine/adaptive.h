@@ -12,8 +12,8 @@
 // The number of new samples of a subdivided cell.
 #define ADAPTIVE_CUT (GROUP_CELLS - 1)
 
-// Seams are located to this fraction of the threshold. Halving a seam's interval takes one sample,
-// subdividing a cell eight.
+// Bisection of a seam stops at this fraction of the threshold. The fraction is small because
+// halving an interval takes one sample, but subdividing a cell takes eight.
 #define ADAPTIVE_SEAM_PART 0.15f
 
 typedef struct {
@@ -22,8 +22,8 @@ typedef struct {
     FrameData frame;
     RefineTree tree;
     PixelContrasts pixel_contrasts;
-    Footprints footprints; // of small spheres, whose cells are always subdivided
-    ThinParts thin_parts;  // of meshes, whose cells are always subdivided
+    Footprints footprints; // small spheres; their cells are always subdivided
+    ThinParts thin_parts;  // thin parts of meshes; their cells are always subdivided
     uint64_t samples;      // taken
 } Adaptive;
 
@@ -33,7 +33,7 @@ typedef struct {
     const FlatScene *flat;    // of the renderer
     const CameraData *camera; // made for REFINE_GRID samples
     Crew *crew;               // threads for the work, NULL for none
-    const Scene *scene;       // of the renderer, too
+    const Scene *scene;       // of the renderer
     const Normalization *normalization;
 } AdaptiveSetup;
 
@@ -42,11 +42,11 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
                    Error *error);
 
 // Refines until no cell's contrast exceeds the threshold, or until the observer stops it. The
-// contrast is a fraction, weighted by the cell's part of a pixel.
+// contrast is a color difference in [0, 1] times the cell's fraction of a pixel.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
-// Returns whether the observer has not stopped it.
+// Returns whether the last pass completed without a stop by the observer.
 bool adaptive_is_whole(const Adaptive *adaptive);
 
 // Stores the picture in its current state.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bits of a pixel's cells, and of a row of pixels, start at a word boundary.
+// In a set of pixels, each row starts at a word boundary. In other sets, each pixel does.
 #include "refine/cell_set.h"
 
 #include <stdlib.h>
@@ -113,7 +113,8 @@ void cell_set_clear_pixel(CellSet *set, uint32_t column, uint32_t row)
         atomic_store_explicit(&set->words[place.word + i], 0, memory_order_relaxed);
 }
 
-// Returns the bits of a row's word that lie in columns first to end - 1.
+// Returns a mask of the bits that lie in columns first to end - 1. word is the index of a word in
+// its row.
 static uint32_t mask_of(uint32_t word, uint32_t first, uint32_t end)
 {
     const uint32_t start = word * WORD_BITS;
@@ -150,7 +151,8 @@ void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom)
     memset((char *)set->memory + top * row, 0, (bottom - top) * row);
 }
 
-// Returns 64 pixels of a row: a word between two half words. Pixels outside of the picture are 0.
+// Returns 64 pixels of a row: the 32 pixels of a word, with 16 pixels on each side. Pixels outside
+// of the picture are 0.
 static uint64_t pixels_around(const CellSet *set, int64_t row, int64_t word)
 {
     uint32_t parts[3] = {0};

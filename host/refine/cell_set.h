@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets of a picture's cells of one level, with a bit per cell. Threads may fill a set concurrently.
-// Sets of cells smaller than a pixel have room only for pixels with a slot.
+// Sets of cells of one level, with a bit per cell. Threads may add cells concurrently. To save
+// memory, cells smaller than a pixel have room only in pixels that received a slot.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The slots of pixels, numbered from 1; 0 if a pixel has none.
+// Maps pixels to their slots. Slots are numbered from 1, and 0 means no slot.
 typedef struct {
     uint32_t width, height;      // of the picture
     _Atomic uint32_t *of_pixels; // row by row
@@ -19,12 +19,12 @@ typedef struct {
 bool slots_make(Slots *slots, uint32_t width, uint32_t height, Error *error);
 void slots_free(Slots *slots);
 
-// Gives a pixel a slot. Called at most once per pixel.
+// Gives a pixel a slot. Call it at most once per pixel.
 void slots_add(Slots *slots, uint32_t column, uint32_t row);
 
 typedef struct {
     const Slots *slots;
-    uint32_t scale; // cells along a pixel's side: 1 for a set of pixels
+    uint32_t scale; // cells along a pixel's side; 1 in a set of pixels
     union {
         _Atomic uint32_t *words;
         void *memory;
@@ -38,11 +38,13 @@ static inline CellSet cell_set_of(const Slots *slots, uint32_t scale)
     return (CellSet){.slots = slots, .scale = scale};
 }
 
-// Makes room for all pixels if scale is 1, otherwise for all pixels with a slot. Keeps the set.
+// Makes room for all pixels if scale is 1, otherwise for all pixels with a slot. Keeps the set's
+// cells.
 bool cell_set_make_room(CellSet *set, Error *error);
 void cell_set_free(CellSet *set);
 
-// Returns whether the cell of that column and row is in the set. A cell without room is not.
+// Returns whether the cell of that column and row is in the set. Returns false for cells without
+// room.
 bool cell_set_has(const CellSet *set, uint32_t column, uint32_t row);
 
 // Adds a cell if there is room. Returns whether the cell is new.
@@ -65,5 +67,5 @@ uint32_t pixel_set_bits(const CellSet *set, uint32_t left, uint32_t row);
 void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom);
 
 // A corner is full if the set contains all four pixels around it. Sets a row of wide to the pixels
-// that have a full corner, or whose neighbor has one.
+// with a full corner, and to their eight neighbors.
 void pixel_set_widen_row(CellSet *wide, const CellSet *set, uint32_t row);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The contrast of a sample is twice its distance from the mean of its two neighbors, so that a step
-// between two plain surfaces counts in full. Between different surfaces it is at least their color
-// difference. In groups, seams locate the steps, and contrast is what seams may have missed.
+// The bend of a sample is twice its distance from the mean of its two neighbors. A step between two
+// uniform surfaces thus counts in full. Without a step, contrast is the bend. Seams locate steps,
+// so lower weights apply to contrast beside them.
 #include "refine/contrast.h"
 
-// Weights of contrasts next to a seam, and in a pixel with a seam.
+// Weights of color differences and of bends beside a seam, and of contrast in a pixel with a seam.
 #define STEP_WEIGHT  0.5f
 #define BEND_WEIGHT  0.25f
 #define PIXEL_WEIGHT 0.5f
@@ -42,7 +42,8 @@ float contrast_past_seams(float contrast)
     return PIXEL_WEIGHT * contrast;
 }
 
-// The sample beyond an end of a line is twice as far from the next cell.
+// Computes the contrasts of a line's cells. Each sample beyond the line is twice as far from the
+// next cell as cells are from each other.
 static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellContrast found[])
 {
     static const float weights[GROUP_SIDE] = {1 / 3.0f, 0.5f, 2 / 3.0f};
@@ -59,7 +60,7 @@ static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellCon
     }
 }
 
-// Adds the contrasts of a line of cells, which starts at first and has the given stride.
+// Raises the contrasts of a line's cells to the contrasts along the line.
 static void add_line(const CellGroup *group, uint32_t first, uint32_t stride,
                      CellContrast contrast[GROUP_CELLS])
 {

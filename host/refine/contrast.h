@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Estimates the remaining error of cells from samples and their neighbors: contrast in the cell
-// times the cell's fraction of the pixel. A linear slope has no contrast, since its mean is the
-// center.
+// Estimates the remaining error of a cell from its sample and neighboring samples: contrast times
+// the cell's fraction of the pixel. Colors that vary linearly have no contrast, because the center
+// sample equals their mean.
 #pragma once
 
 #include "refine/refine_tree.h"
@@ -12,7 +12,8 @@
 // chance, although an outline runs between them.
 #define CONTRAST_OUTLINE_WEIGHT 2
 
-// A step has a seam that locates it, so that less of its contrast remains.
+// If is_step, the color changes abruptly. A seam then locates the step, so that less contrast
+// remains.
 typedef struct {
     float value;
     bool is_step;
@@ -29,14 +30,14 @@ static inline float contrast_kept(CellContrast contrast)
     return contrast.is_step ? -contrast.value : contrast.value;
 }
 
-// Returns the remaining contrast of a pixel's steps once its seams are located.
+// Returns the contrast that remains of a pixel's step after its seams are located.
 float contrast_past_seams(float contrast);
 
-// Returns the contrast of a cell beside a group, across their common side. It is 0 if all samples
-// along the side see the same surface.
+// Returns the contrast between a group and the cell beyond a side. other is that cell's sample,
+// level its level. The contrast is 0 if all samples along the side see the same surface.
 float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
                       uint32_t level);
 
-// Stores the contrasts of a group that has its samples: of its cells, subdivided or not, and of the
-// cells beyond its sides at the time the group was created.
+// Computes group->contrasts and group->across. The group must have all its samples. Later
+// subdivisions do not change the results.
 void contrast_keep(CellGroup *group);

@@ -94,7 +94,7 @@ void footprints_free(Footprints *footprints)
     *footprints = (Footprints){0};
 }
 
-// Returns whether the cell with that center and side must be subdivided to meet a sphere.
+// Returns whether the cell with that center and side must be subdivided to hit the sphere.
 static bool cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t side)
 {
     const double reach = side / 2.0 + footprint->outer;
@@ -103,7 +103,7 @@ static bool cuts(const Footprint *footprint, const uint32_t middle[2], uint32_t 
            fabs((double)footprint->y - middle[1]) <= reach;
 }
 
-// Returns the first footprint at or after the pixel.
+// Returns the first footprint of the pixel or of a later one.
 static const Footprint *first_of(const Footprints *footprints, uint32_t pixel)
 {
     size_t low = 0, high = footprints->list.count;

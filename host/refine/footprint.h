@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the cells to subdivide so that a sample meets each sphere smaller than a pixel, regardless
-// of the samples around it.
+// Finds the cells to subdivide so that a sample hits each sphere smaller than a pixel, regardless
+// of contrast.
 #pragma once
 
 #include "refine/refine_tree.h"
@@ -9,7 +9,7 @@
 typedef struct {
     uint32_t pixel;     // row by row
     float x, y;         // of the center
-    float inner, outer; // radii of a disk within its outline, and of one around it
+    float inner, outer; // radii of disks inside and around its outline
 } Footprint;
 
 typedef struct {
@@ -23,5 +23,5 @@ bool footprints_make(Footprints *footprints, const FrameData *frame, const Spher
                      Error *error);
 void footprints_free(Footprints *footprints);
 
-// Returns a bit for each cell of a group that must be subdivided to meet a sphere.
+// Returns a bit for each cell of a group that must be subdivided to hit a sphere.
 unsigned footprints_marks(const Footprints *footprints, const CellGroup *group);

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Works in rounds. Each raises the strata's fractions and advances the pixels that they choose.
+// Each round raises the fractions of some strata and advances the pixels that these fractions
+// select.
 #include "refine/goal.h"
 
 #include "base/clock.h"
 
 #include <math.h>
 
-// After this many rounds the error goal is abandoned.
+// After this many rounds, clrt gives up the error goal.
 #define ROUNDS_MOST 300
 
-// Parts of the time budget. A round takes PART_OF_ROUND of the remaining time. Below PART_OF_LAST
-// of the total, one round takes the rest. Less than PART_UNSPENT is not worth another round.
+// A round takes PART_OF_ROUND of the remaining time. If less than PART_OF_LAST of the budget
+// remains, one round takes the rest. Less than PART_UNSPENT stays unspent.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03
 
-// The target of a round with a time budget, as a fraction of the current mean square error.
+// With a time budget, a round aims at this fraction of the current bound of the mean square error.
 #define FALL_OF_ROUND 0.25
 
 static void describe(const Ladder *ladder, GoalOutcome *outcome)

@@ -8,11 +8,11 @@
 // The root mean square error of the picture's values, before they are rounded for a file.
 typedef struct {
     double estimate;
-    double bound; // exceeds the error with a confidence of 95 %
+    double bound; // the error is lower with 95 % confidence
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most `most`, or no step would lower it.
+// Refines until the bound is at most `most`, or until no further samples would lower it.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.

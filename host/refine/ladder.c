@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A round lists the chosen pixels in picture order, traces their samples, and records their
-// changes in that order. Floating-point sums therefore do not depend on threads.
+// A round lists the chosen pixels in picture order, traces their samples, and records their changes
+// in the same order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
 #include "refine/bends.h"
@@ -10,11 +10,13 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Seeds of hashes: of a pixel's scramble, and of its rungs, counted from RUNG_SEED.
+// Seeds of a pixel's hashes: SCRAMBLE_SEED for its samples, RUNG_SEED + rung for its selection on a
+// rung.
 #define SCRAMBLE_SEED 0
 #define RUNG_SEED     1
 
-// Samples per request up to the rung of REQUEST_SAMPLES. Above it, requests are full.
+// Samples of a request for the first REQUEST_SAMPLES samples of a pixel. Later requests have
+// REQUEST_SAMPLES samples.
 #define FIRST_SAMPLES 4
 
 static uint64_t hash_of(uint32_t pixel, uint64_t seed)
@@ -40,7 +42,7 @@ static void enter(Ladder *ladder, size_t pixel, uint32_t stratum, double feature
     strata_enter(&ladder->statistics, stratum, (double)ladder->features[pixel]);
 }
 
-// Puts all pixels on rung 0, in strata chosen by the samples at their centers.
+// Assigns all pixels to strata of rung 0 by the samples at their centers.
 static bool enter_all(Ladder *ladder, Error *error)
 {
     const size_t pixels = ladder->statistics.pixels;
@@ -104,7 +106,7 @@ void ladder_close(Ladder *ladder)
     *ladder = (Ladder){0};
 }
 
-// The samples that take a pixel from a rung to the next.
+// The samples that advance a pixel by one rung.
 typedef struct {
     uint32_t first;   // index of its first sample
     uint32_t samples; // of a request
@@ -140,7 +142,8 @@ static double mean_square_change(const float before[3], const float after[3])
     return sum / 3;
 }
 
-// Returns the sums of a pixel, and allocates them on rung 0. Returns NULL if memory runs out.
+// Returns the sums of a pixel, or NULL if memory is exhausted. Allocates the sums of a pixel on
+// rung 0.
 static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
 {
     if (ladder->sum_places[pixel] == 0) {
@@ -151,7 +154,7 @@ static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
     return &ladder->sums.data[ladder->sum_places[pixel]];
 }
 
-// Moves the pixel to its next rung with the sums of its requests.
+// Advances the pixel by one rung. answers are the sums of its requests.
 static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Error *error)
 {
     const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
@@ -173,8 +176,7 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
     return true;
 }
 
-// Traces the requests of the listed pixels, moves the pixels to their next rungs, and empties the
-// list.
+// Traces the requests of the listed pixels, advances the pixels, and empties the list.
 static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
 {
     PixelRequests *requests = &ladder->requests;
@@ -208,12 +210,13 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// The choice of the pixels that advance, in chunks.
+// Selects the pixels that advance, in chunks.
 typedef struct {
     const Ladder *ladder;
-    double fractions[STRATA_COUNT]; // 0 if all chosen pixels have advanced
-    uint32_t *pixels;               // of each chunk, from its first pixel's index on
-    uint32_t *counts;               // of each chunk
+    double fractions[STRATA_COUNT]; // 0 if no further pixel is to be selected
+    uint32_t *pixels;               // each chunk stores its selection at the index of its first
+                                    // pixel
+    uint32_t *counts;               // the number of selected pixels of each chunk
 } Choosing;
 
 // Returns a number in [0, 1) that is constant while the pixel stays on its rung.
@@ -222,8 +225,8 @@ static double chance_of(const Ladder *ladder, uint32_t pixel)
     return (double)(hash_of(pixel, RUNG_SEED + rung_of(ladder, pixel)) >> 11) * 0x1p-53;
 }
 
-// Selects the strata whose requests have that many samples. A stratum with unchanged fraction and
-// pixels has no new pixel to choose; skipping it avoids most hashes.
+// Copies the fractions of the strata whose requests have that many samples. If a stratum's fraction
+// and pixels have not changed, it has no new pixel to select. Skipping it avoids most hashes.
 static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
 {
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
@@ -254,7 +257,7 @@ static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
     choosing->counts[chunk] = (uint32_t)(chosen - (choosing->pixels + first));
 }
 
-// Moves the chosen pixels of all chunks together, and returns their number.
+// Moves the selected pixels of all chunks to the start of the array, and returns their number.
 static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
 {
     uint64_t count = 0;
@@ -266,7 +269,8 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
     return count;
 }
 
-// Advances pixels whose requests have that many samples, and adds their number to *advanced.
+// Advances the selected pixels whose requests have that many samples. Adds their number to
+// *advanced.
 static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {
     const uint32_t pixels = (uint32_t)ladder->statistics.pixels, chunks = chunk_count(pixels);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A picture whose pixels climb a ladder of samples: the center alone, then 4, 16, 64, 256 and 1024
-// points of a per-pixel sequence. Strata decide how many pixels advance, and hashes of their
-// positions decide which. The picture therefore depends neither on order nor on the device.
+// points of a per-pixel sequence. Strata decide how many pixels advance, and hashes of pixel
+// positions decide which. The picture therefore depends neither on the order of work nor on the
+// device.
 #pragma once
 
 #include "base/array.h"
@@ -19,7 +20,7 @@ typedef struct {
     Framebuffer *picture;  // borrowed; means of the pixels' samples
     float *features;       // of each pixel, for its stratum
     uint8_t *strata;       // of each pixel
-    uint32_t *sum_places;  // of each pixel: index in sums, 0 on rung 0
+    uint32_t *sum_places;  // index in sums of each pixel; 0 on rung 0
     ARRAY(PixelSums) sums; // from index 1
     Strata statistics;
     Strata chosen;    // the statistics of the last choice of pixels
@@ -34,12 +35,12 @@ typedef struct {
     const RenderObserver *observer; // may stop it; or NULL
 } LadderSetup;
 
-// Takes one sample per pixel. Fails if the picture exceeds these limits.
+// Takes one sample per pixel. Fails if the picture exceeds LADDER_SIDE_MOST or LADDER_PIXELS_MOST.
 bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Advances the pixels chosen by the fractions of their strata by one rung, and counts them in
-// *advanced. If the observer stops it, some have not advanced.
+// Advances the pixels selected by their stratum's fraction by one rung. Stores their number in
+// *advanced. If the observer stops it, some of them have not advanced.
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
 // Returns the number of samples that a pixel has taken.

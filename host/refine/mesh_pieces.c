@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A concurrent union-find over vertices. Each vertex refers to a lower vertex of its piece, or to
-// itself if it is the lowest. Threads redirect only vertices that refer to themselves, so that the
-// lowest vertex of a piece does not depend on the order of work.
+// A concurrent union-find over vertices. Each vertex refers to a vertex with a lower index in its
+// piece; the root refers to itself. Threads join pieces by linking a root to a lower root. The root
+// of a piece is therefore its lowest vertex, regardless of the order of work.
 #include "refine/mesh_pieces.h"
 
 #include "base/array.h"
@@ -12,11 +12,11 @@
 typedef struct {
     const Mesh *mesh;
     _Atomic uint32_t *lower; // of each vertex
-    _Atomic size_t joints;   // vertices that refer to others
+    _Atomic size_t joints;   // vertices that are no roots
     _Atomic bool are_many;
 } Joining;
 
-// Returns the lowest vertex of the piece, and shortens the path to it.
+// Returns the root of the vertex's piece, and shortens the path to the root.
 static uint32_t lowest_of(_Atomic uint32_t *lower, uint32_t vertex)
 {
     uint32_t next = atomic_load_explicit(&lower[vertex], memory_order_relaxed);
@@ -30,7 +30,7 @@ static uint32_t lowest_of(_Atomic uint32_t *lower, uint32_t vertex)
     return vertex;
 }
 
-// Returns whether the two were not joined before.
+// Joins the pieces of two vertices. Returns false if both were in one piece.
 static bool join(_Atomic uint32_t *lower, uint32_t one, uint32_t other)
 {
     for (;;) {
@@ -91,7 +91,8 @@ static bool is_small(uint32_t triangles)
     return triangles > 0 && triangles < PIECE_TRIANGLES;
 }
 
-// Computes the start of each piece by its lowest vertex. Small pieces come first, as one piece.
+// Computes the start of each piece, indexed by its root, and the ends of all pieces. Small pieces
+// come first and have one common end.
 static void lay_out(MeshPieces *pieces, const uint32_t *sizes, uint32_t *starts, size_t count)
 {
     uint32_t next = 0;
@@ -134,7 +135,8 @@ static bool find_pieces(MeshPieces *pieces, Joining *joining, Crew *crew, Error 
     crew_run(crew, chunk_count((uint32_t)joining->mesh->vertex_count), refer_to_themselves,
              joining);
     crew_run(crew, chunk_count(triangles), join_triangles, joining);
-    // The vertices that are not joined may belong to no triangle.
+    // If the joints do not connect all vertices, there may be several pieces, or vertices without
+    // triangles.
     if (joining->joints + 1 < joining->mesh->vertex_count)
         crew_run(crew, chunk_count(triangles), see_whether_many, joining);
     if (joining->are_many)

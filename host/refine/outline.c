@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a convex polygon between two horizontal lines is convex. The cells of a row that it
-// touches are therefore consecutive, from its smallest to its largest x there.
+// The part of a convex polygon between two horizontal lines is convex. In each row, the polygon
+// therefore touches consecutive cells, from its smallest to its largest x between the row's edges.
 #include "refine/outline.h"
 
 #include <math.h>
@@ -56,8 +56,8 @@ static double perimeter_of(const Outline *outline)
     return perimeter;
 }
 
-// The area of a triangle is its perimeter times half its inner radius. The area of any convex shape
-// is between that and twice that.
+// The area of a triangle is half its perimeter times its inradius. The area of any other convex
+// polygon is between this product and twice as much.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
     if (outline->box.high[0] - outline->box.low[0] < diameter ||
@@ -67,7 +67,8 @@ bool outline_is_thinner(const Outline *outline, double diameter)
     return (outline->count == 3 ? 4 : 2) * area < diameter * perimeter_of(outline);
 }
 
-// Computes the smallest and the largest x for y from low to high. Returns false if there is none.
+// Computes the smallest and the largest x of the polygon where y is in [low, high]. Returns false
+// if the polygon has no point there.
 static bool find_extent(const Outline *outline, double low, double high, double extent[2])
 {
     extent[0] = INFINITY;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Convex polygons in the picture: which cells they touch, which cell centers they contain, and how
-// thick they are. The unit of length is a cell of the last level.
+// Convex polygons in the picture. Finds the cells that a polygon touches and the cell centers that
+// it contains, and compares its thickness. The unit of length is a cell of the last level.
 #pragma once
 
 #include <stdbool.h>
@@ -16,8 +16,8 @@ typedef struct {
 typedef struct {
     uint32_t count;
     double corners[OUTLINE_CORNERS][2]; // in order around the polygon
-    double slopes[OUTLINE_CORNERS];     // of the sides from each to the next: x by y
-    OutlineBox box;                     // around it
+    double slopes[OUTLINE_CORNERS];     // dx/dy of the side from each corner to the next
+    OutlineBox box;                     // around the corners
 } Outline;
 
 // The square cells of one level of a picture. Their samples are at their centers.
@@ -59,7 +59,8 @@ static inline CellRange cells_sampled(double low, double high, double per_length
                        outline_limit(outline_floor(high * per_length - 0.5) + 1, count)};
 }
 
-// Return the cells that a box touches, and the cells whose centers it contains.
+// box_touched returns the cells that a box touches along an axis. box_sampled returns the cells
+// whose centers the box contains.
 static inline CellRange box_touched(const OutlineBox *box, const CellGrid *grid, int axis)
 {
     return cells_touched(box->low[axis], box->high[axis], grid->per_length, grid->counts[axis]);
@@ -77,6 +78,7 @@ double outline_signed_area(const Outline *outline);
 // may return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// Return the cells of a row that the polygon touches, and the cells whose centers it contains.
+// outline_touched returns the cells of a row that the polygon touches. outline_sampled returns the
+// cells whose centers the polygon contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);

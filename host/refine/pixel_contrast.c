@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows are copied in strips, channel by channel, so that compilers vectorize the comparisons. A
-// strip includes its neighbors on both sides. At the picture's edge a pixel is its own neighbor.
+// strip also holds the pixels beside it. At the picture's edge, a pixel is its own neighbor.
 #include "refine/pixel_contrast.h"
 
 #include <stdlib.h>
@@ -9,7 +9,8 @@
 #define STRIP_SPAN   (STRIP + 2 * PACKET_SIDE)
 #define ROWS_OF_TASK 16
 
-// The pixels of a strip in one row start at PACKET_SIDE, between those of the neighboring blocks.
+// One row of a strip. The strip's pixels start at index PACKET_SIDE, between the pixels of the
+// neighboring blocks.
 typedef struct {
     float channels[3][STRIP_SPAN];
     uint32_t signatures[STRIP_SPAN];
@@ -57,7 +58,8 @@ static void load_row(const RefineTree *tree, uint32_t left, uint32_t y, uint32_t
         copy_pixel(row, PACKET_SIDE + count, PACKET_SIDE + count - 1);
 }
 
-// Adds the differences of a strip's pixels from pixels of another row, shift places to the right.
+// Raises each step to the color difference from the pixel of another row, shift places to the
+// right. Pixels on the same surface have no step.
 static void add_steps(const StripRow *row, const StripRow *other, int shift, float steps[STRIP])
 {
     for (int i = 0; i < STRIP; i++) {
@@ -71,8 +73,8 @@ static void add_steps(const StripRow *row, const StripRow *other, int shift, flo
     }
 }
 
-// Adds twice the distances of pixels from the means of two neighbors: shift places to the left in
-// the first row and to the right in the last row.
+// Raises each bend to twice the pixel's distance from the mean of two neighbors. They are shift
+// places to the left in rows[0] and shift places to the right in rows[2].
 static void add_bends(const StripRow *const rows[3], int shift, float bends[STRIP])
 {
     for (int channel = 0; channel < 3; channel++)
@@ -84,7 +86,8 @@ static void add_bends(const StripRow *const rows[3], int shift, float bends[STRI
         }
 }
 
-// Pixels at the picture's edge have no opposite neighbors across it, and so no bend.
+// Computes the contrasts of one row. A pixel at the picture's edge has no bend across the edge,
+// because a neighbor is missing.
 static void compare_row(const Comparing *comparing, const StripRow *const rows[3], uint32_t left,
                         uint32_t y, uint32_t count)
 {
@@ -109,7 +112,7 @@ static void compare_row(const Comparing *comparing, const StripRow *const rows[3
     }
 }
 
-// Three buffers hold the rows around the current one, in turn.
+// places[y % 3] holds row y, so three buffers hold the current row and both adjacent rows.
 static void compare_strip(const Comparing *comparing, uint32_t left, uint32_t top, uint32_t bottom)
 {
     const RefineTree *tree = comparing->tree;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the contrast of every pixel from the first samples. It stays valid while the picture is
-// refined, because first samples never change.
+// Computes the contrast of every pixel from the samples at pixel centers. Refinement does not
+// change these samples, so the contrasts stay valid.
 #pragma once
 
 #include "base/parallel.h"
@@ -12,7 +12,8 @@ typedef struct {
     float *values;
 } PixelContrasts;
 
-// Weights color steps between different surfaces by CONTRAST_OUTLINE_WEIGHT.
+// Computes the contrasts. Weights color steps between different surfaces by
+// CONTRAST_OUTLINE_WEIGHT.
 bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Crew *crew,
                           Error *error);
 void pixel_contrasts_free(PixelContrasts *contrasts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Most patches of pixels need nothing and are skipped as a whole. Threads list the pixels to refine
-// in their own patches, and one thread applies the lists in order.
+// Examines patches of 32 x PACKET_SIDE pixels, because most patches need no refinement and are
+// skipped as a whole. Threads list the pixels to refine, and one thread applies the lists in order.
 #include "refine/pixel_marks.h"
 
 #include <stdlib.h>

@@ -25,8 +25,8 @@ void pixel_requests_free(PixelRequests *requests)
 }
 
 // Coordinate x of a point is its bit-reversed index. The bits of y are sums of binomial
-// coefficients mod 2. Both are linear over GF(2): the coordinates of first + i are those of first
-// XOR those of i. The kernel computes the latter.
+// coefficients modulo 2. Both are linear over GF(2), so point first + i equals point first XOR
+// point i. This function computes point first; the kernel computes point i.
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
 {
     uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;

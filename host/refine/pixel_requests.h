@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces requests for samples of pixels, in lists of bounded size, and returns their sums.
+// Traces requests for samples of pixels, in lists of bounded size, and returns the sums of the
+// samples.
 #pragma once
 
 #include "render/renderer.h"
@@ -21,19 +22,19 @@ bool pixel_requests_make(PixelRequests *requests, Error *error);
 void pixel_requests_free(PixelRequests *requests);
 
 // Returns a request for samples first to first + samples - 1 of a pixel. samples is 4 or
-// REQUEST_SAMPLES, and first is a multiple of it. The positions are points of Sobol's sequence in
-// two dimensions ("On the distribution of points in a cube and the approximate evaluation of
-// integrals", 1967), scrambled by XOR with the low bits of hash.
+// REQUEST_SAMPLES, and first is a multiple of samples. The positions are points of the
+// two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution of
+// points in a cube and the approximate evaluation of integrals", 1967).
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
                            uint64_t hash);
 
 // Returns whether the last trace completed without a stop by the observer.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums. Some are missing if the observer stopped it.
+// Traces the requests and stores their sums. If the observer stops it, some sums are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
-// Renders a picture of the frame's size from the centers of its pixels.
+// Renders a picture of the frame's size with one sample at each pixel's center.
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
 
 // Computes the mean color of that many samples.

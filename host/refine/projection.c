@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clips in homogeneous coordinates (x * depth, y * depth, depth), behind the eye as at the
-// picture's sides. After the division, no coordinate is large.
+// Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
+// planes around the picture. After the division, all coordinates are therefore bounded.
 #include "refine/projection.h"
 
 #include "refine/refine_tree.h"
@@ -9,7 +9,7 @@
 
 #define PLANES 5
 #define MARGIN (2 * REFINE_GRID)
-#define NEAR   1e-30 // the scene's largest side is 1 to 2
+#define NEAR   1e-30 // the longest side of the normalized scene is 1 to 2
 
 static Vec3 vector_of(const float components[3])
 {
@@ -122,13 +122,13 @@ static void keep_inside(const Projection *projection, Polygon *polygon, int plan
     *polygon = kept;
 }
 
-// Next to the eye, rounding may move corners arbitrarily far.
+// Limits a coordinate, because rounding may move corners next to the eye arbitrarily far.
 static double limited(double value, double size)
 {
     return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
 }
 
-// Clips a triangle that is partly outside. There are few of them.
+// Clips a triangle that is partly outside. Few triangles are.
 static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
 {
     Polygon polygon = {.count = 3};

@@ -8,29 +8,29 @@
 
 typedef struct {
     float x, y;       // in cells of the last level, if outside is 0
-    uint32_t outside; // a bit for each clipping plane that the point is beyond
+    uint32_t outside; // bit i: the point is beyond clipping plane i
 } ProjectedPoint;
 
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // right and down give cells of the last level at depth 1
+    Vec3 eye, right, down, forward; // dot products with right and down are in cells of the last
+                                    // level at depth 1
     double width, height;           // of the picture, in cells of the last level
     ProjectedPoint *points;         // of the mesh's vertices
 } Projection;
 
-// Returns the projection of a frame's camera, which must be made for REFINE_GRID samples, and of no
-// mesh yet.
+// Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
-// Project a mesh's vertices, and free them.
+// projection_begin projects the vertices of a mesh. projection_end frees them.
 bool projection_begin(Projection *projection, const MeshObject *object, Crew *crew, Error *error);
 void projection_end(Projection *projection);
 
-// Computes the box around a triangle, front or back. Returns false if the triangle is partly
-// outside.
+// Computes the box around a triangle, seen from either side. Returns false if a corner is beyond a
+// clipping plane.
 bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box);
 
-// Returns false if the triangle is invisible: it is outside, seen edge-on, or one-sided and seen
-// from behind.
+// Computes the clipped outline of a triangle. Returns false if the triangle is outside, seen
+// edge-on, or one-sided and seen from behind.
 bool projection_outline(const Projection *projection, size_t triangle, Outline *outline);

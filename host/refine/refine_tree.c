@@ -82,8 +82,8 @@ static bool place_beyond(const RefineTree *tree, const CellGroup *group, CellSid
     return place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID;
 }
 
-// Descends from a pixel to the cell at a place, to that level at most, through groups with an index
-// below end. Returns the group that subdivides the cell, or 0.
+// Finds the smallest cell at a place, down to that level, through groups with an index below end.
+// Returns the group that subdivides this cell, or 0.
 static uint32_t descend(const RefineTree *tree, const uint32_t place[2], uint32_t level,
                         uint32_t end, CellName *name)
 {
@@ -125,8 +125,8 @@ const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t p
     return refine_tree_sample(tree, &name);
 }
 
-// Copies the sample beyond a side of a group from the adjacent cell of one level up or more. At the
-// picture's edge, copies the group's own sample.
+// Copies the sample of the adjacent cell beyond a side, which is as large as the group or larger.
+// At the picture's edge, copies the group's own sample.
 static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
 {
     uint32_t place[2];
@@ -162,8 +162,8 @@ bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *erro
     return true;
 }
 
-// Finds the two neighbors of a pixel along an axis. At the picture's edge, this is the pixel
-// itself.
+// Finds the two neighbors of a pixel along an axis. At the picture's edge, the pixel replaces the
+// missing neighbor.
 static void neighbors_along(const RefineTree *tree, uint32_t x, uint32_t y, uint32_t stride,
                             const SampleData *beyond[SEAM_ENDS])
 {
@@ -248,7 +248,7 @@ static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
     }
 }
 
-// Returns the number of samples that a group added.
+// Returns the number of samples that a group and its subdivisions have added.
 static uint32_t count_added(const RefineTree *tree, uint32_t number)
 {
     const CellGroup *group = &tree->groups.data[number];

@@ -7,7 +7,7 @@
 #include "image/framebuffer.h"
 #include "refine/seam.h"
 
-#define REFINE_LEVELS 4  // subdivisions of a pixel at most
+#define REFINE_LEVELS 4  // the deepest level; pixels have level 0
 #define REFINE_GRID   81 // cells of the last level along a pixel's side
 #define GROUP_MIDDLE  4
 
@@ -19,20 +19,21 @@ typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellS
 typedef struct {
     uint32_t x, y;                     // of the center, in cells of the last level
     uint32_t level;                    // of the cells, from 1
-    SampleData beyond[SIDE_COUNT];     // from the adjacent cells of one level up or more
-    uint8_t beyond_levels[SIDE_COUNT]; // their levels; one level up outside of the picture
+    SampleData beyond[SIDE_COUNT];     // samples of the adjacent cells, which are as large as the
+                                       // group or larger
+    uint8_t beyond_levels[SIDE_COUNT]; // levels of these cells; level - 1 outside of the picture
     SampleData cells[GROUP_CELLS];
-    uint32_t groups[GROUP_CELLS]; // of subdivided cells; 0 for the others
+    uint32_t groups[GROUP_CELLS]; // the groups that subdivide the cells; 0: not subdivided
     uint32_t seams;               // the first seam; 0 for none
     float contrasts[GROUP_CELLS]; // of the cells, as stored by contrast_kept()
-    float across[SIDE_COUNT];     // contrasts of the cells beyond with the adjacent cells
+    float across[SIDE_COUNT];     // contrasts between the group and the cells beyond
 } CellGroup;
 
 typedef struct {
     uint32_t width, height, columns; // columns of blocks
     SampleData *pixels;              // in blocks of PACKET_SIDE x PACKET_SIDE, row by row
     uint32_t *pixel_groups;          // row by row; 0 if the pixel is not subdivided
-    uint32_t *pixel_seams;           // row by row; the first seam of a pixel, 0 for none
+    uint32_t *pixel_seams;           // row by row; the first seam of each pixel, 0 for none
     ARRAY(CellGroup) groups;         // from index 1
     ARRAY(Seam) seams;               // from index 1
     uint32_t traced;                 // groups with a lower index have all their samples
@@ -42,14 +43,14 @@ typedef struct {
 bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *error);
 void refine_tree_free(RefineTree *tree);
 
-// Returns the number of elements of pixels. Blocks may extend beyond the picture.
+// Returns the number of elements of tree->pixels. Blocks may extend beyond the picture.
 static inline uint32_t refine_tree_places(const RefineTree *tree)
 {
     const uint32_t rows = (tree->height + PACKET_SIDE - 1) / PACKET_SIDE;
     return tree->columns * rows * PACKET_SIDE * PACKET_SIDE;
 }
 
-// Returns the index of a pixel in pixels.
+// Returns the index of a pixel in tree->pixels.
 static inline uint32_t refine_tree_place(const RefineTree *tree, uint32_t x, uint32_t y)
 {
     const uint32_t block = y / PACKET_SIDE * tree->columns + x / PACKET_SIDE;
@@ -61,9 +62,9 @@ typedef struct {
     uint32_t group, cell, level;
 } CellName;
 
-// Finds the cell adjacent to a group that is not subdivided and not smaller than the group. Returns
-// false if there is none. Cells without samples do not count, because subdividing one would keep a
-// sample that was never taken.
+// Finds the cell beyond a side of a group, as large as the group or larger. Returns false outside
+// of the picture, or if the cell is subdivided. Never finds a cell whose sample is not taken yet,
+// because subdivision keeps the sample.
 bool refine_tree_neighbor(const RefineTree *tree, const CellGroup *group, CellSide side,
                           CellName *name);
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
@@ -71,18 +72,19 @@ const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *nam
 // Returns the sample of the smallest cell that contains a place.
 const SampleData *refine_tree_sample_at(const RefineTree *tree, const uint32_t place[2]);
 
-// Subdivide a pixel, or a cell of a group. The new group is appended; only its middle has a sample.
+// Subdivide a pixel, or a cell of a group. They append a group in which only the middle cell has a
+// sample.
 bool refine_tree_cut_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 bool refine_tree_cut_cell(RefineTree *tree, uint32_t group, uint32_t cell, Error *error);
 
-// Opens the seams between a pixel and two opposite neighbors, along the axis with the larger
-// difference.
+// Opens seams between a pixel and its two neighbors along one axis: the axis with the larger color
+// differences.
 bool refine_tree_open_pixel(RefineTree *tree, uint32_t x, uint32_t y, Error *error);
 
-// Removes the groups from first on. None of their cells may be subdivided.
+// Removes the groups from first on. No removed cell may be subdivided.
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
-// Returns the side of a level's cell, in cells of the last level.
+// Returns the side of a cell of that level, in cells of the last level.
 static inline uint32_t refine_tree_cell_side(uint32_t level)
 {
     static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};
@@ -95,7 +97,8 @@ void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t plac
 // Returns the number of samples of a pixel.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
 
-// Computes the color sum of each cell of a group, corrected by seams, regardless of subdivisions.
+// Computes the color sum of each cell of a group from its sample and the group's seams. Ignores
+// subdivisions of the cells.
 void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS]);
 
 // Computes the mean color of the cell that a group subdivides.

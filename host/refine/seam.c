@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The step is assumed at the middle of the remaining interval, in half places. Negative corrections
-// wrap around in unsigned sums, and the final sums are correct.
+// seam_correct assumes the color step in the middle of the remaining interval. It measures in
+// halves of a last-level cell, so that positions are integers. Negative corrections wrap around in
+// unsigned sums, and the final sums are correct.
 #include "refine/seam.h"
 
 #define PIXEL_AREA (81.0f * 81)
@@ -33,7 +34,7 @@ bool seam_asks(const Seam *seam, uint32_t place[2])
     return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
 }
 
-// Returns whether a sample belongs to one end rather than to the other.
+// Returns whether a sample resembles one end and not the other.
 static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
 {
     if (end->signature != other->signature)
@@ -48,7 +49,7 @@ void seam_close(Seam *seam)
     seam->assumed = SEAM_ENDS;
 }
 
-// If the sample at the border matches the cell, the line has no step there.
+// If the sample at the border matches the cell, the line has no step in this gap.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     const SampleData *cell = &seam->ends[SEAM_END_LAST - seam->assumed];

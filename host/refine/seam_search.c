@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A group's lines run along the axis with the larger color differences, so that they cross its
-// edges. Three lines locate a straight edge exactly.
+// The lines of a group run along the axis with the larger color differences, so that they cross
+// color edges. Three lines locate a straight edge exactly.
 #include "refine/seam_search.h"
 
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
     return (uint32_t)(end < whole ? end : whole);
 }
 
-// Returns the sum of color differences along the rows or columns of a group.
+// Returns the weighted sum of color differences along the rows or columns of a group.
 static float changes_along(const CellGroup *group, uint32_t stride)
 {
     const CellSide side = stride == 1 ? SIDE_LEFT : SIDE_ABOVE;
@@ -69,8 +69,8 @@ static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t strid
         .cells = &group->cells[line * (is_row ? GROUP_SIDE : 1)]};
 }
 
-// Returns the sample beyond an end of a line, from the smallest cell there. At the picture's edge,
-// returns the line's own sample.
+// Returns the sample of the smallest cell beyond an end of a line. At the picture's edge, returns
+// the line's last sample at that end.
 static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
 {
     const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens the seams of a refined picture, and lists those that need samples.
+// Opens the seams of a refined picture, and lists the seams that need samples.
 #pragma once
 
 #include "base/parallel.h"
@@ -8,13 +8,13 @@
 // The seams that need a sample.
 typedef struct {
     ARRAY(uint32_t) asked; // indices in ascending order
-    uint32_t seen;         // seams with a lower index are in asked or precise enough
+    uint32_t seen;         // seams with a lower index are listed, or precise enough
 } SeamSearch;
 
 // Opens the seams of groups first to end - 1, which must have all their samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, Crew *crew, Error *error);
 
-// Lists the seams with a contrast above the threshold, among those listed before and new ones.
+// Lists the seams with a contrast above the threshold. Examines the listed seams and new seams.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A stratum with few controls relies on a prior: its mean feature times the rung's change per
-// feature. Pixels that look flat may hide detail that no sample has hit, so the prior's feature
-// has a minimum. The minimum is larger beside contrast, where most hidden detail was found. With
-// one minimum for all, errors reached 1.3 E on tiled floors.
+// A stratum with few controls relies on a prior error: its mean feature times the rung's change per
+// feature. Pixels that look flat may hide detail that no sample has hit, so the prior's feature has
+// a minimum. The minimum is larger near contrast, where most hidden detail was found. With one
+// minimum for all strata, errors reached 1.3 times the goal on tiled floors.
 #include "refine/strata.h"
 
 #include <math.h>
 
-// The least bend of a bent pixel, and the least bend whose neighbors are beside contrast.
+// Pixels with a bend above BENT are bent. Pixels with a bend of at least CONTRAST nearby are near
+// contrast.
 #define BENT     0.05
 #define CONTRAST 0.125
 
@@ -15,16 +16,16 @@
 #define RUNG_WEIGHT    4
 #define STRATUM_WEIGHT 2
 
-// The change per feature on rung 0 before any is measured.
+// The change per feature on rung 0 before any change is measured.
 #define FIRST_RATIO 0.03
 
-// The least feature in a prior, as a fraction of the rung's largest: beside contrast on rung 0,
-// away from it, and above rung 0.
+// The least feature in a prior, as a fraction of the rung's largest mean feature. NEAR and FAR mean
+// near contrast and elsewhere on rung 0; SAMPLED means above rung 0.
 #define LEAST_NEAR    0.3
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
-// A longer prefix of a sequence contains the shorter one, so the change underestimates the error.
+// Above rung 0, the new samples contain the old samples, so the change underestimates the error.
 #define NESTED_FACTOR 1.15
 
 // The first controls of a stratum: at least this fraction, and at least this many pixels.
@@ -35,8 +36,9 @@
 // aim.
 #define FORCED_PART 0.02
 
-// The plan of a round. It covers COVERED_PART of the excess and relies on GAIN_PART of each gain.
-// Steps score at least SCORE_PART of the best, and at least STEP_PART of a step is taken.
+// A round plans to remove COVERED_PART of the bound's excess. It counts only GAIN_PART of the
+// expected decrease of the mean. It takes steps that score at least SCORE_PART of the best score,
+// and at least STEP_PART of each.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -44,7 +46,7 @@
 
 #define DEVIATIONS 2
 
-// Statistics that all strata of a rung share.
+// Statistics shared by all strata of a rung.
 typedef struct {
     double ratio;   // change per feature
     double feature; // the largest mean of a stratum
@@ -67,7 +69,7 @@ uint32_t strata_rung(uint32_t stratum)
     return stratum < BEND_CLASSES ? 0 : 1 + (stratum - BEND_CLASSES) / (2 * DEVIATION_CLASSES);
 }
 
-// Returns the octave of a value: class 0 from one half on.
+// Returns the octave of a value: 0 for values from 1/2 on, 1 from 1/4 on, up to classes - 1.
 static uint32_t octave(double value, uint32_t classes)
 {
     uint32_t number = 0;
@@ -115,8 +117,8 @@ static double mean_feature(const Stratum *stratum)
     return stratum->entered > 0 ? stratum->feature / (double)stratum->entered : 0;
 }
 
-// Returns the prior change per feature. For independent samples it falls with their number, for a
-// sequence faster.
+// Returns the prior change per feature. Features shrink like the squared error of independent
+// samples. The squared error of a sequence shrinks faster, so the ratio falls from rung to rung.
 static double first_ratio(uint32_t rung)
 {
     return rung == 0 ? FIRST_RATIO : 0.5 / sqrt(ladder_samples[rung] / 4.0);
@@ -159,7 +161,8 @@ static Outlook outlook_of(const Strata *strata, uint32_t number, const Rung *run
                      .variance = fmax(square - mean * mean, 0.1 * mean * mean)};
 }
 
-// Returns the variance of a stratum's sum after `more` pixels have advanced.
+// Returns the variance of a stratum's sum of squared errors after `more` additional pixels have
+// advanced.
 static double variance_after(const Stratum *stratum, const Outlook *outlook, double more)
 {
     const double left = outlook->left - more;
@@ -222,8 +225,8 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
     step->score = step->gain / (step->pixels * step_cost(step->stratum));
 }
 
-// Returns whether the stratum has a step. The step advances its first pixels, or doubles their
-// number.
+// Returns whether the stratum can advance more pixels. The step selects the stratum's first pixels,
+// or doubles its fraction.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
                       double aim)
 {
@@ -252,7 +255,7 @@ static uint32_t best_step(const Step *steps, uint32_t count)
     return best;
 }
 
-// Takes steps by score until they cover the missing gain or use up the samples.
+// Takes the steps with the highest scores until they cover the missing gain or use up the samples.
 static void take_steps(Strata *strata, Step *steps, uint32_t count, double missing, double samples)
 {
     double good = 0;

@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling
-// techniques", 1977). A pixel's rung is its number of samples. Similar pixels of a rung form a
-// stratum. In every stratum, random pixels advance to the next rung. They are its controls: their
-// change estimates the error of the pixels that stay.
+// Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling techniques",
+// 1977). A pixel's rung is its index in ladder_samples. Similar pixels of a rung form a stratum. In
+// every stratum, random pixels advance to the next rung. They are controls: their change estimates
+// the error of the pixels that stay.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// Samples of a pixel on each rung: its center, or that many points of its sequence.
+// Samples of a pixel on each rung: the center, or that many points of the pixel's sequence.
 #define LADDER_RUNGS 6
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
 
-// Strata of rung 0 are octaves of the bend. Those from FLAT_CLASS on exist twice: away from
-// contrast, and beside it from NEAR_CLASS on. Higher rungs have octaves of the standard deviation
-// of the pixel's samples, for straight and for bent pixels.
+// On rung 0, strata are octaves of the pixel's bend (refine/bends.h). Octaves from FLAT_CLASS on
+// have two strata; the stratum from NEAR_CLASS on is for pixels near contrast. On higher rungs,
+// strata are octaves of the standard deviation of a pixel's samples. Bent and straight pixels have
+// separate strata.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define BEND_CLASSES      12
 #define DEVIATION_CLASSES 7
 #define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
 
-// A change is the mean square difference of a pixel's color values by advancing. A feature is a
-// number that is roughly proportional to the pixel's squared error.
+// A change is the mean square difference between a pixel's colors before and after it advances. A
+// feature is roughly proportional to the pixel's squared error.
 typedef struct {
-    uint64_t entered, advanced; // pixels, in total
+    uint64_t entered, advanced; // total numbers of pixels
     double feature;             // sum over the pixels that entered
     double advanced_feature;    // sum over the pixels that advanced
     double change, square; // sums of changes and of their squares over the pixels that advanced
-    double fraction;       // part of the stratum that shall advance, in [0, 1]
+    double fraction;       // of the stratum that is to advance, in [0, 1]
 } Stratum;
 
 typedef struct {
@@ -39,20 +40,20 @@ typedef struct {
 // The mean square error of a picture.
 typedef struct {
     double mean;  // expected
-    double bound; // one-sided, at two standard deviations
+    double bound; // mean plus two standard deviations
 } StrataEstimate;
 
 // Returns the rung of a stratum.
 uint32_t strata_rung(uint32_t stratum);
 
-// Returns the stratum of a pixel on rung 0 from its bend and the largest one nearby
+// Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
 // (refine/bends.h).
 uint32_t strata_of_bend(double bend, double nearby);
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
 
-// Returns whether a pixel of the stratum counts as bent on the next rung. bend applies to pixels
+// Returns whether a pixel of the stratum counts as bent on the next rung. Uses bend only for pixels
 // on rung 0.
 bool strata_is_bent(uint32_t stratum, double bend);
 
@@ -64,17 +65,18 @@ void strata_advance(Strata *strata, uint32_t stratum, double feature, double cha
 
 StrataEstimate strata_estimate(const Strata *strata);
 
-// The aim of a round.
+// The aim of a round of advances.
 typedef struct {
-    double mean_square; // error that the bound must not exceed
-    double samples;     // limit of the round; INFINITY for none
+    double mean_square; // upper limit for StrataEstimate::bound
+    double samples;     // sample limit of the round; INFINITY for none
 } StrataAim;
 
 typedef enum {
     STRATA_REACHED,  // the bound is within the aim
     STRATA_RAISED,   // fractions have grown
-    STRATA_EXHAUSTED // no stratum has a step left
+    STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Raises the fractions of the strata whose samples lower the bound most, toward the aim.
+// Raises fractions to move the bound toward the aim, first in the strata where a sample lowers the
+// bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

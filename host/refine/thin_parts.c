@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Works piece by piece and level by level. Threads first find all cells whose samples the piece
-// contains. They then examine the cells around each thin triangle. The results are sets, which do
-// not depend on the order of work.
+// Searches piece by piece and level by level. Threads first find all cells whose samples the piece
+// contains. They then examine the cells that each thin triangle touches. The results are sets,
+// which do not depend on the order of work.
 #include "refine/thin_parts.h"
 
 #include "refine/mesh_pieces.h"
@@ -19,12 +19,13 @@ typedef struct {
     Projection projection;          // of the mesh
     MeshPieces pieces;              // of the mesh
     uint32_t first, count;          // the piece's triangles, in the order of the pieces
-    uint8_t *depths;                // in that order: levels at which each triangle is searched
+    uint8_t *depths;                // in that order: the number of levels to search for each
+                                    // triangle
     CellSet covered[REFINE_LEVELS]; // cells whose samples the piece contains
     CellSet wide;                   // pixels at which the piece is wide
-    _Atomic uint32_t top, bottom;   // the piece's rows of pixels: top to bottom - 1
+    _Atomic uint32_t top, bottom;   // the piece covers rows of pixels top to bottom - 1
     uint32_t level;                 // the current one
-    _Atomic bool found;             // any cell to subdivide at that level
+    _Atomic bool found;             // a triangle remains to be searched
     _Atomic uint64_t cuts[REFINE_LEVELS];
 } Search;
 
@@ -91,7 +92,7 @@ static void include_rows(Search *search, CellRange rows)
         continue;
 }
 
-// All triangles cover pixels. Only thin triangles are searched for.
+// Adds the pixels that all triangles cover. Only thin triangles are searched.
 static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -116,7 +117,7 @@ static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
         search->found = true;
 }
 
-// Below pixels, only triangles that are searched for cover cells.
+// Adds the cells of the level that the searched triangles cover.
 static void cover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;
@@ -136,8 +137,7 @@ static bool holds_block(const CellSet *covered, uint32_t column, uint32_t row)
            cell_set_has(covered, column, row + 1) && cell_set_has(covered, column + 1, row + 1);
 }
 
-// Returns whether the piece is wide at a cell: it contains the samples around a corner of this cell
-// or of an adjacent one. The nearest corners come first.
+// Returns whether the piece is wide at a cell. Tests the nearest corners first.
 static bool is_wide(const Search *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
@@ -223,7 +223,7 @@ static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
     }
 }
 
-// Clears the covered cells of the level, in time independent of the other pieces.
+// Clears the covered cells of the level, without visiting the cells of other pieces.
 static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 {
     (void)worker;

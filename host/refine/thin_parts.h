@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Finds the cells to subdivide so that samples meet triangles thinner than a pixel, regardless of
-// the samples around them.
+// Finds the cells to subdivide so that samples hit triangles thinner than a pixel, regardless of
+// contrast.
 //
 // A triangle is thin at a level if no disk with the cells' diagonal as diameter fits into it. Every
-// cell of that level that a thin triangle touches is subdivided, unless its mesh piece is wide
-// there. A piece is wide at a cell if it contains the samples of four cells around a corner of that
-// cell or of an adjacent cell. It is then as wide as the cells, and contrast finds its outline.
+// cell of that level that a thin triangle touches is subdivided, unless the triangle's mesh piece
+// is wide at the cell. A piece is wide at a cell if it contains the four samples around a corner of
+// the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and contrast finds
+// its outline.
 //
-// A sample therefore meets each triangle whose inner disk is at least a 57th of a pixel across,
-// except
+// A sample therefore hits each triangle whose incircle is at least 1/57 pixel across, except
 // - within two pixels of a part of the same piece that is wider than a pixel, and likewise at each
 //   level;
 // - hidden triangles, on which samples are wasted;
@@ -24,7 +24,7 @@
 
 #define THIN_SAMPLES 16
 
-// Must not move, because its sets point into it.
+// Must not be moved or copied, because the sets in cut point to slots.
 typedef struct {
     Slots slots;
     CellSet cut[REFINE_LEVELS]; // cells to subdivide, by level
@@ -51,7 +51,8 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
            cell_set_has(&parts->cut[level], place[0] / side, place[1] / side);
 }
 
-// Returns a bit for each of 32 pixels of a row from left on, a multiple of 32.
+// Returns a bit for each of 32 pixels of a row from left on that must be subdivided. left is a
+// multiple of 32.
 static inline uint32_t thin_parts_pixels(const ThinParts *parts, uint32_t left, uint32_t row)
 {
     return parts->levels == 0 ? 0 : pixel_set_bits(&parts->cut[0], left, row);
