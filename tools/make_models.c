@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// make_models FOLDER: writes the models of the scenes, each a closed triangle mesh, as PLY files.
-// A model is a signed field of a few smooth shapes; field -> grid -> surface net -> relaxed and
-// checked surface -> file.  The cables are written as they are.  The same bytes come out on every
-// machine with IEEE arithmetic when it is built with -ffp-contract=off.
+// make_models FOLDER: writes the models of the scenes as PLY files. Each model is a closed triangle
+// mesh. A model is a signed distance field of smooth shapes. Stages: field -> grid -> surface net
+// -> relaxed and checked surface -> file. The mesh of the cables needs no field. With IEEE
+// arithmetic and -ffp-contract=off, every machine writes the same bytes.
 #include "models/cables.h"
 #include "models/closed.h"
 #include "models/grid.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packets of rays, laid out as Embree's own of that size, so that they are traced in place; and
-// the calls that trace PACKETS of them.
+// Packets of LANES rays, and the calls that trace PACKETS packets. The packets have the layout of
+// Embree's own structs, so that Embree traces them in place.
 #pragma once
 
 #include "lanes.h"
@@ -19,7 +19,7 @@ typedef struct {
     Rays rays;
     Points normal; // of any length
     Floats u, v;
-    Mask triangle; // RTC_INVALID_GEOMETRY_ID: none
+    Mask triangle; // RTC_INVALID_GEOMETRY_ID: no hit
     Mask geometry, instance;
 } RayHits;
 
@@ -32,7 +32,7 @@ _Static_assert(sizeof(RayHits) == sizeof(struct RTCRayHit), "a ray is not Embree
 #endif
 
 #if PACKETS > 1
-// Streams know a ray that is not there by its empty interval.
+// Embree's streams have no mask. They skip rays with an empty interval.
 static inline void leave_out(Rays *rays, Mask valid)
 {
     rays->near = choose(valid, rays->near, all(INFINITY));
@@ -57,7 +57,7 @@ static inline void call_intersect(RTCScene scene, struct RTCIntersectContext *co
 #endif
 }
 
-// Sets far to -INFINITY where something is in the way.
+// Sets far to -INFINITY for occluded rays.
 static inline void call_occluded(RTCScene scene, struct RTCIntersectContext *context,
                                  const Mask valid[PACKETS], Rays rays[PACKETS])
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same picture as clrt, drawn with Embree 3: how fast tools/bench measures clrt against.
-// Prints what it measured as JSON.
+// Draws the same picture as clrt with Embree 3, for the comparison in tools/bench. Prints the
+// measurements as JSON.
 #include "base/clock.h"
 #include "image/pfm.h"
 #include "peer_draw.h"
@@ -112,8 +112,8 @@ static double time_picture(const PeerPicture *picture, Framebuffer *framebuffer)
     return clock_seconds() - start;
 }
 
-// Calls each kind of ray coherent or not, as draws faster: the kinds do not meet, so one after the
-// other finds the best.  Returns the seconds with all of them coherent.
+// Finds for each kind of ray whether Embree's coherent flag is faster. The kinds are independent,
+// so it tests one after another. Returns the seconds with all kinds coherent.
 static double tune(PeerPicture *picture, Framebuffer *framebuffer)
 {
     for (int kind = 0; kind < RAY_KINDS; kind++)
@@ -130,7 +130,7 @@ static double tune(PeerPicture *picture, Framebuffer *framebuffer)
     return coherent;
 }
 
-// One picture to warm up, then the measured ones.
+// Draws a picture to warm up, then the measured pictures, and prints the results.
 static void measure(PeerPicture *picture, const Options *options, Framebuffer *framebuffer)
 {
     const PeerCounts counts = peer_draw(picture, framebuffer);

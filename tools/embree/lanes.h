@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of LANES numbers, one for each ray that is shaded together, and points made of them.
-// The compiler's vector types: + - * / work on all lanes at once.
+// Vectors of LANES numbers, one per ray of a packet, and points made of such vectors. They are the
+// compiler's vector types: + - * / work on all lanes at once.
 #pragma once
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 typedef float Floats __attribute__((vector_size(4 * LANES)));
-typedef int32_t Mask __attribute__((vector_size(4 * LANES))); // -1 where true, 0 elsewhere
+typedef int32_t Mask __attribute__((vector_size(4 * LANES))); // -1 for true, 0 for false
 
 typedef struct {
     Floats x, y, z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PeerScene -> Framebuffer, in one of the ways to call Embree.
+// PeerScene -> Framebuffer. The scene is drawn in a mode, which is a way to call Embree.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -17,10 +17,10 @@ typedef struct {
     enum RTCIntersectContextFlags flags[RAY_KINDS];
     Framebuffer *framebuffer;
     uint32_t x, y, width, height;
-    PeerCounts counts; // added to
+    PeerCounts counts; // the tile's rays are added
 } PeerTile;
 
-// A way to call Embree; draw_tile is peer_tile.c, compiled for it.
+// A way to call Embree. draw_tile is peer_tile.c, compiled for the mode.
 typedef struct {
     const char *name;
     void (*draw_tile)(PeerTile *tile);
@@ -29,7 +29,7 @@ typedef struct {
 extern const PeerMode peer_modes[];
 extern const int peer_mode_count;
 
-// A picture in this mode. flags are Embree's context flags for each kind of ray.
+// A picture to draw. flags are Embree's context flags for each kind of ray.
 typedef struct {
     const PeerScene *scene;
     const PeerMode *mode;
@@ -37,5 +37,5 @@ typedef struct {
     uint32_t threads;
 } PeerPicture;
 
-// Fills the framebuffer, which has the scene's size, and counts the rays it took.
+// Fills the framebuffer, which must have the scene's size. Returns the number of traced rays.
 PeerCounts peer_draw(const PeerPicture *picture, Framebuffer *framebuffer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Takes the arrays that clrt uploads to its device, so that both draw the same floats, and gives
-// Embree the corners as an indexed mesh in a buffer of its own.
+// Takes the arrays that clrt uploads to its device, so that both renderers use the same floats.
+// Embree gets the triangles as an indexed mesh in its own buffers.
 #include "peer_scene.h"
 
 #include "accel/flat.h"
@@ -11,8 +11,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Embree reads vertices as 16 bytes at a time.  Corners come in the order in which clrt stores
-// them, as their normals do.
+// The corners of a triangle have the order in which clrt stores them, because their normals have
+// this order.
 static bool add_triangles(RTCGeometry geometry, const Triangles *triangles)
 {
     float(*points)[3] =
@@ -69,7 +69,7 @@ static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
     return true;
 }
 
-// Moves what shading reads out of flat.
+// Moves the arrays for shading from flat to peer.
 static bool take_flat(PeerScene *peer, FlatScene *flat, Error *error)
 {
     peer->triangle_count = flat->triangle_count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene file as Embree traces it and as the peer shades it, in clrt's normalized frame.
+// A scene file -> Embree's scene and the data for shading, in clrt's normalized coordinates.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,11 +13,11 @@ typedef struct {
     uint32_t width, height; // of the picture; 0: the scene's
 } PeerSettings;
 
-// One geometry holds all triangles; a hit's primID is a triangle in file order.
+// One geometry holds all triangles. A hit's primID is the triangle's index in file order.
 typedef struct {
     RTCDevice device;
     RTCScene scene;
-    TriangleLook *looks;    // by triangle
+    TriangleLook *looks;    // one per triangle
     CornerNormals *normals; // of the smooth triangles
     Material *materials;
     PointLight *lights;
@@ -28,6 +28,7 @@ typedef struct {
     double build_seconds; // of rtcCommitScene
 } PeerScene;
 
-// Loads the scene's first view and builds Embree's tree.  The peer is to be closed in either case.
+// Loads a scene file with its first view and builds Embree's tree. Call peer_scene_close after
+// success and after failure.
 bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *settings, Error *error);
 void peer_scene_close(PeerScene *peer);

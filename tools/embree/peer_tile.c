@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traces and shades a tile as kernels/trace.cl does, LANES rays at a time in SIMD, and hands them
-// to Embree PACKETS packets a call.  Compiled once for each mode (CMakeLists.txt).
-// Unlike clrt, it makes every triangle visible from both sides and offsets rays from the surface
-// that they leave by a fixed distance. Embree's users do so, and it is cheaper than filters.
+// Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
+// Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike clrt,
+// it makes triangles visible from both sides, and new rays start at a fixed distance from the
+// surface. Most users of Embree do both, and both are faster than filters.
 #include "calls.h"
 #include "peer_draw.h"
 
@@ -13,7 +13,8 @@
 #define BLOCKS_ABREAST (PACKETS > 1 ? 2 : 1)
 #define BLOCKS_DEEP    (PACKETS / BLOCKS_ABREAST)
 
-// How far new rays start from a surface, and shadow rays end before it; the scene is 1 to 2 long.
+// New rays start at this distance from a surface, and shadow rays end at this distance before it.
+// The scene's longest side is 1 to 2.
 #define AWAY 3e-5f
 
 // The state of a packet's paths.
@@ -21,7 +22,7 @@ typedef struct {
     Points origin, direction, color;
     Floats weight;
     Mask active;
-    float nearest; // where its rays start to count
+    float nearest; // the least distance of a hit
 } Paths;
 
 typedef struct {
@@ -29,7 +30,7 @@ typedef struct {
     Mask material; // index
 } Surfaces;
 
-// A material for each lane.
+// One material per lane.
 typedef struct {
     Points diffuse, specular;
     Floats kd, ks, reflectivity;
@@ -71,8 +72,8 @@ static inline void set_rays(Rays *rays, Points origin, Points direction, float n
 
 typedef float Quad __attribute__((vector_size(16)));
 
-// The interpolated normals, of any length.  A corner's normal is one load; what is left to do is
-// to turn three numbers of each lane into three vectors.
+// Looks up the materials and interpolates the normals, which may have any length. Loads each
+// corner's normal at once, then stores its components in their lanes.
 static inline void look_up(const PeerScene *scene, const RayHits *hits, Mask hit,
                            Surfaces *surfaces)
 {
@@ -136,7 +137,7 @@ static inline Looks looks_all(const Material *material)
                    .exponent = (Mask){0} + (int32_t)material->exponent};
 }
 
-// Most packets see one material.
+// Returns the material of each lane. Most packets see a single material.
 static inline Looks looks_of(const PeerScene *scene, Mask hit, Mask material)
 {
     int first = 0;
@@ -151,7 +152,7 @@ static inline Looks looks_of(const PeerScene *scene, Mask hit, Mask material)
     return looks;
 }
 
-// Exponents are 0 or more.
+// Exponents must not be negative.
 static inline Floats power(Floats base, Mask exponent)
 {
     Floats result = all(1);
@@ -174,7 +175,7 @@ typedef struct {
     Floats diffuse, specular;
 } Received;
 
-// A packet's hits. Without a hit, the other members are not set.
+// A packet's hits. If no lane has a hit, the other members are not set.
 typedef struct {
     Mask hit;
     Surfaces surfaces;
@@ -182,7 +183,7 @@ typedef struct {
     Received light;
 } Met;
 
-// Adds what one light gives to each lit surface.
+// Adds the light that each surface receives from one light.
 static void add_light(PeerTile *tile, const PointLight *light, Met met[PACKETS])
 {
     Rays rays[PACKETS];
@@ -250,8 +251,8 @@ static inline void reflect(const Surfaces *surfaces, Paths *paths)
     paths->nearest = AWAY;
 }
 
-// Finds what all paths' next rays meet, and gives the background to those that meet nothing; false
-// where none goes on.
+// Finds the hits of the next rays of all paths. Adds the background to the paths without a hit.
+// Returns false if no path has a hit.
 static bool meet(PeerTile *tile, RayKind kind, Paths paths[PACKETS], Met met[PACKETS])
 {
     const PeerScene *scene = tile->scene;
@@ -289,7 +290,8 @@ static bool meet(PeerTile *tile, RayKind kind, Paths paths[PACKETS], Met met[PAC
     return hit_count > 0;
 }
 
-// Adds the color of what a packet has met, and lets its paths go on where that reflects.
+// Adds the color of the surfaces that a packet has hit, and continues the paths at reflective
+// surfaces.
 static inline void follow(const PeerScene *scene, const Met *met, Paths *paths)
 {
     const Points color = shaded(scene, &met->looks, &met->light);
@@ -301,7 +303,7 @@ static inline void follow(const PeerScene *scene, const Met *met, Paths *paths)
     reflect(&met->surfaces, paths);
 }
 
-// One level of all paths; false where none goes on.
+// Traces one level of all paths. Returns false if no path has a hit.
 static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
 {
     const PeerScene *scene = tile->scene;
@@ -318,7 +320,7 @@ static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
 
 static void store(const PeerTile *tile, uint32_t x, uint32_t y, const Paths *paths)
 {
-    // Paths that are still going see the background.
+    // Paths that are still active see the background.
     const Points color =
         points_add(paths->color, points_scale(points_all(tile->scene->background),
                                               choose(paths->active, paths->weight, all(0))));

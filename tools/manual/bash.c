@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One function that asks nothing of the bash-completion package.  Bash gives "--name=value" as
-// three words, and values of options whose value may be left out follow '=' alone.
+// Writes a completion function that does not need the bash-completion package. Bash splits
+// "--name=value" into three words. Optional values complete only after '='.
 #include "bash.h"
 
 #include "cli/options/command.h"

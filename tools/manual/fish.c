@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line for each option, offered where the command before it, if any, takes it.
+// Writes a line for each option. Fish offers an option if the command on the line accepts it.
 #include "fish.h"
 
 #include "cli/options/command.h"
@@ -14,7 +14,8 @@ static void write_quoted(FILE *stream, const char *text)
     fputc('\'', stream);
 }
 
-// Where the option is offered: with the commands that take it, and without one.
+// Writes the condition for offering the option: a command that accepts it, or no command if
+// rendering accepts it.
 static void write_condition(FILE *stream, const Option *option)
 {
     fputs(" -n '", stream);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes one of what the table of options is made into, to standard output:
-// make_manual man TEMPLATE | bash | zsh | fish.
+// make_manual man TEMPLATE | bash | zsh | fish: prints the man page or a shell's completions,
+// generated from the table of options.
 #include "bash.h"
 #include "fish.h"
 #include "man_page.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mdoc: option names become .Fl, their values .Ar or, where they are words to be typed, .Cm.
+// Writes mdoc. Option names become .Fl, literal words .Cm, and other values .Ar.
 #include "man_page.h"
 
 #include "cli/commands.h"
@@ -10,8 +10,8 @@
 #include <ctype.h>
 #include <string.h>
 
-// A sentence of the table as text of a page: it begins with a capital and ends with a period.
-// Hyphens before words are those of options, which stay what is typed.
+// Writes a help text of the table as a sentence, with a capital and a period. Escapes hyphens of
+// option names, so that they remain ASCII hyphens.
 static void write_sentence(FILE *stream, const char *text)
 {
     char before = ' ';
@@ -30,7 +30,7 @@ static void write_sentence(FILE *stream, const char *text)
     fputs(".\n", stream);
 }
 
-// The words of a choice, or the name of the value.
+// Writes the words of a choice, or the name of the value.
 static void write_words(FILE *stream, const Option *option)
 {
     char words[VALUE_WORDS_SIZE];
@@ -81,7 +81,7 @@ static void write_synopsis(FILE *stream)
                 command_table[i].operands);
 }
 
-// Lists the options that a command takes.
+// Lists the options that a command accepts.
 static void write_taken(FILE *stream, const Command *command)
 {
     size_t left = 0;
@@ -120,7 +120,8 @@ static void write_classes(FILE *stream)
     fputs(".El\n", stream);
 }
 
-// Writes the keys of --help, one per line, with two blanks between keys and meaning.
+// Writes the window's keys of --help, one per line. Two spaces separate a key from its meaning
+// there.
 static void write_keys(FILE *stream)
 {
     char text[4096] = "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words are those that the table lists, but for names in capitals, which stand for any value;
-// those of --format are what the build writes.
+// The words come from the table of options, except names in capitals, which stand for any value.
+// The words of --format are the formats that this build writes.
 #include "value.h"
 
 #include "image/image_file.h"
@@ -18,7 +18,7 @@ void value_name(const Option *option, char *name, size_t size)
              (int)strcspn(argument, option_argument_is_optional(option) ? "]" : ""), argument);
 }
 
-// Separators of any length give way to one blank each.
+// Replaces each run of separators by one space.
 static void split(char words[VALUE_WORDS_SIZE], const char *list, const char *separators)
 {
     size_t end = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list for _arguments for drawing and one for each command.
+// Writes a list of options for _arguments for rendering, and one for each command.
 #include "zsh.h"
 
 #include "cli/options/command.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Text within single quotes and a specification's brackets.
+// Writes text escaped for single quotes and for the brackets of a specification.
 static void write_quoted(FILE *stream, const char *text)
 {
     for (; *text != '\0'; text++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cables leave a plug near the ground, side by side, and spread out to its opposite corner, each
-// with a slight bend of its own.  A cable is a hexagonal tube of a few long segments.
+// Cables start side by side near the ground and spread out toward the opposite corner. Each cable
+// has its own slight bend. A cable is a hexagonal tube of a few long segments.
 #include "cables.h"
 
 #include "base/array.h"
@@ -9,16 +9,16 @@
 #include <string.h>
 
 #define CABLES   900
-#define SIDES    6 // the caps are two quads
+#define SIDES    6 // each cap consists of two quads
 #define SEGMENTS 6
 #define RADIUS   0.0035
 
 #define RINGS          (SEGMENTS + 1)
 #define CABLE_VERTICES (RINGS * SIDES)
 #define CABLE_QUADS    (SEGMENTS * SIDES + 4)
-#define GOLDEN_DEGREES 137.50776405003785 // between neighbors of a sunflower's seeds
+#define GOLDEN_DEGREES 137.50776405003785 // between consecutive seeds of a sunflower
 
-// The bundle's direction, and two across it.
+// The bundle's direction, and two directions perpendicular to it.
 static const Vec3 along = {0.62, 0.48, 0.62}, across = {-0.6121, 0.7908, 0},
                   up = {-0.49, -0.38, 0.78};
 
@@ -28,7 +28,8 @@ static Vec3 cross_section(double degrees, double radius)
                     vec3_scale(up, radius * sine_of_degrees(degrees)));
 }
 
-// The middle of a cable, which seeds of a sunflower place in the bundle; part is 0 to 1.
+// Returns a point on a cable's center line; part is 0 to 1. The cables of the bundle lie like a
+// sunflower's seeds.
 static Vec3 cable_point(int cable, double part)
 {
     const double degrees = GOLDEN_DEGREES * cable, ring = sqrt((cable + 0.5) / CABLES);

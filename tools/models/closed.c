@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Proves that a surface's triangles are closed, consistently wound and turned outward.
+// Checks that a surface is closed, consistently wound and oriented outward.
 #include "closed.h"
 
 #include "base/array.h"
 
 #include <stdlib.h>
 
-// The directed edges sorted by where they start: those from vertex v are ends[first[v]] up to,
-// not including, ends[first[v + 1]].
+// The directed edges, sorted by their start. ends[first[v]] up to, not including, ends[first[v +
+// 1]] are the ends of edges from vertex v.
 typedef struct {
     size_t *first;
     uint32_t *ends;
@@ -29,8 +29,8 @@ static void visit_edges(const Surface *surface, Edges *edges, bool fill)
         }
 }
 
-// A counting sort.  The second visit fills each vertex's stretch from its end, which leaves
-// first[v + 1] at the stretch's start; moving the table down by one puts it right.
+// A counting sort. The second visit fills each vertex's range from its end, so first[v + 1] becomes
+// the start of this range. Shifting the table down by one corrects this.
 static void sort_edges(const Surface *surface, Edges *edges)
 {
     const size_t count = surface->vertex_count;
@@ -62,7 +62,7 @@ static bool edges_have_twins(const Surface *surface, const Edges *edges)
     return true;
 }
 
-// Six times the volume, by the divergence theorem.
+// Returns six times the enclosed volume, by the divergence theorem.
 static double enclosed_volume(const Surface *surface)
 {
     double volume = 0;

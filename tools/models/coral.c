@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The coral: a hollow ball of branches that meet three by three, a gyroid lattice (Schoen:
-// "Infinite Periodic Minimal Surfaces without Self-Intersections", NASA TN D-5541, 1970).  There
-// is room for a ball of radius HOLLOW_RADIUS inside; a million triangles.
+// The coral: a hollow ball of branches with about a million triangles. The branches form a gyroid
+// lattice (Schoen, "Infinite Periodic Minimal Surfaces without Self-Intersections", NASA TN D-5541,
+// 1970). A ball of radius HOLLOW_RADIUS fits inside.
 #include "model.h"
 #include "shape.h"
 
@@ -9,7 +9,8 @@
 #define HOLLOW_RADIUS 0.33
 #define PERIODS       8.0 // lattice cells per unit
 
-// The gyroid's level function over its greatest slope: about the distance to the surface.
+// Returns the gyroid's level function divided by its largest slope, which approximates the distance
+// to the surface.
 static double gyroid(Vec3 p)
 {
     const Vec3 sine = vec3(wave_sine(p.x), wave_sine(p.y), wave_sine(p.z));

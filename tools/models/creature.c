@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The creature: an elephant calf out for a walk, its trunk raised.  It looks along +x and stands
-// on z = 0; about six thousand triangles.
+// The creature: a walking elephant calf with a raised trunk and about six thousand triangles. It
+// looks along +x and stands on z = 0.
 #include "model.h"
 #include "shape.h"
 
@@ -12,7 +12,7 @@ static double leg(Vec3 p, Vec3 hip, Vec3 foot)
     return shape_join(shaft, sole, 0.06);
 }
 
-// Diagonal pairs of legs swing together, as in a walk.
+// The legs of a diagonal pair swing together, as in a walk.
 static double legs(Vec3 p)
 {
     const double front_left = leg(p, vec3(0.12, 0.10, 0.36), vec3(0.18, 0.115, 0.05));
@@ -60,7 +60,7 @@ static double ear(Vec3 p)
     return shape_cut(shape_join(flap, lobe, 0.08), dish, 0.06);
 }
 
-// In the head's own frame, which looks along +x.
+// p is in the head's frame, in which the head looks along +x.
 static double head(Vec3 p)
 {
     const Vec3 q = shape_mirror(p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The figure: a round, laughing monk on a lotus.  It looks along +x and sits on z = 0; about a
-// hundred thousand triangles.
+// The figure: a round, laughing monk on a lotus, with about a hundred thousand triangles. It looks
+// along +x and sits on z = 0.
 #include "figure.h"
 #include "model.h"
 #include "shape.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Samples a field block by block, skipping blocks that the surface cannot reach, and repairs
-// the inside into a well-composed set (Latecki, Eckhardt, Rosenfeld: "Well-Composed Sets", CVIU
-// 1995): one in which no two inside or outside samples touch only across the diagonal of a
-// square or of a cube.  The border of such a set is a 2-manifold, so surface nets over it are
-// closed and free of edges with four triangles by construction.
+// Samples a field block by block, and skips blocks that the surface cannot reach. It then makes the
+// inside well-composed (Latecki, Eckhardt, Rosenfeld, "Well-Composed Sets", CVIU 1995). In a
+// well-composed set, no two inside or outside samples touch only across the diagonal of a square or
+// cube. The border of such a set is a 2-manifold. Surface nets over it are therefore closed,
+// without edges of four triangles.
 #include "grid.h"
 
 #include "base/array.h"
@@ -17,7 +17,8 @@
 // surface than twice the distance to its corners.
 #define BLOCK_CAUTION 2.0
 
-// The value of a repaired sample, in cells. It is barely inside, so the surface hardly moves.
+// The depth of a sample that is moved inside, in cells. It is small, so that the surface hardly
+// moves.
 #define REPAIR_DEPTH 0.05F
 
 static int smaller_count(int a, int b)
@@ -25,8 +26,8 @@ static int smaller_count(int a, int b)
     return a < b ? a : b;
 }
 
-// The integral of the shrinking cells gives the height; x and y shrink along with z, so that
-// cells stay near to cubes.
+// The height is the integral of the shrinking cell sizes. x and y shrink like z, so that cells
+// remain nearly cubes.
 Vec3 grid_point(const Grid *grid, Vec3 at)
 {
     const Vec3 straight = vec3_add(grid->low, vec3_scale(at, grid->cell));
@@ -106,7 +107,7 @@ static bool touches_across_the_cube(unsigned mask)
     return false;
 }
 
-// Moves the cell's outside corner nearest to the surface inside.
+// Moves inside the outside corner of the cell that is nearest to the surface.
 static void repair_cell(Grid *grid, size_t cell)
 {
     float *nearest = NULL;
@@ -119,7 +120,7 @@ static void repair_cell(Grid *grid, size_t cell)
     *nearest = -REPAIR_DEPTH * (float)grid->cell;
 }
 
-// True when it changed anything.  Repairs only ever add to the inside, so repeating it ends.
+// Returns whether it has changed a sample. The inside only grows, so repeated calls terminate.
 static bool repair_all(Grid *grid, const bool critical[256])
 {
     bool changed = false;
@@ -141,7 +142,7 @@ static void make_well_composed(Grid *grid)
         ;
 }
 
-// Looks at the samples of a row along x that lie on the grid's faces.
+// Returns whether all samples of a row along x that lie on the grid's faces are outside.
 static bool row_ends_outside(const Grid *grid, int y, int z)
 {
     const bool on_face = y == 0 || z == 0 || y + 1 == grid->size[1] || z + 1 == grid->size[2];

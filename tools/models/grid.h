@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 typedef struct {
-    Vec3 low;      // where sample 0 0 0 lies
+    Vec3 low;      // the position of sample 0 0 0
     double cell;   // distance between neighboring samples before the taper
     double taper;  // the model's
     int size[3];   // samples along x, y, z
@@ -20,13 +20,13 @@ static inline size_t grid_sample(const Grid *grid, int x, int y, int z)
     return ((size_t)z * (size_t)grid->size[1] + (size_t)y) * (size_t)grid->size[0] + (size_t)x;
 }
 
-// One past the last cell, a cell being numbered as the sample at its low corner.  The numbers of
-// samples on the high faces wrap round to cells whose corners all lie on the grid's faces; those
-// are all outside, so such a cell is never crossed.
+// Returns the index after the last cell. A cell has the index of the sample at its low corner.
+// Samples on the high faces start no real cell: the corners of such a cell wrap around to other
+// faces. All samples on the grid's faces are outside, so the surface never crosses these cells.
 size_t grid_cell_end(const Grid *grid);
 
-// The signs at a cell's corners: bit 0 stands for +x, bit 1 for +y, bit 2 for +z of the corner's
-// number, and the mask's bit of that number is set where the corner is inside.
+// Returns a mask of the cell's corners that are inside. In a corner's number, bit 0 means +x, bit 1
+// means +y and bit 2 means +z.
 unsigned grid_cell_mask(const Grid *grid, size_t cell);
 
 static inline size_t grid_sample_count(const Grid *grid)
@@ -34,13 +34,15 @@ static inline size_t grid_sample_count(const Grid *grid)
     return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
 }
 
-// Where the point lies that many samples along x, y, z; whole numbers give the samples.
+// Returns the position of a point given in samples along x, y and z. Integers give the positions of
+// samples.
 Vec3 grid_point(const Grid *grid, Vec3 at);
 
-// The size of the cells at a point of the world, for a model.
+// Returns the size of a model's cells at a point in world coordinates.
 double grid_cell_size(const Model *model, Vec3 point);
 
-// Samples the model, then adds the few samples that make the inside well-composed, which
-// surface_extract needs.  False when memory runs out or the model reaches the box's faces.
+// Samples the model and moves a few samples inside, so that the inside is well-composed.
+// surface_extract requires this. Returns false if memory is exhausted or the model touches the
+// box's faces.
 bool grid_make(Grid *grid, const Model *model, Error *error);
 void grid_free(Grid *grid);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figure's head: bald, laughing with closed eyes, long lobes to its ears.
+// The figure's head: bald and laughing, with closed eyes and long earlobes.
 #include "figure.h"
 #include "shape.h"
 
@@ -23,7 +23,7 @@ static double nose(Vec3 p, Vec3 q)
     return shape_join(bridge, wing, 0.012);
 }
 
-// The crescent of the open mouth, seen from the front and as deep as the head.
+// The crescent of the open mouth in the front view. It extends through the whole head.
 typedef struct {
     double opening, upper_lip;
 } Mouth;
@@ -35,7 +35,7 @@ static Mouth mouth(Vec3 flat)
     return (Mouth){shape_cut(lower, upper, 0.006), upper};
 }
 
-// Lines on the face are drawn in the front view and follow the surface from there.
+// The lines of the face are curves in the front view, projected onto the surface.
 static double eye_line(Vec3 flat)
 {
     static const Vec3 lid[4] = {

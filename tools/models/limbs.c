@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figure's hands and the foot that the robe leaves free.
+// The figure's hands, and the foot that the robe does not cover.
 #include "figure.h"
 #include "shape.h"
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The lotus seat: two wreaths of petals that rise, one that falls, and a foot.
+// The lotus seat: two rings of rising petals, a ring of hanging petals, and a foot.
 #include "figure.h"
 #include "shape.h"
 
-// A pointed petal of that half width and half length; p is in its frame, x out of its back, z to
-// its tip.  Half of an ellipsoid beside the middle line, mirrored, gives the ridge and the point.
+// A pointed petal with half width radii.y and half length radii.z. In q's frame, x points out of
+// the petal's back and z to its tip. Two shifted, mirrored halves of an ellipsoid form the ridge
+// and the point.
 static double blade(Vec3 q, Vec3 radii)
 {
     const double shift = 0.6 * radii.y;

@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Moves the vertices of a surface net to better places: each step goes toward the mean of the
-// neighbors, but only along the surface, and then down the field's gradient onto the surface
-// (as in Ohtake, Belyaev: "Dual/Primal Mesh Optimization for Polygonized Implicit Surfaces",
-// 2002).  Triangles come out nearly even and the surface is met to second order.
+// Evens out the vertices of a surface net. Each step moves a vertex along the surface toward the
+// mean of its neighbors, then along the field's gradient onto the surface. See Ohtake, Belyaev,
+// "Dual/Primal Mesh Optimization for Polygonized Implicit Surfaces", 2002. The resulting triangles
+// are nearly equilateral, and vertices match the surface to second order.
 #include "relax.h"
 
 #include "base/array.h"
 
 #include <stdlib.h>
 
-// More even out little further.
+// More steps hardly improve the triangles.
 #define RELAX_STEPS 6
 
-// The fraction of the way to the neighbors' mean per step.
+// The fraction of the way to the neighbors' mean that a step moves.
 #define RELAX_SPEED 0.6
 
-// A vertex moves at most that many cells onto the surface in one step: where the field is bent
-// more sharply than the grid shows, a full step would fold the surface.
+// In one step, a vertex moves at most that many cells along the gradient. If the field has finer
+// detail than the grid, a full step would fold the surface.
 #define LONGEST_STEP 0.5
 
-// Distance of the gradient's samples, in cells: smooths creases that the triangles cannot show.
+// The distance of the gradient's samples, in cells. It smooths creases that triangles cannot show.
 #define GRADIENT_REACH 0.3
 
-// Six undo every fold in our models; a vertex moves only while its quads are bad.
+// Six steps remove every fold in the models. A vertex moves only while it belongs to a bad quad.
 #define UNTANGLE_STEPS 6
 
-// Twice the least area of a good triangle, of its edges' squares; 0.29 in an even triangle.
+// Twice the least area of a good triangle, divided by the sum of its squared edges. An equilateral
+// triangle has 0.29.
 #define LEAST_AREA 0.09
 
-// The weight of a cut's length relative to its distance from the surface.
+// The weight of a diagonal's length relative to its distance from the surface.
 #define LENGTH_FAULT 0.1
 
 typedef struct {
@@ -36,7 +37,8 @@ typedef struct {
     double value;
 } Slope;
 
-// From the corners of a tetrahedron: four evaluations, where central differences take six.
+// Evaluates the field at the corners of a tetrahedron: four evaluations instead of the six of
+// central differences.
 static Slope field_slope(Field *field, Vec3 p, double reach)
 {
     const double a = field(vec3(p.x + reach, p.y + reach, p.z + reach));
@@ -59,8 +61,8 @@ static Vec3 onto_surface(Vec3 p, Slope slope, double cell)
     return vec3_add(p, way);
 }
 
-// Each edge of a closed surface is walked once in each direction by the quads beside it, so that
-// adding every edge's end to its start visits each neighbor once.
+// Sums the positions of each vertex's neighbors. The quads of a closed surface contain each edge
+// once in each direction, so every neighbor counts once.
 static void sum_neighbors(const Surface *surface, Vec3 *sums, double *counts)
 {
     for (size_t vertex = 0; vertex < surface->vertex_count; vertex++) {
@@ -93,8 +95,8 @@ static void relax_step(Surface *surface, const Model *model, Vec3 *sums, double 
     }
 }
 
-// The normals that the triangles themselves give, weighted by area: half the cross product of a
-// quad's diagonals is its area vector.
+// Sums the area vectors of the quads at each vertex, which gives a normal weighted by area. Twice a
+// quad's area vector is the cross product of its diagonals.
 static void sum_facings(const Surface *surface, Vec3 *facings)
 {
     for (size_t vertex = 0; vertex < surface->vertex_count; vertex++)
@@ -109,8 +111,8 @@ static void sum_facings(const Surface *surface, Vec3 *facings)
     }
 }
 
-// Whether the triangle from that corner on is a needle or folded over: its area against its
-// vertices' normals is small for its edges.
+// Returns whether the triangle of that corner and the next two is a needle or folded over. Its area
+// along its vertices' normals is then small compared with its edges.
 static bool triangle_is_bad(const Surface *surface, const uint32_t quad[4], int corner)
 {
     const uint32_t first = quad[corner], second = quad[(corner + 1) % 4];
@@ -132,9 +134,9 @@ static bool quad_is_bad(const Surface *surface, const uint32_t quad[4])
     return false;
 }
 
-// Where the field has a crease that the cells cannot show, vertices slide over each other; those
-// of bad quads go to their neighbors' mean, off the surface by a part of a cell, and take the
-// normals of the triangles there.
+// At creases that the cells cannot resolve, vertices slide over each other. Moves the vertices of
+// bad quads to their neighbors' mean, which is off the surface by a fraction of a cell. They get
+// the normals of the triangles there.
 static void untangle_step(Surface *surface, Vec3 *sums, double *counts, Vec3 *facings)
 {
     sum_neighbors(surface, sums, counts);
@@ -151,8 +153,8 @@ static void untangle_step(Surface *surface, Vec3 *sums, double *counts, Vec3 *fa
     }
 }
 
-// How badly the diagonal from that corner would stand for the surface: how far its middle is
-// off it, and a little of its length, which decides where the surface is flat.
+// Returns how badly the diagonal from that corner matches the surface: the distance of its middle
+// from the surface, plus a fraction of its length. The length decides on flat surfaces.
 static double diagonal_fault(const Surface *surface, const Model *model, const uint32_t quad[4],
                              int corner)
 {

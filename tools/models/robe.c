@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The figure's robe: the torso grown by the cloth's thickness and opened in front, wide sleeves,
-// and the crossed legs under cloth.  Folds are waves added to the fields.
+// The figure's robe: the torso, offset by the cloth's thickness and open in front, wide sleeves,
+// and covered crossed legs. Folds are waves added to the fields.
 #include "figure.h"
 #include "shape.h"
 
-// A fold's height at that many folds along, about -1 to 1: round crests, narrower valleys.
+// Returns the height of a fold, about -1 to 1; along counts folds. Crests are round, and valleys
+// are narrower.
 static double fold(double along)
 {
     return 0.8 * wave_sine(along) + 0.25 * wave_cosine(2 * along);
 }
 
-// Folds run round the opening in front, and fan out from the neck on the back.
+// Folds run around the opening in front, and fan out from the neck on the back.
 static double mantle(Vec3 p, double torso)
 {
     const double front = shape_ellipsoid(p, vec3(0.25, 0, 0.53), vec3(0.26, 0.16, 0.25));
@@ -25,7 +26,7 @@ static double mantle(Vec3 p, double torso)
     return shape_join(open, shape_seam(cloth, opening, 0.015), 0.01);
 }
 
-// The robe's end lies on the seat in pleats.
+// The robe's hem lies on the seat in pleats.
 static double skirt(Vec3 p)
 {
     const double pleats = wave_turns(p.y, p.x + 0.05) * 40;

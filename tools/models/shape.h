@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Signed fields of simple shapes, and how to blend them: about the distance to the surface,
-// negative inside.  Blends are Quilez's polynomial smooth minimum ("smooth minimum", 2013), which
-// changes a field only where the two shapes are within the blend width of each other.
+// Signed distance fields of simple shapes, and blends of fields. Values approximate the distance to
+// the surface and are negative inside. Blends use Quilez's polynomial smooth minimum ("smooth
+// minimum", 2013). It changes a field only where the two fields differ by less than the blend
+// width.
 #pragma once
 
 #include "base/vec.h"
 #include "wave.h"
 
-// Farther than the blends between a model's parts reach: beyond it, a bound will do for a part.
+// Larger than the blends between a model's parts. At this distance from a part, a bound of its
+// field is sufficient.
 #define SHAPE_FAR 0.05
 
 static inline double shape_smaller(double a, double b)
@@ -25,7 +27,7 @@ static inline double shape_clamp(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// 0 up to low, 1 from high on, a smooth cubic between.
+// Returns 0 up to low, 1 from high on, and a smooth cubic between.
 static inline double shape_step(double value, double low, double high)
 {
     const double t = shape_clamp((value - low) / (high - low), 0, 1);
@@ -37,13 +39,14 @@ static inline double shape_length(Vec3 a)
     return sqrt(vec3_dot(a, a));
 }
 
-// The point mirrored onto y >= 0: what is made once appears on both sides.
+// Returns the point mirrored onto y >= 0, so that a shape appears on both sides.
 static inline Vec3 shape_mirror(Vec3 p)
 {
     return vec3(p.x, fabs(p.y), p.z);
 }
 
-// The point as seen from a frame at center, turned by that much about x, y or z.
+// Return the point in the coordinates of a frame at center, which is rotated by `turns` about x, y
+// or z.
 static inline Vec3 shape_turn_x(Vec3 p, Vec3 center, double turns)
 {
     const double c = wave_cosine(turns), s = wave_sine(turns);
@@ -65,8 +68,8 @@ static inline Vec3 shape_turn_z(Vec3 p, Vec3 center, double turns)
     return vec3(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// The point turned about the z axis into the sector round +x, of as many as count in the circle,
-// and mirrored onto y >= 0: what is made once stands count times in a ring.
+// Returns the point rotated about the z axis into the sector around +x, and mirrored onto y >= 0.
+// The circle has count sectors, so a shape appears count times in a ring.
 static inline Vec3 shape_repeat(Vec3 p, double count)
 {
     const double turns = floor(wave_turns(p.y, p.x) * count + 0.5) / count;
@@ -78,7 +81,8 @@ static inline double shape_sphere(Vec3 p, Vec3 center, double radius)
     return shape_length(vec3_sub(p, center)) - radius;
 }
 
-// The ellipsoid's implicit function over its gradient: the distance to first order.
+// Divides the ellipsoid's implicit function by its gradient, which gives the distance to first
+// order.
 static inline double shape_ellipsoid(Vec3 p, Vec3 center, Vec3 radii)
 {
     const Vec3 d = vec3_sub(p, center);
@@ -91,7 +95,7 @@ static inline double shape_ellipsoid(Vec3 p, Vec3 center, Vec3 radii)
     return reach * (reach - 1) / steepness;
 }
 
-// A ball rolled from a to b while its radius goes from radius_a to radius_b.
+// The volume of a ball that moves from a to b while its radius changes from radius_a to radius_b.
 static inline double shape_capsule(Vec3 p, Vec3 a, Vec3 b, double radius_a, double radius_b)
 {
     const Vec3 along = vec3_sub(b, a), from = vec3_sub(p, a);
@@ -121,7 +125,8 @@ static inline double shape_curve(Vec3 p, const Vec3 control[4], double radius_a,
     return field;
 }
 
-// A ring about the z axis through center: a tube of radius tube round a circle of radius ring.
+// A torus around an axis through center, parallel to z: a tube of radius tube around a circle of
+// radius ring.
 static inline double shape_torus(Vec3 p, Vec3 center, double ring, double tube)
 {
     const Vec3 d = vec3_sub(p, center);
@@ -129,20 +134,20 @@ static inline double shape_torus(Vec3 p, Vec3 center, double ring, double tube)
     return sqrt(out * out + d.z * d.z) - tube;
 }
 
-// A tube of that radius along the line where the surfaces of a and b meet.
+// A tube of that radius along the line where the surfaces of a and b intersect.
 static inline double shape_seam(double a, double b, double radius)
 {
     return sqrt(a * a + b * b) - radius;
 }
 
-// Both shapes, with the seam between them filled to that width.
+// The union of two shapes, with their seam filled to that width.
 static inline double shape_join(double a, double b, double blend)
 {
     const double near = shape_larger(blend - fabs(a - b), 0);
     return shape_smaller(a, b) - near * near / (4 * blend);
 }
 
-// The intersection of both, with the edge rounded to that width.
+// The intersection of two shapes, with the edge rounded to that width.
 static inline double shape_overlap(double a, double b, double blend)
 {
     return -shape_join(-a, -b, blend);

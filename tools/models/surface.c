@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Grid -> Surface by naive surface nets (Gibson: "Constrained Elastic Surface Nets", MICCAI 1998):
-// a vertex in every cell that the surface passes through, at the mean of where it crosses the
-// cell's edges, and a quad round every grid edge that it crosses.  The grid is well-composed, so
-// a cell holds one sheet of the surface and the quads close up.
+// Grid -> Surface by naive surface nets (Gibson, "Constrained Elastic Surface Nets", MICCAI 1998).
+// Every cell that the surface crosses gets a vertex, at the mean of the surface's crossings of the
+// cell's edges. Every crossed grid edge gets a quad around it. The grid is well-composed, so a cell
+// contains one sheet of the surface, and the quads form a closed surface.
 #include "surface.h"
 
 #include "base/array.h"
@@ -12,10 +12,10 @@
 
 #define NO_VERTEX UINT32_MAX // all bytes 0xFF
 
-// One number per sample stands for the cell whose low corner it is.
+// A cell has the index of the sample at its low corner.
 typedef struct {
     const Grid *grid;
-    uint32_t *vertex_of; // per cell
+    uint32_t *vertex_of; // the vertex of each cell, or NO_VERTEX
     size_t step[3];      // from a sample to the next one along x, y, z
 } Net;
 
@@ -63,8 +63,8 @@ static void place_vertices(const Net *net, Vec3 *positions)
     }
 }
 
-// The quad round a grid edge, seen counter-clockwise from the edge's outside end; the samples on
-// the grid's faces are all outside, so the four cells are always there.
+// Stores the quad around a grid edge, counter-clockwise as seen from the edge's outside end. All
+// samples on the grid's faces are outside, so the four cells always exist.
 static void put_quad(const Net *net, uint32_t quad[4], size_t sample, unsigned axis)
 {
     const size_t u = net->step[(axis + 1) % 3], v = net->step[(axis + 2) % 3];
@@ -75,8 +75,8 @@ static void put_quad(const Net *net, uint32_t quad[4], size_t sample, unsigned a
     quad[3] = net->vertex_of[sample - (inside ? u : v)];
 }
 
-// Counts the crossed grid edges; makes their quads when there is room for them already.  A
-// crossed edge starts at the low corner of a cell that has a vertex.
+// Returns the number of crossed grid edges. Stores their quads unless quads is NULL. A crossed edge
+// starts at the low corner of a cell that has a vertex.
 static size_t visit_edges(const Net *net, uint32_t (*quads)[4])
 {
     const float *values = net->grid->values;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figure's bare torso, a great round belly under a soft chest, and the beads on it.
+// The figure's bare torso, with a large round belly, and its string of beads.
 #include "figure.h"
 #include "shape.h"
 
@@ -27,7 +27,7 @@ double torso_field(Vec3 p)
     return shape_cut(field, navel, 0.025);
 }
 
-// Balls threaded along the line where the torso meets a cylinder along x.
+// Balls along the line where the torso intersects a cylinder parallel to x.
 double beads_field(Vec3 p, double torso)
 {
     if (p.x < 0 || p.z > 0.665)

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Sine, cosine and the angle of a vector by fixed polynomials, in turns (1 is the full circle).
-// The C library's sin and atan2 differ in their last bits from system to system; these use
-// + - * / alone, so a model is the same file everywhere.  Right to 1e-6, more than a mesh shows.
+// Sine, cosine and the angle of a vector by fixed polynomials. Angles are in turns: 1 is a full
+// circle. The last bits of the C library's sin and atan2 differ between systems. These functions
+// use only + - * /, so a model is the same file everywhere. Their error is below 1e-6, which is
+// invisible in a mesh.
 #pragma once
 
 #include <math.h>
 
 #define WAVE_TAU 6.28318530717958647692
 
-// The sine of the angle: an odd Taylor polynomial on the quarter turn that the angle folds onto.
+// Folds the angle into a quarter turn, and evaluates an odd Taylor polynomial.
 static inline double wave_sine(double turns)
 {
     double folded = turns - floor(turns + 0.5);
@@ -25,8 +26,9 @@ static inline double wave_cosine(double turns)
     return wave_sine(turns + 0.25);
 }
 
-// The turns, in -0.5 to 0.5, from the x axis to (x, y); 0 for the zero vector.  The polynomial
-// for the arc tangent on 0..1 is Abramowitz and Stegun's 4.4.49 (Handbook, 1964), right to 2e-8.
+// Returns the angle from the x axis to (x, y) in turns, from -0.5 to 0.5; 0 for the zero vector.
+// The arc tangent on [0, 1] is polynomial 4.4.49 of Abramowitz and Stegun (Handbook, 1964), with an
+// error below 2e-8.
 static inline double wave_turns(double y, double x)
 {
     const double across = fabs(x), up = fabs(y);
