@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plain picture is drawn by packets, as on any CPU.
+// Draws the plain picture with packets, as clrt does on CPUs.
 #include "certainty/certified.h"
 
 #include "accel/compile.h"

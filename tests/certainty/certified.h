@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene -> what is certain in its picture, by the stages that the program has.
+// A scene -> its picture and the certainty of each pixel, by the same stages as in clrt.
 #pragma once
 
 #include "render/aov_pass.h"
@@ -20,11 +20,11 @@ typedef struct {
 } CertifiedView;
 
 typedef struct {
-    FlatScene flat; // of pairs
+    FlatScene flat; // with pair nodes
     CameraData camera;
     RenderSettings settings;
-    Framebuffer plain, picture; // as without certainty, and with what was repaired
-    Layers seen; // of the plain picture's first hits: primitive, material, share of lights
+    Framebuffer plain, picture; // without --aov certainty; with repaired pixels
+    Layers seen; // the plain picture's first hits: primitive, material, share of lights
     CertaintyMap map;
 } Certified;
 

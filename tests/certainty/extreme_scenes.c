@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights, cameras and spheres are text; meshes are added to them.
+// Parses lights, cameras and spheres from text, and adds meshes.
 #include "certainty/extreme_scenes.h"
 
 #include "extremes/support/check.h"

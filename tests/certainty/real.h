@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Decides a pixel's ray tree in real arithmetic on the stored scene: in 64 bits if they suffice,
-// else in 113. The code is independent of the kernels and uses other methods.
+// Decides a pixel's ray tree in real arithmetic on the stored scene: with 64 bits if they suffice,
+// otherwise with 113. The code is independent of the kernels and uses other methods.
 #pragma once
 
 #include "certainty/real_tree.h"
 
 typedef struct {
-    const FlatScene *flat; // of pairs
+    const FlatScene *flat; // with pair nodes
     const RealTree *tree;
     const CameraData *camera;
     uint32_t width, height; // in samples
@@ -14,16 +14,16 @@ typedef struct {
 } RealView;
 
 typedef struct {
-    bool settled;       // all decisions of the tree are beyond the arithmetic's error
-    bool first_settled; // those at the first hit are
-    uint32_t first_id;  // NOTHING where the camera ray meets nothing
-    uint32_t lit;       // a bit for each of the first 32 lights that shine on the first hit
-    uint32_t signature; // of all decisions, as certify.cl mixes them
+    bool settled;       // the error of the arithmetic cannot change any decision of the tree
+    bool first_settled; // the same for the decisions at the first hit
+    uint32_t first_id;  // NOTHING if the camera ray has no hit
+    uint32_t lit;       // bit i: light i reaches the first hit, for the first 32 lights
+    uint32_t signature; // a hash of all decisions, computed as in certify.cl
 } RealDecisions;
 
-// Decide the sample in that column and row.
+// Return the decisions for the sample in that column and row.
 RealDecisions real_decide_64(const RealView *view, uint32_t column, uint32_t row);
 RealDecisions real_decide_113(const RealView *view, uint32_t column, uint32_t row);
 
-// In the fewest bits that settle everything; those of the most where none do.
+// Returns the decisions with the fewest bits that settle all decisions, or with 113 bits.
 RealDecisions real_decide(const RealView *view, uint32_t column, uint32_t row);

@@ -4,7 +4,8 @@
 
 __extension__ typedef __float128 Quad;
 
-// Each of Newton's steps doubles the bits, of which long double has 64.
+// Returns the square root. It starts with the 64 bits of long double, and each step of Newton's
+// method doubles them.
 static Quad root(Quad a)
 {
     if (!(a > 0))

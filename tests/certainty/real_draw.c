@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each thread takes the next row not yet taken.
+// Each thread repeatedly takes the next row.
 #include "certainty/real_draw.h"
 
 #include <pthread.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A tracer of decisions without recursion, compiled for two types (real_64.c, real_113.c).  A sign
-// counts as settled where it is clear of zero by TOLERANCE times the sum of the terms' sizes: a
-// thousand roundings.  From level to level errors may grow by GROWTH, which triangles and normals
-// of ordinary shapes stay far below; at the first hit nothing has grown yet.
+// Traces a ray tree without recursion and returns its decisions. Compiled for two number types
+// (real_64.c, real_113.c). The sign of a sum is settled if the sum exceeds TOLERANCE times the sum
+// of its terms' sizes, which is a thousand roundings. The tolerance grows by the factor GROWTH at
+// each reflection. Errors at triangles and normals of ordinary shapes grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -16,9 +16,9 @@ typedef struct {
 
 typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
 
-// Where a ray stops.
+// A hit of a ray, or a possible hit.
 typedef struct {
-    NUMBER t, low; // INFINITY for none; the true one is low or more, and as little above t
+    NUMBER t, low; // INFINITY for none; the true t is in [low, t + (t - low)]
     uint32_t id, place;
     NUMBER v, w; // weights of a triangle's second and third corner
     bool front;
@@ -26,16 +26,16 @@ typedef struct {
 
 typedef struct {
     Stop stop;
-    NUMBER other; // low of all others that are met or may be
+    NUMBER other; // the smallest low of all other hits and possible hits
 } Nearest;
 
 typedef struct {
     const RealView *view;
     NUMBER tolerance;
     Vector origin, direction;
-    uint32_t own;                     // id
-    const TriangleData *own_triangle; // NULL for none
-    bool is_own_inside;               // the ray runs on inside the sphere that it starts on
+    uint32_t own;                     // the id of the primitive that the ray starts on
+    const TriangleData *own_triangle; // the triangle that the ray starts on; NULL for none
+    bool is_own_inside;               // the ray runs inside the sphere that it starts on
 } Path;
 
 static NUMBER size_of(NUMBER a)
@@ -73,7 +73,7 @@ static Vector cross(Vector a, Vector b)
     return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// Not below the length.
+// Returns an upper bound of the length.
 static NUMBER extent(Vector a)
 {
     return size_of(a.x) + size_of(a.y) + size_of(a.z);
@@ -84,7 +84,8 @@ static Vector unit(Vector a)
     return stepped(vector(0, 0, 0), 1 / ROOT(dot(a, a)), a);
 }
 
-// Whether all corners, seen along the ray, lie on one side of some line through it.
+// Returns whether the ray certainly misses the triangle: in the view along the ray, a line through
+// the ray has all corners on one side.
 static bool is_aside(const Path *path, const Vector corners[3])
 {
     const Vector d = unit(path->direction);
@@ -111,7 +112,7 @@ static NUMBER smallest(NUMBER a, NUMBER b)
     return a < b ? a : b;
 }
 
-// Moeller and Trumbore's determinants, none divided before its sign is settled.
+// Uses Moeller and Trumbore's determinants, and settles their signs before dividing.
 static Outcome meet_triangle(const Path *path, const TriangleData *triangle, Stop *stop)
 {
     const Vector corners[3] = {of_floats(triangle->a), of_floats(triangle->b),
@@ -147,7 +148,7 @@ static Outcome meet_triangle(const Path *path, const TriangleData *triangle, Sto
     return inside ? MEETS : UNCLEAR;
 }
 
-// Half of what the sphere cuts out of the line, from the height of its cap.
+// Computes half the chord of the ray's line in the sphere from the height of its cap.
 static Outcome meet_sphere(const Path *path, const SphereData *sphere, Stop *stop)
 {
     const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
@@ -210,8 +211,8 @@ static bool nearest_is_settled(const Nearest *nearest)
     return nearest->other > stop->t + (stop->t - stop->low);
 }
 
-// Whether two triangles are the same points.  A ray meets both at one point, and one that leaves
-// either starts on both.
+// Returns whether two triangles have the same corners. A ray hits both at one point, and a ray that
+// leaves either starts on both.
 static bool are_coincident(const TriangleData *one, const TriangleData *other)
 {
     return memcmp(one->a, other->a, sizeof one->a) == 0 &&
@@ -237,7 +238,7 @@ static void take_triangle(Nearest *nearest, const Path *path, uint32_t place)
         nearest->stop = stop;
 }
 
-// Beyond reach nothing is looked for.
+// Returns the nearest hit. May ignore triangles beyond reach.
 static Nearest meet_all(const Path *path, NUMBER reach)
 {
     const FlatScene *flat = path->view->flat;
@@ -260,10 +261,11 @@ static Nearest meet_all(const Path *path, NUMBER reach)
     return nearest;
 }
 
-// Where a path has come to; normals have any length.
+// The surface at a hit. Normals have any length.
 typedef struct {
     Vector point, normal, face;
-    Vector corner;                // of a triangle: a point of its plane without any error
+    Vector corner;                // a corner of the triangle, which is a point of its plane without
+                                  // error
     const TriangleData *triangle; // NULL for a sphere
     uint32_t id, material;
     bool is_sphere, is_inside;
@@ -322,13 +324,13 @@ static void note(RealDecisions *decisions, uint32_t word)
     decisions->signature = mixed ^ mixed >> 15;
 }
 
-// 1 or -1, or 0 where the error hides it.
+// Returns the sign of value, or 0 if |value| is at most error.
 static int clear_sign(NUMBER value, NUMBER error)
 {
     return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-// On which side of the plane across the shading normal the light lies.
+// Returns the sign of the light's height over the plane perpendicular to the shading normal.
 static int side_of_normal(const Path *path, const Surface *surface, Vector apart)
 {
     const NUMBER error = path->tolerance * extent(surface->normal) *
@@ -336,8 +338,9 @@ static int side_of_normal(const Path *path, const Surface *surface, Vector apart
     return clear_sign(dot(surface->normal, apart), error);
 }
 
-// On which side of the face the light lies: 1 where the path came from.  A sphere seen from inside
-// has no light there which its outward normal is turned to, one seen from outside no other.
+// Returns 1 if the light is on the path's side of the face, -1 if it is on the other side. Outside
+// a sphere, it returns 1, because the normal alone decides. Inside, it returns -1, because the
+// outward normal faces no light there.
 static int side_of_face(const Surface *surface, Vector light)
 {
     if (surface->is_sphere)
@@ -347,7 +350,7 @@ static int side_of_face(const Surface *surface, Vector light)
     return clear_sign(dot(surface->face, apart), error);
 }
 
-// 0 where the surface is turned away from the light, 1 where it is lit, 2 in shadow.
+// Returns 0 if the surface faces away from the light, 1 if it is lit, 2 if it is in shadow.
 static uint32_t see_light(const Path *path, const Surface *surface, const PointLight *light,
                           bool *settled)
 {
@@ -386,7 +389,7 @@ static bool see_lights(const Path *path, const Surface *surface, RealDecisions *
     return settled;
 }
 
-// Lengths do not matter and stay near 1.
+// The length of the direction is arbitrary and stays near 1.
 static Path reflected(const Path *path, const Surface *surface)
 {
     const Vector v = minus(vector(0, 0, 0), unit(path->direction)), n = unit(surface->normal);

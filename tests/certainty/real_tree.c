@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes are padded by a millionth of the frame and of the distance to them.
+// Boxes are padded by a millionth of the frame's size and of the distance to the box.
 #include "certainty/real_tree.h"
 
 #include <math.h>
@@ -52,7 +52,8 @@ static int longest_axis(const RealNode *node)
     return longest;
 }
 
-// Children take the next two free nodes.  Recursion is as deep as the tree, which halves.
+// Children take the next two free nodes. The depth of recursion is logarithmic, because each node
+// is halved.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat, Keyed *keyed)
 {
     RealNode *node = &tree->nodes[number];

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Triangles as they are stored -> a tree for tests, unlike the tracer's: halves along the longest
-// axis, in boxes wide enough that no rounding matters.
+// Stored triangles -> a tree for tests, which differs from the tracer's tree. Nodes are halved
+// along the longest axis. Boxes are so wide that rounding cannot matter.
 #pragma once
 
 #include "accel/flat.h"
 
 typedef struct {
     double low[3], high[3];
-    uint32_t first, count; // of places in order; without a count the children are first, first + 1
+    uint32_t first, count; // of a range of order; if count is 0, first and first + 1 are the
+                           // children
 } RealNode;
 
 typedef struct {
-    RealNode *nodes; // the root first; none without triangles
-    uint32_t *order; // places of triangles
+    RealNode *nodes; // the root first; empty without triangles
+    uint32_t *order; // indices of triangles
     uint32_t node_count;
 } RealTree;
 
@@ -30,5 +31,5 @@ typedef struct {
 void real_walk_begin(RealWalk *walk, const RealTree *tree, const double origin[3],
                      const double direction[3]);
 
-// The next leaf whose box the ray enters before `reach`, NULL behind the last.
+// Returns the next leaf whose box the ray enters before `reach`, or NULL after the last.
 const RealNode *real_walk_next(RealWalk *walk, double reach);

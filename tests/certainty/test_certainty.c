@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
-// pixels are certified, and only repaired pixels change. Tier 0 compares a share of the pixels,
-// tier 1 all, more than ten million.
+// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels, and tier 1
+// all of more than ten million.
 #include "certainty/extreme_scenes.h"
 #include "certainty/real_draw.h"
 #include "extremes/support/check.h"
@@ -16,7 +16,7 @@
 static Office office;
 
 typedef struct {
-    uint64_t pixels, compared, wrong, poor; // poor: views with fewer certified than asked for
+    uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
 } Sum;
 
 static uint64_t count_changed(const Certified *certified, Certainty certainty)
@@ -30,13 +30,14 @@ static uint64_t count_changed(const Certified *certified, Certainty certainty)
     return changed;
 }
 
-// The plain picture's first hit, its material, and the share of lights that shine there.
+// The plain picture's first hit, its material, and the share of lights that reach it.
 typedef struct {
     uint32_t primitive, material;
     float share;
 } Seen;
 
-// On silhouettes no light is looked for.
+// Returns whether the plain picture has the same first hit and number of lights. Silhouettes have
+// no lights.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
     if (seen->primitive != mark->first_id)
@@ -48,7 +49,7 @@ static bool is_alike(const Certified *certified, const CertaintyMark *mark, cons
     return lights == __builtin_popcount(mark->lit);
 }
 
-// Certified pixels that the plain picture decided otherwise.
+// Returns the number of certified pixels for which the plain picture has other decisions.
 static uint64_t count_unlike_plain(const Certified *certified)
 {
     uint64_t unlike = 0;
@@ -63,7 +64,7 @@ static uint64_t count_unlike_plain(const Certified *certified)
     return unlike;
 }
 
-// floor: of 1000 pixels, how many must be certified.
+// floor: the number of pixels in 1000 that must be certified.
 static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t view,
                        uint32_t floor)
 {

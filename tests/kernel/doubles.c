@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A condition that is not about fp64 is taken to hold in both its branches.
+// Counts the lines of a kernel source that name a double outside of #if CLRT_FP64. Assumes that
+// both branches of any other condition are compiled.
 #include "kernel/doubles.h"
 
 #include <stdbool.h>
@@ -10,7 +11,7 @@ typedef enum { BRANCH_ANY, BRANCH_FP64, BRANCH_FP32 } Branch;
 
 #define DEPTH_MAX 16
 
-// The branches of conditions that a line stands in, the innermost last.
+// The branches of conditions around a line, the innermost last.
 typedef struct {
     Branch branches[DEPTH_MAX];
     int depth;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The probes' device code is read from the source tree: it changes with the test beside it.
+// Reads the probes' device code from the source tree and appends it to the kernels.
 #include "kernel/probe.h"
 
 #include "base/file.h"

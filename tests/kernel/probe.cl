@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels that show the tests what device code computes; built behind the real kernels.
-// The joined source has all headers already.
+// Kernels that return results of device functions to the tests. They are appended to the real
+// kernels, whose source already includes all headers.
 
 kernel void probe_layout(global uint *sizes)
 {
@@ -32,7 +32,7 @@ kernel void probe_layout(global uint *sizes)
     sizes[18] = (uint)((char *)&look.normals - (char *)&look);
 }
 
-// cases holds {normal, half vector, shininess, exponent as bits} of eight floats.
+// Each case has eight floats: {normal, half vector, shininess, exponent as bits}.
 kernel void probe_highlights(global const float *cases, global float *results)
 {
     const uint item = get_global_id(0);
@@ -45,7 +45,8 @@ kernel void probe_highlights(global const float *cases, global float *results)
 }
 
 #if CLRT_LANES == 1
-// values holds pairs {base, exponent}; results what the highlight of each kind makes of them.
+// values holds pairs {base, exponent}. results receives the power computed by each kind of
+// highlight.
 kernel void probe_powers(global const Scalar *values, global Scalar *results)
 {
     const uint item = get_global_id(0);
@@ -54,7 +55,7 @@ kernel void probe_powers(global const Scalar *values, global Scalar *results)
     results[2 * item + 1] = exponential(exponent * log_one_plus(base - 1.0f));
 }
 
-// rays holds {origin, direction} of six floats, one for each of the spheres.
+// Each ray has six floats: {origin, direction}. There is one ray per sphere.
 kernel void probe_spheres(global const SphereData *spheres, global const float *rays,
                           global Scalar *distances)
 {
@@ -71,8 +72,8 @@ kernel void probe_units(global const float *vectors, global float *results)
     vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }
 #else
-// bits holds CLRT_LANES bits for each item; results two words: the bits of the lanes that these
-// make, and how many lanes are true.
+// bits holds CLRT_LANES bits for each item. results receives two words: the mask of these lanes as
+// bits, and the number of true lanes.
 kernel void probe_lanes(global const uint *bits, global uint *results)
 {
     const uint item = get_global_id(0);
@@ -81,7 +82,7 @@ kernel void probe_lanes(global const uint *bits, global uint *results)
     results[2 * item + 1] = lane_count(lanes);
 }
 
-// Lane by lane: 1 where the lane is true.
+// Writes 1 for each true lane, 0 for the others.
 kernel void probe_truths(global const uint *bits, global uint *results)
 {
     const uint item = get_global_id(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the probe kernels: buffers in, one buffer out.
+// Runs the probe kernels with input buffers and one output buffer.
 #pragma once
 
 #include "device/program.h"
@@ -18,10 +18,11 @@ typedef struct {
 bool probe_open(Probe *probe, const KernelChoice *choice, Error *error);
 void probe_close(Probe *probe);
 
-// As a group's setup: opens it for one ray a work-item, or prints why it cannot; returns 0 or 1.
+// The setup of a group of tests: opens the probe for one ray per work-item. Returns 0, or prints
+// the error and returns 1.
 int probe_begin(Probe *probe, Precision precision);
 
-// Runs kernel for items work-items over up to two inputs (the rest of the list has size 0) and
-// reads size bytes of its output, its last argument.
+// Runs kernel with `items` work-items and up to two inputs; unused inputs have size 0. Reads
+// output.size bytes of the kernel's last argument.
 bool probe_run(const Probe *probe, const char *kernel, const ProbeInput inputs[2], size_t items,
                ProbeInput output);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Devices without fp64 need no other kernels: no text that they compile names a double.
+// Devices without fp64 can compile the kernels: without CLRT_FP64, no line names a double.
 #include "kernel/doubles.h"
 #include "unit/cmocka_all.h"
 
-// Made at build time; certify.cl is compiled with fp64 alone.
+// Generated at build time. certify.cl is missing, because it is compiled only with fp64.
 extern const char kernel_source[], rays_source[], samples_source[], aov_source[], explain_source[];
 
 static void every_double_that_is_compiled_without_fp64_is_found(void **state)

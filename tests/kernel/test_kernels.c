@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Device functions against host arithmetic of twice the precision.
+// Compares device functions with host arithmetic of twice the precision.
 #include "kernel/probe.h"
 #include "unit/cmocka_all.h"
 
@@ -36,9 +36,9 @@ static void host_and_device_agree_on_the_layout(void **state)
         assert_int_equal(sizes[i], expected[i]);
 }
 
-// Every squaring doubles the relative error so far and adds one rounding: 2^-24 for each unit of
-// the exponent.  The exponential path rounds its argument x a few times, which moves exp(-x) by
-// x exp(-x) times that, less than 1e-6 for any exponent.
+// Each squaring doubles the relative error and adds one rounding, so the error is 2^-24 per unit of
+// the exponent. The other path rounds the argument x of exp(-x) a few times. This changes the
+// result by x exp(-x) times the rounding, which is below 1e-6 for any exponent.
 static void powers_are_close_to_exact_ones(void **state)
 {
     (void)state;
@@ -83,7 +83,7 @@ typedef struct {
     SphereData sphere;
     float ray[6];
     double exact; // INFINITY for a miss
-    bool clear;   // not within rounding of a tangent
+    bool clear;   // the ray is no tangent within rounding
 } SphereCase;
 
 static double random_unit(uint64_t *random)
@@ -112,7 +112,7 @@ static long double exact_distance(const long double f[3], const float d[3], long
     return near > 0 ? near : far > 0 ? far : (long double)INFINITY;
 }
 
-// A sphere of that radius at that distance, and a ray aimed within 1.2 radii of its center.
+// Returns a sphere of that radius at that distance, and a ray aimed within 1.2 radii of its center.
 static SphereCase sphere_case(double radius, double distance, uint64_t *random)
 {
     SphereCase made = {0};
@@ -137,8 +137,8 @@ static SphereCase sphere_case(double radius, double distance, uint64_t *random)
 
 #define CASES 20000
 
-// Two-float spheres of radius 1 stay right to a distance of 1e4 and their distance
-// within 3e-7; plain floats get a quarter of these rays wrong at 1e4.
+// Spheres of radius 1 in two floats give correct hits up to a distance of 1e4, and distances within
+// 3e-7. With single floats, a quarter of these rays is wrong at 1e4.
 static void far_spheres_are_hit_and_missed_as_exactly(void **state)
 {
     (void)state;
@@ -183,7 +183,7 @@ static Probe open_lanes(uint32_t lanes)
     return opened;
 }
 
-// All masks there are.
+// Checks all possible masks.
 static void check_masks(const Probe *lanes_probe, uint32_t lanes)
 {
     static uint32_t bits[MASKS], results[MASKS][2], truths[MASKS * 16];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Device functions in fp64 against closed forms in long double, where float arithmetic would show:
-// far and huge spheres and narrow highlights are right to double's last bits.
+// Compares fp64 device functions with closed forms in long double. Distant and huge spheres and
+// narrow highlights must be correct to the last bits of double, so float arithmetic would be
+// detected.
 #include "kernel/probe.h"
 #include "unit/cmocka_all.h"
 
@@ -16,7 +17,7 @@ static Probe probe;
 typedef struct {
     SphereData sphere;
     float ray[6];
-    long double exact; // where the ray meets the sphere
+    long double exact; // the distance of the hit
 } SphereCase;
 
 static void store_center(SphereData *sphere, int axis, double center)
@@ -44,8 +45,8 @@ static double largest_error(const SphereCase *cases)
     return largest;
 }
 
-// A unit sphere in the direction (3, 4, 0) times `distance`, moved aside by (-4, 3, 0) times
-// `aside`: every number is exact, and nothing cancels in the solution.
+// Returns a unit sphere at (3, 4, 0) * distance + (-4, 3, 0) * aside. All numbers are exact, and
+// the closed form has no cancellation.
 static SphereCase far_case(double distance, double aside)
 {
     SphereCase made = {.sphere.radius = 1, .ray = {0, 0, 0, 3, 4, 0}};
@@ -66,7 +67,7 @@ static void far_spheres_are_met_where_they_are(void **state)
     }
 }
 
-// A sphere below the origin that touches it, and a ray from above that meets it at some slope.
+// Returns a sphere that touches the origin from below, and a sloped ray from above that hits it.
 static SphereCase ground_case(double radius, float height, float across)
 {
     SphereCase made = {.sphere.radius = (float)radius, .ray = {0, 0, height, across, 0, -1}};
@@ -88,8 +89,8 @@ static void ground_spheres_of_any_size_are_met_where_they_are(void **state)
     }
 }
 
-// The exponent times the logarithm is rounded, which moves exp(-x) by x exp(-x) times that; by
-// squaring each unit of the exponent costs a rounding.
+// Rounding the argument x changes exp(-x) by x exp(-x) times the rounding. With squaring, each unit
+// of the exponent costs a rounding.
 static void highlights_of_any_shininess_are_right(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays on the device find the holes that meshes have, however small, and none in those that are
-// closed, with every form of the kernels.
+// With every form of the kernels, rays find all holes of meshes, however small, and no holes in
+// closed meshes.
 #include "check/leaks.h"
 
 #include "unit/cmocka_all.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define AROUND 48 // of a ring's vertices
-#define ACROSS 24 // of each of its rounds
+#define AROUND 48 // vertices around the ring
+#define ACROSS 24 // vertices around the tube
 
 static const KernelRequest forms[] = {
     {1 + FAMILY_RAY, 1 + NODES_PAIR, 0, PRECISION_FP32},
@@ -56,7 +56,7 @@ static int close_stage(void **state)
     return 0;
 }
 
-// A ring, hollow in the middle, so that some of it hides behind the rest.
+// Returns a ring. Parts of a ring hide behind other parts.
 static Mesh ring(double scale, Vec3 center)
 {
     Error error = {0};
@@ -122,7 +122,7 @@ static void a_closed_ring_has_no_leaks_at_any_edge_or_point(void **state)
         assert_int_equal(count.total, 3 * AROUND * ACROSS + AROUND * ACROSS);
         assert_int_equal(count.aimed, count.total);
         assert_int_equal(count.hidden, 0);
-        assert_true(count.rays > count.total); // some were seen from close by alone
+        assert_true(count.rays > count.total); // hidden edges and points needed further rays
     }
     mesh_free(&mesh);
 }
@@ -156,7 +156,8 @@ static void a_missing_triangle_leaks(void **state)
     mesh_free(&mesh);
 }
 
-// Splits a triangle at the middle of one of its edges, off it by so much, and not its neighbor.
+// Splits a triangle, but not its neighbor, at the middle of an edge. Moves the new vertex off the
+// edge by the fraction gap.
 static Mesh cracked_ring(double gap)
 {
     Mesh mesh = ring(1, vec3(0, 0, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks at errors.
+// Checks errors of the library.
 #include "library/faults.h"
 
 #include "unit/cmocka_all.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both are made from the same tables; 17 digits give back every double.
+// Makes the scene by library calls and as a file, from the same tables. Texts have 17 digits, which
+// restore every double.
 #include "library/filled.h"
 
 #include "unit/cmocka_all.h"
@@ -43,7 +44,7 @@ static const double floor_positions[][3] = {
     {-4, -4, 0.01}, {4, -4.3, 0}, {4.1, 4, 0.1}, {-4, 4, 0}};
 static const uint32_t floor_triangles[][3] = {{0, 2, 1}, {0, 1, 1}, {0, 3, 2}};
 
-// A roof whose ridge is smooth; one vertex has no normal.
+// A roof with a smooth ridge. One vertex has no normal.
 static const double roof_positions[][3] = {
     {-2, -1, 0.2}, {-2, 1, 1.3}, {-1, 1.1, 1.35}, {-1.1, -1, 0.3}, {-2, 3, 0.2}};
 static const float roof_normals[][3] = {
@@ -143,7 +144,7 @@ static void write_scene(FILE *file)
 {
     write_numbers(file, "background", background, 3);
     write_numbers(file, "ambient", &ambient, 1);
-    fputs("max_level 5\n", file); // the library gets it with the picture
+    fputs("max_level 5\n", file); // in the library, max_level belongs to the picture
     for (int i = 0; i < 2; i++) {
         write_numbers(file, "light", lights[i], 4);
         write_camera(file, &filled_cameras[i]);

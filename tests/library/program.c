@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs clrt and reads its PFM.
+// Runs clrt and reads the PFM file that it writes.
 #include "library/program.h"
 
 #include "unit/cmocka_all.h"
@@ -16,7 +16,7 @@ const char *program_file(const char *name)
     return path;
 }
 
-// Rows stand in the file from the lowest to the highest.
+// The file's rows start at the bottom.
 static float *read_pfm(const char *path, uint32_t width, uint32_t height)
 {
     uint32_t size[2];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libclrt draws what the program draws, bit for bit, and does what clrt.h says.
+// libclrt renders the same bits as the program, and fulfills clrt.h.
 #include "library/filled.h"
 #include "library/program.h"
 #include "unit/cmocka_all.h"
@@ -9,7 +9,7 @@
 
 #define TILE 128
 
-static ClrtRenderer *renderer; // of most tests
+static ClrtRenderer *renderer; // shared by most tests
 
 static ClrtRenderer *open_renderer(uint32_t threads)
 {
@@ -194,7 +194,7 @@ static bool stop_at_once(void *user, uint64_t tiles_done, uint64_t tiles)
     return false;
 }
 
-// Whether all floats of the tile are those of whole, or all are -1.
+// Returns whether the tile equals the tile of whole. Otherwise all its floats must be -1.
 static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t tile[2],
                           const ClrtPicture *picture)
 {

@@ -19,14 +19,14 @@ typedef struct {
     ClrtScene *scene;
     ClrtRenderer *renderer;
     float rgb[3 * WIDTH * HEIGHT];
-    char *environment; // before the library was used
+    char *environment; // a copy from before the first call of the library
 } Stage;
 
 static Stage stage;
 
 extern char **environ;
 
-// All variables, one behind the other; the caller frees it.
+// Returns all variables as one string. The caller frees it.
 static char *copy_environment(void)
 {
     size_t size = 1;
@@ -39,7 +39,8 @@ static char *copy_environment(void)
     return copy;
 }
 
-// PoCL sets a variable of hwloc's when it is opened, whoever does that.
+// Opens all drivers before the test copies the environment, because PoCL then sets a variable for
+// hwloc.
 static void open_driver(void)
 {
     cl_platform_id platforms[16];
