@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the oracle about differing pixels alone: they are few, and its answer costs 25 samples.
+// Calls the oracle only for differing pixels. They are few, and an explanation costs 25 samples.
 #include "image/comparison.h"
 
 #include "unit/cmocka_all.h"

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
-// A picture against what it should be: how many pixels differ, and whether the oracle sees why.
+// Compares a picture with the expected picture: how many pixels differ, and whether the oracle
+// explains why.
 #pragma once
 
 #include "oracle/oracle.h"
 
-// Differences up to this, in any channel, are rounding.
+// A pixel differs if the difference of a channel is larger.
 #define COLOR_TOLERANCE (1.0f / 255)
 
 typedef struct {
-    uint32_t compared;                                       // pixels
-    uint32_t differing;                                      // by more than the tolerance
-    uint32_t at_edges, at_creases, at_horizons, unexplained; // of those
-    float largest_agreeing;      // difference of a channel among the pixels that do not differ
+    uint32_t compared;                                       // number of compared pixels
+    uint32_t differing;                                      // number of differing pixels
+    uint32_t at_edges, at_creases, at_horizons, unexplained; // the differing pixels, by
+                                                             // oracle_explains
+    float largest_agreeing;      // the largest channel difference of the other pixels
     uint32_t x, y;               // of the first unexplained pixel
-    float color[3], expected[3]; // there
+    float color[3], expected[3]; // the colors of that pixel
 } Comparison;
 
-// expected holds every step-th pixel of every step-th row of picture.
+// Compares every step-th pixel of every step-th row of picture. expected contains only these
+// pixels.
 Comparison comparison_make(const OracleView *view, const Framebuffer *picture,
                            const Framebuffer *expected, uint32_t step);
 
-// Prints the figures as one line that starts with name.
+// Prints the figures in one line that starts with name.
 void comparison_print(const Comparison *comparison, const char *name);
 
-// How many pixels may differ where `limit` of a 512 x 512 picture may, rounded up.
+// Scales `limit`, the allowed number of differing pixels for 512 x 512 pixels, to the compared
+// pixels, and rounds up.
 uint32_t comparison_allowance(const Comparison *comparison, uint32_t limit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The choice stays the same for all of a process.
+// Reads the form of the kernels from CLRT_TEST_KERNEL. The choice does not change during a process.
 #include "image/form.h"
 
 #include "device/device.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes share one mesh, a wavy open sheet whose normals have unequal lengths and are partly
+// The scenes share one mesh: a wavy open sheet. Its normals have different lengths, and some are
 // missing.
 #include "image/inline_scenes.h"
 
@@ -9,15 +9,15 @@
 #include <unistd.h>
 
 #define SHEET_NAME "sheet.ply"
-#define SIDE       10 // vertices
+#define SIDE       10 // vertices along each side of the sheet
 
 static const struct {
     const char *name, *text;
 } scenes_written[INLINE_COUNT] = {
     [INLINE_OPEN_SHEET] =
         {"open_sheet.scn",
-         // Seen from both sides and in a mirror, beside its one-sided twin that hides nothing from
-         // below; lit from above and from below.
+         // The two-sided sheet from both sides and in a mirror, beside a one-sided copy, which is
+         // invisible from below. Lights are above and below.
          "size 384 288\n"
          "background 0.2 0.4 0.7\n"
          "ambient 0.1\n"
@@ -44,8 +44,8 @@ static const struct {
          "camera -0.4 -0.5 -2.8 0 0.2 0.2 42\n"},
     [INLINE_MIRRORS] =
         {"mirrors.scn",
-         // Flat facets, a mirror ball seen from outside and from inside, sharp highlights, and an
-         // unlit mirror.
+         // Flat normals, a mirror ball seen from outside and inside, sharp highlights, and an unlit
+         // mirror.
          "size 320 320\n"
          "max_level 6\n"
          "normals flat\n"
@@ -66,7 +66,7 @@ static const struct {
          "camera 0.1 -0.1 0.7 -1 0.4 0.5 90\n"},
     [INLINE_FAR_AWAY] =
         {"far_away.scn",
-         // A small scene a thousand units from the origin, on a ground sphere of radius 1e5.
+         // A small scene on a ground sphere of radius 1e5, a thousand units from the origin.
          "size 300 200\n"
          "background 0.9 0.9 1\n"
          "define ground matte diffuse 0.6 0.6 0.5 reflectivity 0.6\n"
@@ -80,8 +80,8 @@ static const struct {
          "mesh sheet.ply translate 1000 -2000 3000.2\n"
          "camera 1001.8 -2002.2 3001.2 1000 -2000 3000.1 40\n"},
     [INLINE_DISTANT_LIGHTS] = {"distant_lights.scn",
-                               // Creases that shadow themselves, above a floor a hundred times as
-                               // wide, under lights a thousand units away.
+                               // Creases with shadows on themselves, above a floor a hundred times
+                               // as wide. The lights are a thousand units away.
                                "size 384 288\n"
                                "background 0.3 0.4 0.5\n"
                                "light 600 -300 700 0.5\n"
@@ -129,7 +129,7 @@ void inline_scenes_path(const InlineScenes *scenes, InlineScene scene, char path
     make_path(scenes, scenes_written[scene].name, path);
 }
 
-// The sheet where text is NULL.
+// Writes text, or the sheet if text is NULL.
 static bool write_file(const InlineScenes *scenes, const char *name, const char *text, Error *error)
 {
     char path[INLINE_PATH_SIZE];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes of what the course's scenes have none of, written as files into a temporary folder.
+// Scenes with features that no scene of the course has. They are written to files in a temporary
+// folder.
 #pragma once
 
 #include "base/error.h"
@@ -18,13 +19,13 @@ typedef enum {
     INLINE_COUNT
 } InlineScene;
 
-// Makes the folder and its files.
+// Creates the folder and its files.
 bool inline_scenes_write(InlineScenes *scenes, Error *error);
 
-// Removes what was written.
+// Removes the folder and its files.
 void inline_scenes_remove(InlineScenes *scenes);
 
-// The same for a program of tests, around all of them.
+// The scenes of a test program, with the setup and teardown of its group of tests.
 extern InlineScenes inline_scenes;
 int inline_scenes_set_up(void **state);
 int inline_scenes_tear_down(void **state);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenImageIO's own comparison of two files, as JSON: judge PICTURE PICTURE THRESHOLD1 THRESHOLD4.
-// Pixels fail or warn that have a channel past the threshold.
+// judge PICTURE PICTURE THRESHOLD1 THRESHOLD4: prints OpenImageIO's comparison of two files as
+// JSON. A pixel fails or warns if a channel differs by more than the threshold.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 

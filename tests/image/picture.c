@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages one after the other; every one leaves a value that is empty where it failed.
+// Runs the stages one after another. A stage that fails leaves an empty value.
 #include "image/picture.h"
 
 #include "accel/compile.h"

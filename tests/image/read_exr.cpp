@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenImageIO behind a C function, with every exception caught.
+// Wraps OpenImageIO in a C function that catches every exception.
 #include "image/read_exr.h"
 
 #include <OpenImageIO/imageio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C face of a helper that reads the course's reference pictures with OpenImageIO.
+// The C interface of a helper that reads the course's reference pictures with OpenImageIO.
 #pragma once
 
 #include <stddef.h>
@@ -13,8 +13,8 @@ typedef struct {
     float *pixels; // room for width * height * 3, the top row first
 } ExrPicture;
 
-// Fills the pixels from the file at path.  0, and a message of at most message_size bytes, where it
-// cannot or the file's size is another.
+// Reads the pixels of the file at path. Returns 0 and a message of at most message_size bytes if
+// the file is unreadable or has another size.
 int read_exr(const char *path, const ExrPicture *picture, char *message, size_t message_size);
 
 #ifdef __cplusplus

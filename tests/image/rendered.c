@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Differences are summed in double, value by value.
+// Renders pictures for tests and compares them.
 #include "image/rendered.h"
 
 #include "image/form.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In /tmp, as everything that tests leave behind once they fail.
+// Temporary files are in /tmp, because failed tests do not remove them.
 #include "image/temporary.h"
 
 #include "unit/cmocka_all.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing: what it reaches, what it costs, and that it is one picture.
+// Tests the error and the cost of adaptive anti-aliasing, and that every device draws the same
+// picture.
 #include "image/rendered.h"
 #include "image/temporary.h"
 #include "unit/cmocka_all.h"
@@ -37,7 +38,7 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
     }
 }
 
-// The second step knows more of what lies around a cell, but throws nothing away.
+// The second step knows more samples around a cell, but it reuses all existing samples.
 static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
 {
     (void)state;
@@ -61,13 +62,14 @@ static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
 
 #define SIDE 240
 
-// The requirement for a contrast: the error of side x side samples, with `times` times fewer.
+// The requirement for a contrast: the error of side x side samples per pixel, with `times` times
+// fewer samples.
 typedef struct {
     float contrast;
     uint32_t side, times;
 } Saving;
 
-// Against a grid that none of the others is part of.
+// Compares with a grid that shares no samples with the others.
 static void expect_error_of_uniform(const char *scene, const Saving *saving)
 {
     const uint32_t side = saving->side;
@@ -117,9 +119,9 @@ static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
     framebuffer_free(&picture);
 }
 
-#define SPHERES 60 // along a side
+#define SPHERES 60 // spheres along a side of the wall
 
-// Writes a wall of bright spheres on black. The radii, in pixels, alternate.
+// Writes a wall of bright spheres on black. The radii, in pixels, alternate among the given radii.
 static const char *write_spheres(const double radii[], int count)
 {
     static char path[TEMPORARY_PATH];
@@ -135,7 +137,7 @@ static const char *write_spheres(const double radii[], int count)
     return path;
 }
 
-// Each of the spheres keeps a distance of three pixels from the next.
+// Neighboring spheres are three pixels apart.
 static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
 {
     (void)state;
@@ -162,7 +164,7 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
     remove(request.scene_path);
 }
 
-// Writes a sphere, 80 pixels wide, with little contrast to the background.
+// Writes a sphere, 80 pixels wide, that has little contrast with the background.
 static const char *write_faint_sphere(void)
 {
     static char path[TEMPORARY_PATH];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels beside the colors: judged by the oracle, by the counters of the whole picture, and
-// against each other in every form of the kernels and every cut into tiles.
+// Tests the channels besides the colors. Compares them with the oracle and with the picture's
+// counters. They must be equal in every form of the kernels and for all tile sizes.
 #include "image/form.h"
 #include "image/inline_scenes.h"
 #include "image/picture.h"
@@ -13,7 +13,8 @@
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
 
-// How many pixels of 10,000 may differ in a decision: rays along an edge fall on either side.
+// The number of pixels in 10,000 that may differ in a decision, because rays along an edge may fall
+// on either side.
 #define LIMIT 2
 
 static AovSet set_of(const char *list)
@@ -44,7 +45,7 @@ static Vec3 vector_at(const uint32_t *values)
     return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
 }
 
-// The values of a pixel, in the order of the table.
+// The values of a pixel, in the order of aov_table.
 typedef struct {
     double depth;
     Vec3 normal, position;
@@ -67,11 +68,12 @@ static double apart(Vec3 a, Vec3 b)
 }
 
 typedef struct {
-    uint32_t pixels, others, shadows, bounces; // that differ
-    double depth, normal, position;            // largest differences where the primitive is one
+    uint32_t pixels, others, shadows, bounces; // pixels in all; differing primitives, shadows and
+                                               // bounces
+    double depth, normal, position;            // largest differences on equal primitives
 } Judgment;
 
-// How far a point is moved by being stored in floats.
+// Returns the largest rounding of a point that is stored in floats.
 static double rounding_of(Vec3 point)
 {
     return vec3_extent(point) * 0x1p-24;
@@ -124,7 +126,8 @@ static double size_of(const Scene *scene)
     return 1 / normalization_of(scene).scale;
 }
 
-// With several samples a pixel, which the channels look away from.
+// Compares the channels with the oracle. Draws several samples per pixel, which the channels must
+// ignore.
 static void check(const char *path, uint32_t step)
 {
     Scene scene = {0};
@@ -198,7 +201,7 @@ static bool pictures_equal(const Framebuffer *a, const Framebuffer *b)
     return memcmp(a->pixels, b->pixels, (size_t)a->width * a->height * sizeof *a->pixels) == 0;
 }
 
-// Whether the request gives the same bits as the program does by itself.
+// Checks that the request gives the same bits as the defaults.
 static void check_same(const PictureRequest *other, const char *list)
 {
     Layers layers, changed_layers;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Among coincident triangles that a ray may hit, the lowest id wins regardless of the order of
-// their corners, in every form of the kernels.  A copy of a mesh at the same place changes no bit.
+// Tests that the triangle with the lowest id wins among coincident triangles. This must hold for
+// every order of corners and in every form of the kernels. A copy of a mesh at the same place must
+// not change a bit.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"
@@ -19,7 +20,7 @@ static const KernelChoice forms[] = {
     {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
 #define FORMS (sizeof forms / sizeof *forms)
 
-// The first three keep the front where it is, the others reverse it.
+// The first three orders keep the front side, and the others reverse it.
 static const int orders[ORDERS][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                       {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 
@@ -44,7 +45,7 @@ static void write_head(FILE *stream, int vertices, int faces, bool has_normals)
             has_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", faces);
 }
 
-// A triangle for each pair, in cells of a grid, all with their fronts upward.
+// Writes a triangle for each pair, in the cells of a grid. All fronts face up.
 static void write_corners(FILE *stream)
 {
     uint32_t state = 4;
@@ -121,7 +122,8 @@ static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE *
     layers_free(&layers);
 }
 
-// The eye is above the triangles, on the front of those that are not reversed.
+// Returns the id that must win. The eye is above the triangles, so it sees the front of triangles
+// that are not reversed.
 static uint32_t expected_id(uint32_t pair, Sides sides)
 {
     if (sides.first || !is_reversed(order_of((int)pair, false)))
@@ -167,7 +169,7 @@ static double wave(double x, double y)
     return 0.25 * sin(3 * x) * cos(2.5 * y);
 }
 
-// Writes a wavy sheet with smooth normals and all corners in this order.  A reversed sheet has
+// Writes a wavy sheet with smooth normals and all corners in this order. A reversed sheet has
 // reversed normals.
 static void write_sheet(char path[TEMPORARY_PATH], int order)
 {
@@ -189,8 +191,8 @@ static void write_sheet(char path[TEMPORARY_PATH], int order)
     temporary_close(stream);
 }
 
-// Renders the sheet with mirrors and with lights on both sides.  The copy has another color;
-// copy_order -1 omits it.
+// Renders the sheet with mirrors and with lights on both sides. The copy has another color. With
+// copy_order -1, there is no copy.
 static Framebuffer draw_sheet(int first_order, int copy_order, const char *sides,
                               const KernelChoice *form)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Explanations of pixels against the picture itself, against what they are made of, and their
-// bounds of error against the oracle, on the very numbers that the kernels trace.
+// Tests the explanations of pixels. They must match the picture and be consistent in themselves.
+// Their error bounds must hold for the oracle's results on the same stored numbers.
 #include "image/form.h"
 #include "image/inline_scenes.h"
 #include "image/picture.h"
@@ -50,7 +50,7 @@ static double component(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// A surface's color is the sum of its reported lights.
+// Checks that a surface's color is the sum of its reported lights.
 static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
 {
     const Scene *scene = explainer->scene;
@@ -71,7 +71,7 @@ static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
     }
 }
 
-// A sample's color is made of the surfaces and the background.
+// Checks that a sample's color is the weighted sum of its surfaces and the background.
 static void check_sample(const Explainer *explainer, const ExplainedSample *sample)
 {
     Vec3 color = vec3_scale(explainer->scene->background, sample->background_weight);
@@ -154,7 +154,7 @@ static void the_same_of_a_large_mesh(void **state)
 typedef struct {
     const char *path;
     uint32_t compared;
-    double largest; // share of its bound that an error took
+    double largest; // the largest error divided by its bound
 } Bounds;
 
 static void judge_distance(Bounds *bounds, const Explainer *explainer, const ExplainedRay *ray,
@@ -167,12 +167,13 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
     const Vec3 apart = vec3_sub(path->surface.point, eye);
     const double distance = sqrt(vec3_dot(apart, apart));
     const double rounding = 0x1p-48 * (distance + vec3_extent(eye)); // of the oracle and of this
+                                                                     // test
     bounds->compared++;
     bounds->largest = fmax(bounds->largest, fabs(ray->distance * scale - distance) /
                                                 (ray->error * scale + rounding));
 }
 
-// The camera's rays alone: those of the oracle start elsewhere once reflected.
+// Checks only camera rays, because the oracle's reflected rays start at slightly different points.
 static void check_bounds(Explainer *explainer, const Framebuffer *picture, void *context)
 {
     Bounds *bounds = context;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Eleven pixels whose rays were worked out by hand.  Pictures have 5 x 5 pixels and a field of view
-// of 90 degrees, so that the ray through pixel (2, 2) goes straight to the camera's aim, and those
-// beside it lean by 0.4 or 0.8.  The floor is a square of two triangles, 0 below its diagonal from
-// (-10, -10) to (10, 10) and 1 above.
+// Explanations of eleven pixels, compared with rays computed by hand. Pictures have 5 x 5 pixels
+// and a field of view of 90 degrees. The ray through pixel (2, 2) points at the camera's target.
+// Each pixel beside it tilts the ray by 0.4. The floor is a square of two triangles: 0 below its
+// diagonal from (-10, -10) to (10, 10), and 1 above.
 #include "image/picture.h"
 #include "scene/names.h"
 #include "unit/cmocka_all.h"
@@ -19,7 +19,7 @@ static const char floor_text[] =
     "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "-10 -10 0\n10 -10 0\n10 10 0\n-10 10 0\n3 0 1 2\n3 0 2 3\n";
 
-// The floor's first triangle, lit as if it leaned by 0.6 toward x.
+// The floor's first triangle, with normals that lean by 0.6 toward x.
 static const char leaning_text[] =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
     "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
@@ -37,7 +37,7 @@ static char folder[64];
 typedef struct {
     uint32_t x, y;
     ExplainedRay rays[4];
-    ExplainedLight lights[4]; // the first of each ray
+    ExplainedLight lights[4]; // the first light of each ray
     PrimitiveName names[4], blockers[4];
     uint32_t ray_count;
     double background_weight;
@@ -126,8 +126,8 @@ static void assert_floor(const Told *told, uint32_t level, size_t number, double
     assert_true(told->rays[level].error > 0 && told->rays[level].error < 1e-4);
 }
 
-// The eye is 5 from the center of a sphere of radius 1, so 4 from its nearest point, which faces
-// the light at the eye: ambient 0.1 and 0.5 * 0.5 * 1 of 0.8.
+// The eye is at a distance of 5 from the center of a sphere of radius 1, so the hit is at 4. The
+// hit faces the light at the eye: ambient 0.1 plus 0.5 * 0.5 * 1, times 0.8.
 static void a_sphere_seen_head_on(void **state)
 {
     (void)state;
@@ -146,7 +146,8 @@ static void a_sphere_seen_head_on(void **state)
     assert_number(told.background_weight, 0);
 }
 
-// Pixel (0, 0) looks along (-0.8, 1, 0.8), which passes the sphere 3.7 from its center.
+// The ray of pixel (0, 0) has direction (-0.8, 1, 0.8), which misses the sphere by 3.7 from its
+// center.
 static void a_ray_past_the_sphere(void **state)
 {
     (void)state;
@@ -162,8 +163,8 @@ static void a_ray_past_the_sphere(void **state)
 
 #define LAMP_OVER_BALL "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
 
-// The lamp hangs 4 over the point (1e-3, 0, 0), a ball of radius 0.5 between them: its underside is
-// 0.5 away.  The eye is sqrt(16 + 0.16) away.
+// The light is 4 above the point (1e-3, 0, 0). Between them is a ball of radius 0.5, whose lowest
+// point is 0.5 away. The eye is sqrt(16 + 0.16) away.
 static void a_point_under_a_ball(void **state)
 {
     (void)state;
@@ -178,10 +179,10 @@ static void a_point_under_a_ball(void **state)
     assert_number(told.color[0], 0.08);
 }
 
-// A cone from the lamp that touches the ball has the sine 0.5 / 3, and meets the floor at a radius
-// of 4 * 0.169031 = 0.676123.  At 0.65 the way to the lamp is sqrt(0.65^2 + 16) = 4.052468 long;
-// the ball's center is 1.091310 along it and 0.481182 off it, so that the ball begins sqrt(0.25 -
-// 0.481182^2) = 0.135860 before: at 0.955450.
+// The cone from the light that touches the ball has the sine 0.5 / 3. It intersects the floor at a
+// radius of 4 * 0.169031 = 0.676123. At 0.65, the light is at a distance of sqrt(0.65^2 + 16) =
+// 4.052468. The ball's center is 1.091310 along this line and 0.481182 off it. The hit is sqrt(0.25
+// - 0.481182^2) = 0.135860 before the center: at 0.955450.
 static void a_point_just_inside_a_shadows_edge(void **state)
 {
     (void)state;
@@ -194,7 +195,7 @@ static void a_point_just_inside_a_shadows_edge(void **state)
     assert_number(told.lights[0].cosine, 0.987053);
 }
 
-// At 0.7 the lamp is sqrt(0.49 + 16) away, its cosine 4 / 4.060788, and nothing is between.
+// At 0.7, the light is sqrt(0.49 + 16) away, its cosine is 4 / 4.060788, and nothing occludes it.
 static void a_point_just_outside_a_shadows_edge(void **state)
 {
     (void)state;
@@ -206,10 +207,10 @@ static void a_point_just_outside_a_shadows_edge(void **state)
     assert_number(told.color[0], 0.8 * (0.1 + 0.5 * 0.985030));
 }
 
-// Two mirror balls of radius 1, 3 before and 3 behind the eye: 2 to the first, then 4 from one to
-// the other, each half as bright as the last, until rays of level 3 see the background.  The lamp
-// is (0, -+2, 2) from every point, at the cosine 1 / sqrt(2): each ball adds its
-// 0.1 + 0.5 * 0.707107 = 0.453553, weighed 1/2, 1/4 and 1/8, and the background 1/8 of blue.
+// Two mirror balls of radius 1 are 3 in front of and 3 behind the eye. The first ray has length 2,
+// and reflected rays have length 4. Each reflection halves the weight, and rays of level 3 see the
+// background. The light is at (0, -+2, 2) from every hit, at the cosine 1 / sqrt(2). Each ball adds
+// 0.1 + 0.5 * 0.707107 = 0.453553 with weights 1/2, 1/4 and 1/8. The background adds 1/8 of blue.
 static void a_mirror_of_a_mirror_of_a_mirror(void **state)
 {
     (void)state;
@@ -233,9 +234,9 @@ static void a_mirror_of_a_mirror_of_a_mirror(void **state)
     assert_number(told.color[2], 0.521859);
 }
 
-// The line x = 0 passes the center of the ball at a distance of 0.999: half its chord is
-// sqrt(1 - 0.999^2) = 0.0447102, so that the ray from y = -5 meets it after 4.955290.  The lamp is
-// 4 to the left, on the height of the point: its cosine is the normal's 0.999.
+// The line x = 0 is at a distance of 0.999 from the ball's center. Half its chord is sqrt(1 -
+// 0.999^2) = 0.0447102, so the ray from y = -5 hits after 4.955290. The light is 4 to the left at
+// the height of the hit, so its cosine is the normal's 0.999.
 static void a_ray_that_grazes_a_sphere(void **state)
 {
     (void)state;
@@ -249,7 +250,7 @@ static void a_ray_that_grazes_a_sphere(void **state)
     assert_number(told.lights[0].cosine, 0.999);
 }
 
-// From 0.001 over the floor to a point 4 away; triangle 0 is the one below the diagonal.
+// From 0.001 above the floor to a point 4 away, in triangle 0, which is below the diagonal.
 static void a_ray_that_grazes_the_floor(void **state)
 {
     (void)state;
@@ -263,8 +264,8 @@ static void a_ray_that_grazes_the_floor(void **state)
     assert_number(told.lights[0].cosine, 1);
 }
 
-// From the center of a mirror ball: 1 to its wall, whose normal points outward, away from the lamp
-// inside, and then the whole diameter back and forth.
+// From the center of a mirror ball. The first ray has length 1, and reflected rays have length 2.
+// The wall's normal points outward, away from the light inside.
 static void a_mirror_ball_seen_from_inside(void **state)
 {
     (void)state;
@@ -281,9 +282,9 @@ static void a_mirror_ball_seen_from_inside(void **state)
     assert_number(told.color[0], 0.1 * 0.875);
 }
 
-// From below, the one-sided floor is not seen and the two-sided one a unit higher is, its normal
-// turned down; the floor still stands in the way of the lamp a unit below it, since seen from the
-// point its front is in between.  (1, -2) lies in triangle 0 of either.
+// From below, the one-sided floor is invisible. The two-sided floor a unit higher is visible, with
+// its normal turned down. The one-sided floor occludes the light a unit below it, because the
+// shadow ray meets its front. (1, -2) is in triangle 0 of both.
 static void floors_seen_from_below(void **state)
 {
     (void)state;
@@ -303,8 +304,8 @@ static void floors_seen_from_below(void **state)
     assert_number(told.color[0], 0.08);
 }
 
-// The normal (0.6, 0, 0.8) is turned to the lamp, 10 beside and 5 below the point, at the cosine
-// (0.6 * 10 - 0.8 * 5) / sqrt(125); the face, which looks up, is turned away from it.
+// The light is 10 beside and 5 below the point. The normal (0.6, 0, 0.8) faces it at the cosine
+// (0.6 * 10 - 0.8 * 5) / sqrt(125). The face points up, away from the light.
 static void a_face_turned_away_from_a_light(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures with an error that was asked for: that they are one picture, and the ends of the scale.
-// tests/goals measures whether errors are held.
+// Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
+// the smallest and largest goals. tests/goals measures whether clrt meets the goals.
 #include "image/rendered.h"
 #include "image/temporary.h"
 #include "unit/cmocka_all.h"
@@ -30,8 +30,8 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
     }
 }
 
-// Pixels are chosen at random to see whether their centers deceive: 24, or what there is, of each
-// of the twelve strata that a picture may have.
+// Random pixels are refined to check that their centers are representative. They are 24 pixels, or
+// all if there are fewer, of each of the twelve first strata.
 static void all_but_some_controls_keep_their_center_where_any_error_will_do(void **state)
 {
     (void)state;

@@ -2,7 +2,7 @@
 // Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
 // Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of that size and of views up to
 // VIEWS. CLRT_TEST_SCENES limits it to the listed scenes. `test_hashes list SIZE` prints the lines
-// to record. CLRT_TEST_OPTIONS goes to the kernels' compiler.
+// to record. CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/picture.h"
 #include "unit/cmocka_all.h"
@@ -21,7 +21,7 @@ static const char *const own_scenes[] = {"silhouette",  "matte",  "blinn_phong",
 static const char *const course_scenes[] = {"silhouette", "matte", "blinn_phong", "reflections",
                                             "simple",     "cow",   "buddha"};
 
-// "course/cow" lies in the course's folder, "cow" in ours.
+// "course/cow" is in the course's folder, "cow" in scenes/.
 static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
 {
     char file[128];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene gives the same bits regardless of the form of the kernels, the tree, the tiles, the
-// work-groups and the program.
+// A scene gives the same bits regardless of the kernels' form, tree, tiles, work-groups and
+// program.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"
@@ -33,7 +33,7 @@ static PictureRequest in_form(PictureRequest request, const KernelChoice *choice
     return request;
 }
 
-// Neither side is a multiple of a tile or a work-group.
+// Neither side of the picture is a multiple of a tile's or work-group's side.
 static PictureRequest small_request(size_t scene)
 {
     PictureRequest request = picture_request(scenes[scene], 1);
@@ -140,7 +140,7 @@ static const char *write_scene(unsigned mask)
     return path;
 }
 
-// All six switches: the mask's four, the tree and the statistics.
+// Tests one setting of six switches: the mask's four features, the tree and the statistics.
 static void expect_special_same(unsigned mask, const KernelChoice *choice)
 {
     uint64_t tallies[TALLY_KINDS];
@@ -155,8 +155,8 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     remove(general.scene_path);
 }
 
-// All switches on, all off, and each alone on or off.  All 64 programs would take a minute to
-// compile.
+// Tests all switches on, all off, and each switch alone on or off. Compiling all 64 programs would
+// take a minute.
 static void expect_specials_same(const KernelChoice *choice)
 {
     expect_special_same(0, choice);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A launch of samples that the device refuses while the one before it runs, or rather waits here
-// until somebody waits for it.
+// The device refuses a launch while the previous launch runs. Here the previous launch waits until
+// somebody waits for it.
 #include "image/rendered.h"
 
 #include <dlfcn.h>
@@ -8,7 +8,7 @@
 
 #include "unit/cmocka_all.h"
 
-#define LAUNCH_ITEMS 16384 // of all launches but the last, as in host/render/sampler.c
+#define LAUNCH_ITEMS 16384 // work-items of all launches but the last, as in host/render/sampler.c
 
 static cl_event gate, held_launch; // NULL before the launch
 static bool is_released;
@@ -21,7 +21,7 @@ static cl_event make_gate(cl_command_queue queue)
     return clCreateUserEvent(context, NULL);
 }
 
-// These three stand before OpenCL's own.
+// These three functions override OpenCL's.
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t *offset, const size_t *grid, const size_t *group,
                               cl_uint count, const cl_event *awaited, cl_event *event)
@@ -70,7 +70,7 @@ cl_int clReleaseMemObject(cl_mem memory)
     return real(memory);
 }
 
-// It writes to memory of the host, which is freed next.
+// The launch writes to host memory, which is freed next.
 static void after_a_refused_launch_the_one_before_it_is_awaited(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The renderer against the fp64 oracle, in all views of the course's scenes, the project's own and
-// a few of what these lack.  A pixel may differ where the oracle sees an edge within a pixel of
-// it, and few may.  Large meshes are sampled; CLRT_FULL=1 in the environment compares all pixels.
+// Compares the renderer with the fp64 oracle, in all views of the course's, the project's and some
+// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. In
+// large meshes, some pixels are compared; CLRT_FULL=1 in the environment compares all pixels.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/inline_scenes.h"
@@ -14,10 +14,10 @@
 #include <string.h>
 #include <unistd.h>
 
-// How many pixels of a 512 x 512 picture may differ.
+// The number of pixels of a 512 x 512 picture that may differ.
 #define LIMIT 30
 
-// Only every so many-th pixel of every so many-th row of a mesh is compared: minutes otherwise.
+// Compares every STEP-th pixel of every STEP-th row of meshes. All pixels would take minutes.
 #define COURSE_MESH_STEP  4
 #define PROJECT_MESH_STEP 8
 
@@ -42,7 +42,7 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
            comparison.differing <= comparison_allowance(&comparison, LIMIT);
 }
 
-// Goes through all views before it fails, so that the figures of all are seen.
+// Compares all views before it fails, so that it prints the figures of all views.
 static void check(const char *path, uint32_t step)
 {
     Error error = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// fp64, the reference mode, against the oracle, which traces the very numbers that are stored of a
-// scene in fp64 by methods of its own; and fp32 against fp64, from which it differs by rounding.
+// Compares fp64 pictures with the oracle, which traces the same stored numbers in fp64 by other
+// methods. Compares fp32 pictures with fp64 pictures, which differ by rounding.
 #include "image/course.h"
 #include "image/inline_scenes.h"
 #include "image/picture.h"
@@ -13,10 +13,10 @@
 #include <string.h>
 #include <unistd.h>
 
-// The largest difference of two roundings of a color to float, plus a rounding to steps of 2^-32.
+// The largest difference of two colors rounded to float, plus a rounding to steps of 2^-32.
 #define ROUNDED 0x1.01p-23f
 
-// The oracle takes minutes for all pixels of a mesh.
+// The oracle would take minutes for all pixels of a mesh.
 #define MESH_STEP 16
 
 static void rendered(Framebuffer *picture, const char *path, uint32_t view, Precision precision)
@@ -35,12 +35,12 @@ static float pixel_difference(const float a[3], const float b[3])
 }
 
 typedef struct {
-    uint32_t step; // from one compared pixel, or row, to the next
+    uint32_t step; // compares every step-th pixel of every step-th row
     float tolerance;
 } Comparing;
 
-// How many pixels differ by more than the tolerance from the expected picture, which holds every
-// step-th of every step-th row.
+// Returns the number of pixels that differ by more than the tolerance. expected contains every
+// step-th pixel of every step-th row.
 static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *expected,
                                 const Comparing *comparing)
 {
@@ -55,7 +55,7 @@ static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *e
     return differing;
 }
 
-// A scene as it is stored, and the cameras that look at it.
+// A scene with its numbers as stored for the device, and its cameras.
 typedef struct {
     Scene scene;
     Normalization normalization;
@@ -101,7 +101,7 @@ static uint32_t view_differences(const Stored *stored, const char *path, uint32_
     return differing;
 }
 
-// Goes through all views before it fails, so that the figures of all are seen.
+// Compares all views before it fails, so that it prints the figures of all views.
 static void check_oracle(const char *path, Comparing comparing)
 {
     Stored stored;
@@ -165,7 +165,7 @@ static void every_pixel_of_unusual_scenes_is_the_oracles(void **state)
     }
 }
 
-// share is the number of pixels per 100,000 of a view that may differ in fp32 by more than an 8-bit
+// share is the number of pixels in 100,000 of a view that may differ in fp32 by more than an 8-bit
 // step.
 static void check_fp32(const char *name, uint64_t share)
 {
@@ -203,7 +203,7 @@ static void fp32_differs_in_few_pixels(void **state)
     check_fp32("simple", 1);
 }
 
-// Mirrors facing each other multiply every rounding, which only the showcase has many of.
+// Mirrors that face each other amplify every rounding. Only the showcase has many such mirrors.
 static void fp32_differs_in_few_pixels_of_meshes(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The renderer's counters against those of the course's own tracer on its scenes.  Rays along an
-// edge may fall on either side of it.
+// Compares the renderer's counters with the counters of the course's tracer. Rays along an edge may
+// fall on either side.
 #include "image/course.h"
 #include "image/picture.h"
 #include "unit/cmocka_all.h"
@@ -18,7 +18,8 @@ static bool is_near(uint64_t count, uint64_t expected)
 typedef struct {
     const char *scene;
     uint64_t camera_hits, shaded_points, reflected_rays;
-    uint64_t shadow_rays; // the course's, which casts some that cannot reach the light
+    uint64_t shadow_rays; // by the course's tracer, which also casts rays that cannot reach the
+                          // light
 } Counts;
 
 static void check(Counts expected)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The renderer against the course's own pictures.
-// They stem from a float tracer with another triangle test, so a few pixels on edges differ; the
-// oracle must see the edge at each.
+// Compares the renderer with the course's pictures. They come from a float tracer with another
+// triangle test, so a few pixels on edges differ. The oracle must find the edge at each of them.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/picture.h"

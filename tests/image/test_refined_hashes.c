@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pixel hashes of refined pictures hold: --aa-adaptive and --error, two settings each.
-// `test_refined_hashes list` prints what would be recorded; CLRT_TEST_SCENES may name the scenes.
+// Refined pictures have the recorded pixel hashes, for two settings each of --aa-adaptive and
+// --error. `test_refined_hashes list` prints the lines to record. CLRT_TEST_SCENES limits it to the
+// listed scenes.
 #include "image/picture.h"
 #include "unit/cmocka_all.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refined pictures show parts of meshes that are thinner than a pixel, at any contrast.
+// Refined pictures show thin parts of meshes, narrower than a pixel, at any contrast.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -12,8 +12,8 @@
 #define SIDE 181
 #define PI   3.14159265358979
 
-// A corner where a picture of SIDE x SIDE shows it: in pixels from the middle, right and up, seen
-// from 100 pixels' worth of depth units before the plane it is in.
+// A corner's position in a picture of SIDE x SIDE pixels: pixels to the right of and above the
+// center.
 typedef struct {
     double x, y;
 } Corner;
@@ -70,7 +70,7 @@ static void write_mesh(const Drawing *drawing)
     assert_int_equal(fclose(stream), 0);
 }
 
-// The object has that lightness before a black background.
+// Returns a request for the drawing with that brightness in front of a black background.
 static PictureRequest request_of(const Drawing *drawing, double light)
 {
     write_mesh(drawing);
@@ -106,8 +106,8 @@ static Corner middle_of(int column, int row)
     return (Corner){3.013 * (column - GRID / 2) + 0.5, 2.971 * (row - GRID / 2) + 1.5};
 }
 
-// Each keeps a distance of about three pixels from the next.  Half are slivers, whose inner disks
-// are a third of their radius across.  Returns the area.
+// Adds triangles at distances of about three pixels. Half are slivers, whose incircle's diameter is
+// a third of their radius. Returns the total area.
 static double add_grid(Drawing *drawing)
 {
     static const double radii[] = {0.6, 0.4, 0.2, 0.1, 0.07, 0.05};
@@ -157,7 +157,7 @@ static void thousands_of_triangles_smaller_than_pixels_are_all_seen(void **state
     drawing_free(&drawing);
 }
 
-// A strip across the picture, of two triangles.
+// Adds a strip of two triangles across the picture.
 static void add_cable(Drawing *drawing, Corner from, Corner to, double thickness)
 {
     const double x = to.x - from.x, y = to.y - from.y;
@@ -193,7 +193,7 @@ static void a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line(void **state)
 {
     (void)state;
     expect_unbroken(1, -40, 55);
-    expect_unbroken(0.02, -40, 55); // a contrast too low to be looked for
+    expect_unbroken(0.02, -40, 55); // too little contrast for refinement by contrast
     expect_unbroken(0.02, 7.3, 7.3);
 }
 
@@ -218,7 +218,7 @@ static void backs_of_one_sided_triangles_take_no_samples(void **state)
 
 #define FINE 400
 
-// A wall of triangles that are all smaller than pixels.
+// Adds a wall of triangles that are all smaller than pixels.
 static void add_wall(Drawing *drawing, double width)
 {
     const double step = width / FINE;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// No light reaches a point whose face is turned away from it, in color and channels, in every form
-// of the kernels.  The ball is convex, so nothing but its own faces can hide a light from it.
+// Tests that a light does not reach points whose face is turned away from it. This must hold for
+// colors and channels in every form of the kernels. The ball is convex, so only a point's own face
+// can occlude a light.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "image/temporary.h"
@@ -16,7 +17,7 @@
 #define SLICES 7
 #define SPOKES 24
 
-// Lights whose height over a face is smaller than this, in units of its normal, are not judged.
+// The test ignores lights whose height over a face is smaller than this.
 #define CLEAR 1e-4
 
 static const KernelChoice forms[] = {
@@ -45,7 +46,7 @@ static Vec3 on_ball(int ring, int slice)
     return vec3(sin(height) * cos(around), sin(height) * sin(around), cos(height));
 }
 
-// A coarse ball of radius 1 with the normals of a round one.
+// Returns a coarse ball of radius 1 with the normals of a smooth ball.
 static Solid ball(void)
 {
     Solid solid = {.count = 0};
@@ -61,7 +62,7 @@ static Solid ball(void)
     return solid;
 }
 
-// Triangles in planes through the z axis, with normals that are turned to the axis.
+// Returns triangles in planes through the z axis, with normals that are tilted toward the axis.
 static Solid spokes(void)
 {
     Solid solid = {.count = 0};
@@ -95,7 +96,7 @@ static void write_solid(const Solid *solid, FILE *stream)
         fprintf(stream, "3 %u %u %u\n", 3 * i, 3 * i + 1, 3 * i + 2);
 }
 
-// A white light and what it falls on, before black.
+// A light and a white object in front of a black background.
 typedef struct {
     const Solid *solid; // NULL: a sphere of radius 1
     const char *sides;
@@ -130,7 +131,7 @@ static Paths stage_write(const Stage *stage)
 typedef struct {
     Vec3 normal, point;
     uint32_t primitive;
-    bool lit; // by color and channel
+    bool lit; // in the color and in the channel
 } Seen;
 
 static double float_of(uint32_t bits)
@@ -145,7 +146,7 @@ static Vec3 vector_at(const uint32_t *values)
     return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
 }
 
-// The picture of SIDE x SIDE pixels.
+// Renders a picture of SIDE x SIDE pixels.
 static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
 {
     Layers layers = {0};
@@ -170,7 +171,7 @@ static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
     remove(paths.mesh);
 }
 
-// The light's height over the face that a pixel shows, on the side that the eye sees.
+// Returns the light's height over the face that a pixel shows; positive on the eye's side.
 static double height_over_face(const Stage *stage, const Seen *seen)
 {
     const Vec3 *c = stage->solid->triangles[seen->primitive].corners;
@@ -181,10 +182,11 @@ static double height_over_face(const Stage *stage, const Seen *seen)
 }
 
 typedef struct {
-    uint32_t judged, turned_away, lit; // pixels; of the second, the normal alone faces the light
+    uint32_t judged, turned_away, lit; // numbers of pixels; turned_away: only the normal faces the
+                                       // light
 } Counts;
 
-// The pixels of a convex solid, seen from outside.
+// Judges the pixels of a convex solid that is seen from outside.
 static Counts judge_outside(const Stage *stage, const Seen *seen)
 {
     Counts counts = {0};
@@ -232,7 +234,7 @@ static void a_sphere_seen_from_outside_is_lit_by_its_normal_alone(void **state)
     check_outside(NULL);
 }
 
-// All pixels show it from inside, and none is lit.
+// Checks that no pixel is lit if the eye is inside the solid.
 static void check_inside(const Solid *solid)
 {
     for (size_t form = 0; form < FORMS; form++) {
@@ -259,7 +261,7 @@ static void no_light_enters_a_sphere(void **state)
     check_inside(NULL);
 }
 
-// The light lies in the planes of all spokes, as far as rounding lets it.
+// The light is in the planes of all spokes, within rounding.
 static void all_points_of_a_triangle_agree_about_a_light_in_its_plane(void **state)
 {
     const Solid solid = spokes();

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Arranges triangles in compact blocks, and tests them.  A triangle is grown by TOLERANCE of its
-// own size, so that no ray slips between two of them in rounding; what a float sees is fifty
-// thousand times as much.
+// Sorts triangles into compact blocks, and intersects rays with them. Triangles are enlarged by
+// TOLERANCE of their size, so that rounding lets no ray pass between two of them. Float rounding is
+// fifty thousand times as large.
 #include "oracle/blocks.h"
 
 #include <stdlib.h>
 
 #define TOLERANCE 1e-12
 
-// How much larger than the triangles need it a block's sphere is: of its radius, and of the size of
-// the coordinates around it.  Rounding takes less than a millionth of either.
+// A block's sphere is enlarged by these fractions of its radius and of its coordinates. Rounding is
+// less than a millionth of either.
 #define RADIUS_PADDING 1e-6
 #define PLACE_PADDING  1e-9
 
@@ -31,11 +31,11 @@ static Vec3 load(const VectorColumns *columns, uint32_t place)
     return vec3(columns->x[place], columns->y[place], columns->z[place]);
 }
 
-// A triangle on its way into a block.
+// A triangle that is not in a block yet.
 typedef struct {
     const MeshObject *object;
     uint32_t triangle, id;
-    double middle[3], key; // of its corners; the axis to sort by
+    double middle[3], key; // the mean of the corners; the coordinate to sort by
 } Placed;
 
 static void block_add(OracleBlock *block, const Placed *placed)
@@ -56,7 +56,7 @@ static double distance(Vec3 a, Vec3 b)
     return sqrt(vec3_dot(apart, apart));
 }
 
-// A sphere about the mean of the corners.
+// Computes a bounding sphere around the mean of the corners.
 static void block_enclose(OracleBlock *block)
 {
     Vec3 sum = {0, 0, 0};
@@ -112,7 +112,8 @@ static int compare_keys(const void *a, const void *b)
     return first->id < second->id ? -1 : 1;
 }
 
-// Brings neighbors together, so that blocks are compact: halves along the longest axis.
+// Sorts triangles so that neighbors are adjacent, by halving along the longest axis. Blocks are
+// then compact.
 static void arrange(Placed *placed, size_t count)
 {
     if (count <= BLOCK_SIZE)
@@ -157,7 +158,7 @@ void blocks_free(OracleBlocks *blocks)
     *blocks = (OracleBlocks){0};
 }
 
-// Whether the ray comes within the block's sphere before far.
+// Returns whether the ray enters the block's sphere before far.
 static bool block_is_near(const OracleBlock *block, const OracleRay *ray, double far)
 {
     const Vec3 toward = vec3_sub(block->center, ray->origin);
@@ -168,8 +169,8 @@ static bool block_is_near(const OracleBlock *block, const OracleRay *ray, double
     return vec3_dot(aside, aside) <= block->radius * block->radius;
 }
 
-// Writes for every place where the ray meets its triangle, INFINITY where it does not.  Nothing
-// branches here and conditions are joined by &, so that the loop becomes vector instructions.
+// Stores the distance of the hit with each triangle, or INFINITY. It has no branches and joins
+// conditions by &, so that compilers vectorize the loop.
 static void block_distances(const OracleBlock *block, const OracleRay *ray,
                             double distances[BLOCK_SIZE])
 {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a scene in fp64, 64 to a block, laid out so that a compiler can test several at
-// once; and what a ray meets among them, by Moeller and Trumbore's method ("Fast, minimum storage
-// ray-triangle intersection", 1997).  There is no tree: a block that a ray passes clear of its
-// bounding sphere is left out, and every other triangle is tested.
+// Intersects rays with a scene's triangles in fp64, by the method of Moeller and Trumbore ("Fast,
+// minimum storage ray-triangle intersection", 1997). Blocks of 64 triangles have a layout that
+// compilers vectorize. There is no tree: a ray skips the blocks whose bounding sphere it misses,
+// and tests all other triangles.
 #pragma once
 
 #include "scene/scene.h"
 
-// origin + t * direction for t above near and below far.
+// The points origin + t * direction with near < t < far.
 typedef struct {
-    Vec3 origin, direction; // of length 1
+    Vec3 origin, direction; // direction has length 1
     double near, far;
-    uint32_t own; // id of the primitive it starts on, NOTHING for none
+    uint32_t own; // id of the primitive that the ray starts on; NOTHING for none
 } OracleRay;
 
 typedef struct {
-    double t; // INFINITY while nothing is met
+    double t; // INFINITY before the first hit
     uint32_t id;
 } OracleHit;
 
@@ -26,25 +26,26 @@ typedef struct {
 } VectorColumns;
 
 typedef struct {
-    VectorColumns corner, first, second; // a corner and the edges from it to the other two
-    double least[BLOCK_SIZE]; // determinants must be larger: 0 where the back is not seen
+    VectorColumns corner, first, second; // a corner, and the edges from this corner to the other
+                                         // two
+    double least[BLOCK_SIZE]; // the least determinant of a hit; 0 if the back is invisible
     uint32_t ids[BLOCK_SIZE];
     uint32_t count;
-    Vec3 center; // of a sphere around all of them
+    Vec3 center; // the bounding sphere
     double radius;
 } OracleBlock;
 
 typedef struct {
-    OracleBlock *data; // count of them, owned
+    OracleBlock *data; // count blocks; owned
     size_t count;
-    bool tests_all; // no block is left out; to check that leaving out changes nothing
+    bool tests_all; // skip no block, for a test that skipping does not change hits
 } OracleBlocks;
 
 bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error);
 void blocks_free(OracleBlocks *blocks);
 
-// Lowers hit to the nearest triangle before it, the lowest id among equals.
+// Replaces hit by the nearest triangle before it, or by the lowest id at the same distance.
 void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hit);
 
-// Whether the ray meets any triangle at all.
+// Returns whether the ray hits any triangle.
 bool blocks_block(const OracleBlocks *blocks, const OracleRay *ray);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a picture with the oracle on all processors: each thread takes the next row not yet taken,
-// and no pixel depends on another.
+// Draws a picture with the oracle on all processors. Each thread repeatedly takes the next row, and
+// pixels are independent.
 #include "oracle/oracle.h"
 
 #include <pthread.h>

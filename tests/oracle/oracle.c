@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Traces and shades by the course's rules and clrt's: light shines only where the interpolated
-// normal faces it and the surface itself does not hide it, a ray meets the primitive that it leaves
-// only to shadow it, and a reflected ray that would enter the surface is mirrored out of it.
+// Traces and shades by the rules of the course and of clrt. A light shines on a point if the
+// interpolated normal faces the light and the surface itself does not occlude it. A ray can hit the
+// primitive that it leaves only as a shadow ray. A reflected ray that would enter the surface is
+// mirrored out of it.
 #include "oracle/oracle.h"
 
-// The sine of a light's height over a true surface below which it grazes.  A float tracer lifts a
-// point off its face by up to 2^-20 of the scene; so low a light then sees it across the edge of
-// a neighbor 2^-12 of the scene away.
+// A light grazes a true surface if the sine of its height is below this limit. A float tracer moves
+// a point off its face by up to 2^-20 of the scene. A grazing light may then reach the point across
+// the edge of a neighbor at a distance of 2^-12 of the scene.
 #define HORIZON 0x1p-8
 
 bool oracle_make(Oracle *oracle, const Scene *scene, Error *error)
@@ -38,8 +39,8 @@ OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_
                         .max_level = max_level};
 }
 
-// The textbook quadratic in long double, whose 64 bits bear its cancellation.  A ray inside meets
-// the far wall; of the sphere it starts on only that can be met.
+// Solves the quadratic equation in long double, whose 64 bits make cancellation harmless. A ray
+// inside hits the far wall. A ray can hit only the far wall of the sphere on which it starts.
 static double sphere_distance(const Sphere *sphere, const OracleRay *ray, double near)
 {
     const Vec3 d = ray->direction;
@@ -72,9 +73,9 @@ static OracleHit meet_spheres(const Scene *scene, const OracleRay *ray)
 
 // A light as seen from a surface.
 typedef struct {
-    Vec3 toward; // of length 1
+    Vec3 toward; // direction to the light, of length 1
     double cosine;
-    bool shines; // it reaches the surface
+    bool shines; // the light reaches the surface
 } OracleLight;
 
 static OracleLight see_light(const Oracle *oracle, const OracleSurface *surface, const Light *light)

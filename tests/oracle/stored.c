@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Rounds what host/accel/flat.c, flat_looks.c and triangles.c round, and nothing else.  Normals are
-// floats in the file already; where it has none, the face's is stored, before points are rounded.
+// Rounds exactly the numbers that host/accel/flat.c, flat_looks.c and triangles.c round. Normals of
+// files are floats already. Missing normals are replaced by the face's normal before points are
+// rounded.
 #include "oracle/stored.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// The volatile is against GCC 12, which leaves out pairs of such conversions (-O2 and above).
+// volatile is necessary because GCC 12 removes pairs of such conversions with -O2.
 static double rounded(double value)
 {
     const volatile float stored = (float)value;
@@ -19,7 +20,7 @@ static Vec3 rounded_point(const Normalization *normalization, Vec3 point)
     return vec3(rounded(p.x), rounded(p.y), rounded(p.z));
 }
 
-// As the sum of two floats.
+// Returns the value rounded to the sum of two floats.
 static double split_twice(double value)
 {
     return rounded(value) + rounded(value - rounded(value));
@@ -48,7 +49,7 @@ static void store_face(const Mesh *mesh, const uint32_t corners[3], float normal
     normal[2] = (float)face.z;
 }
 
-// Gives each triangle vertices of its own, none of which lacks a normal.
+// Gives each triangle its own vertices, and every vertex a normal.
 static bool complete_normals(Mesh *mesh, Error *error)
 {
     static const float none[3];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Normals of spheres point outward, from wherever they are seen; those of a triangle, and its true
-// face, turn to the viewer who sees it from behind.
+// Normals of spheres always point outward. The normals and the true face of a triangle are turned
+// to the viewer.
 #include "oracle/surface.h"
 
-// Points are this far off at most, relative to the coordinates and distances that made them; what
-// is nearer to a new ray's start does not count as met.
+// The largest error of a hit point, relative to its coordinates and distance. New rays ignore hits
+// that are nearer than this error.
 #define POINT_ERROR 1e-10
 
 static void sphere_surface(OracleSurface *surface, const Scene *scene)
@@ -17,7 +17,7 @@ static void sphere_surface(OracleSurface *surface, const Scene *scene)
     surface->face = vec3_scale(surface->normal, surface->front ? 1 : -1);
 }
 
-// The weight of a corner is the area that the point and the opposite edge span.
+// Returns the weight of a corner: the area of the triangle of the point and the opposite edge.
 static double weight_of_corner(Vec3 point, Vec3 b, Vec3 c, Vec3 normal)
 {
     const Vec3 area = vec3_cross(vec3_sub(b, point), vec3_sub(c, point));

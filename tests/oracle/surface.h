@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A hit of the oracle becomes a surface: where it is, how it is turned, and whose it is.
+// A hit of the oracle -> the surface at the hit: its point, orientation and object.
 #pragma once
 
 #include "oracle/blocks.h"
 
 typedef struct {
     Vec3 point;
-    Vec3 normal; // unit, interpolated
-    Vec3 face;   // unit, of the true surface, toward the viewer
+    Vec3 normal; // interpolated, of length 1
+    Vec3 face;   // of the true surface, toward the viewer, of length 1
     Vec3 toward_viewer;
-    double near; // where rays that leave the point begin to count
+    double near; // the least distance of hits of rays from this point
     uint32_t id, material;
-    uint32_t object; // the sphere, or the mesh counted after the spheres
+    uint32_t object; // the number of the sphere, or of the mesh plus the number of spheres
     bool front;
 } OracleSurface;
 
 OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit);
 
-// Whether the surface itself stands between its point and a light in this direction.  The course
-// starts the ray to a light a little off the point.  As that distance shrinks, the surface there
-// becomes its tangent plane, which stops the ray unless light and viewer are on one side of it.
+// Returns whether the surface itself occludes a light in this direction. In the course, shadow rays
+// start at a small distance from the point. As this distance shrinks, the surface becomes its
+// tangent plane. The plane occludes the light unless light and viewer are on the same side.
 bool surface_blocks(const OracleSurface *surface, Vec3 toward_light);
