@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: any bytes as what the program with Assimp writes.  A model that comes out must
-// keep the promises of mesh/foreign_stream.h, and a failure must leave a sentence and no model.
+// libFuzzer target: parses any bytes as the output of clrt-foreign. A parsed model must fulfill
+// mesh/foreign_stream.h. A failure must return a message and no model.
 #include "mesh/foreign_stream.h"
 
 #include <math.h>

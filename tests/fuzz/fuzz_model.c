@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: any bytes as a model that Assimp reads, all of clrt-foreign but its limits. The
-// first byte chooses the format.  What is sent must be a stream that is read without fault, or
-// there must be a sentence.  Crashes of Assimp are no findings: clrt expects them.
+// libFuzzer target: reads any bytes as a model with Assimp, like clrt-foreign without its process
+// limits. The first byte selects the format. The result must be a valid stream or a message.
+// Crashes in Assimp are not findings, because clrt expects them.
 #include "foreign/model.h"
 #include "mesh/foreign_stream.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: any bytes as a PLY file.  Beyond what the sanitizers see, a mesh that comes
-// out must keep the promises of mesh/mesh.h, and a failure must leave a sentence and no mesh.
-// Read tolerantly it keeps them too, and clrt check can judge it.
+// libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
+// must fulfill mesh/mesh.h. A failure must return a message and no mesh. The tolerant reader's mesh
+// must fulfill it too, and must be valid input for clrt check.
 #include "check/closedness.h"
 #include "check/features.h"
 #include "mesh/ply.h"

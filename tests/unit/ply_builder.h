@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by the PLY tests: a file under construction, and parsing with strict checks.
+// For the PLY tests: builds files, and parses them with strict checks.
 #pragma once
 
 #include "mesh/ply.h"
@@ -15,8 +15,8 @@
 #define XYZ    "property float x\nproperty float y\nproperty float z\n"
 #define FACES  "element face 1\nproperty list uchar int vertex_indices\n"
 
-// In a sanitizer build no file of this test may make the reader ask for more than a megabyte: the
-// allocation then fails, and the error says so.
+// In sanitizer builds, allocations of more than a megabyte fail. No file of these tests may make
+// the reader allocate that much.
 const char *__asan_default_options(void);
 const char *__asan_default_options(void)
 {
@@ -40,7 +40,7 @@ __attribute__((format(printf, 2, 3))) static inline void put_text(Builder *build
     assert_true(builder->size < sizeof builder->bytes);
 }
 
-// Parses a copy that ends where the file ends, so that the sanitizers see any step beyond it.
+// Parses a copy without spare bytes, so that sanitizers detect every access beyond the end.
 static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *error)
 {
     char *copy = malloc(size + (size == 0));

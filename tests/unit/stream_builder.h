@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A stream of mesh/foreign_stream.h under construction, and parsing it under watch.
+// Builds streams of mesh/foreign_stream.h, and parses them with strict checks.
 #pragma once
 
 #include "mesh/foreign_stream.h"
@@ -54,7 +54,7 @@ static inline void put_file(Builder *builder, const char *path)
     put_bytes(builder, path, length);
 }
 
-// Parses a copy that ends where the stream ends, so that the sanitizers see any step beyond it.
+// Parses a copy without spare bytes, so that sanitizers detect every access beyond the end.
 static inline bool parse(ForeignModel *model, const char *bytes, size_t size, Error *error)
 {
     char *copy = malloc(size + (size == 0));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where a mesh is aimed at, from where, and how rays are judged.
+// Tests the aims on a mesh, the starting points of rays, and the judgment of their hits.
 #include "check/aims.h"
 
 #include "unit/cmocka_all.h"
 
 #include <stdlib.h>
 
-// A tetrahedron's corners at two of a cube's; the corners of the cube that it lacks are outside.
+// A tetrahedron at four corners of a cube. The other corners of the cube are outside of it.
 static double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 static uint32_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 
@@ -81,7 +81,7 @@ static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
     (void)state;
     Fixture all = aimed(faces, 3, 64);
     assert_int_equal(all.aims.total, 6 + 4 + 3);
-    // The missing face lies opposite the corner at (1, 1, 1).
+    // The missing face is opposite the corner (1, 1, 1).
     const Vec3 outside = vec3(-1, -1, -1);
     size_t beyond = 0;
     for (size_t i = 4; i < all.aims.count; i++)

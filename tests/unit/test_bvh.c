@@ -32,7 +32,7 @@ static bool box_holds(const Box *outer, const float point[3])
     return true;
 }
 
-// Walks the tree by itself and checks boxes, children and leaves; returns the levels below.
+// Checks boxes, children and leaves of a subtree by recursion. Returns its number of levels.
 static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t number,
                            unsigned *seen)
 {
@@ -82,7 +82,7 @@ static void every_triangle_is_in_one_leaf_inside_nested_boxes(void **state)
         }
 }
 
-// Compares what is below two nodes.
+// Compares the subtrees of two trees at the same node.
 static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
 {
     const BvhNode *a = &one->nodes[number], *b = &two->nodes[number];
@@ -134,7 +134,7 @@ static void no_triangles_make_no_tree(void **state)
     bvh_free(&bvh);
 }
 
-// The depth of every node by recursion, against the walk.
+// Counts the inner nodes of each depth by recursion, to compare with levels_count.
 static void count_inner(const Bvh *bvh, uint32_t number, uint32_t depth,
                         uint32_t counts[BVH_MAX_DEPTH])
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rays' axes against the course's formulas.
+// Compares the axes of camera rays with the course's formulas.
 #include "scene/camera.h"
 
 #include "unit/cmocka_all.h"
@@ -12,7 +12,7 @@ static void right_and_down_span_the_image_plane(void **state)
     (void)state;
     const CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
     assert_true(camera.eye[0] == 4 && camera.forward[0] == -1);
-    // 90 degrees: half the plane's height is 1, in 100 half steps.
+    // At 90 degrees, half the plane's height is 1, divided into 100 half steps.
     assert_true(camera.right_step[1] == 0.01f && camera.right_step[2] == 0);
     assert_true(camera.down_step[2] == -0.01f && camera.down_step[1] == 0);
 }
@@ -39,7 +39,7 @@ static void a_shift_moves_samples_by_parts_of_their_distance(void **state)
     (void)state;
     CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
     camera_shift(&camera, 0.5, -0.25);
-    // Samples lie two half steps apart.
+    // Samples are two half steps apart.
     assert_float_equal(camera.forward[1], 0.01, 1e-9);
     assert_float_equal(camera.forward[2], 0.005, 1e-9);
     assert_true(camera.forward[0] == -1);

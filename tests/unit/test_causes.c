@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each cause from the channels that show it, one pixel a cause.
+// Tests that each cause is found from its channels, with one pixel per cause.
 #include "compare/causes.h"
 
 #include "unit/cmocka_all.h"
@@ -65,7 +65,7 @@ static void every_pixel_counts_for_its_first_cause(void **state)
     add(other, 0, SHADOW, -0.5f);
     add(other, 1, SHADOW, -0.5f);
     add(other, 1, BOUNCES, 1);
-    add(other, 2, BOUNCES, 1); // past the limit of the first, whose last level is 1
+    add(other, 2, BOUNCES, 1); // beyond the first picture's last level, which is 1
     add(other, 3, BOUNCES, -1);
     add(other, 5, GREEN, -0.0625f * 6 + 0x1p-20f);
     add(other, 6, GREEN, -0.0625f * 7);

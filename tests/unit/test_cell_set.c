@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of cells: what is added is there and nothing else, and widening is as defined.
+// Tests that sets contain exactly the added cells, and that widening matches its definition.
 #include "refine/cell_set.h"
 #include "unit/cmocka_all.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests each count of clrt check, on a mesh or scene with the fault and on one without.
+// Tests each count of clrt check on a mesh or scene with the fault, and on one without.
 #include "check/census.h"
 #include "mesh/ply.h"
 #include "scene/scn.h"
@@ -23,7 +23,7 @@ static size_t count_words(const char *text)
     return count;
 }
 
-// Points and corners as words between blanks, three each.
+// Writes a PLY file. points and faces are words separated by spaces, three per point or face.
 static size_t write_ply(char *bytes, size_t size, const char *points, const char *faces)
 {
     char copy[4096];
@@ -57,7 +57,7 @@ typedef struct {
     Census census;
 } Taken;
 
-// Takes the census of a scene with only this mesh, in the mesh's own frame.
+// Takes the census of a scene that contains only this mesh, in the mesh's coordinates.
 static Taken census_of_mesh(const char *points, const char *faces)
 {
     Taken taken = {0};
@@ -133,7 +133,7 @@ static void a_missing_triangle_leaves_three_open_edges(void **state)
 static void a_vertex_on_a_neighbors_edge_leaves_it_open(void **state)
 {
     (void)state;
-    // The edge from 1 to 2 has vertex 4 in its middle on one side alone.
+    // On one side of the edge from 1 to 2, vertex 4 is in its middle.
     const Closedness found =
         closedness("0 0 0  1 0 0  0 1 0  0 0 1  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3");
     assert_int_equal(found.open.count, 3);
@@ -295,7 +295,7 @@ static void two_equal_corners_are_told_by_the_triangles_place_in_the_file(void *
 static void edges_and_heights_are_measured_in_steps_of_float(void **state)
 {
     (void)state;
-    // At coordinates below 1, floats are 2^-24 apart.
+    // Near coordinates below 1, the spacing of floats is 2^-24.
     const MeshCensus found = mesh_census(
         "0.5 0 0  0.75 0 0  0.5 0.03125 0  0 0 0  0.875 0 0  0 0.875 0", "3 4 5  0 1 2");
     assert_true(found.features.edge.steps == 0x1p-5 * 0x1p24);

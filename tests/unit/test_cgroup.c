@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quotas of control groups, in trees of files like the system's.
+// Tests the quotas of control groups in file trees like the system's.
 #include "base/cgroup.h"
 #include "unit/cmocka_all.h"
 
@@ -100,7 +100,7 @@ static void quotas_of_other_controllers_do_not_count(void **state)
     assert_int_equal(processors_of(&tree), UINT32_MAX);
 }
 
-// The path is the host's, the mount begins at the container's own group.
+// The group's path is relative to the host, but the mount starts at the container's group.
 static void a_container_finds_its_quota_at_the_mount(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Differences of pictures small enough to do by hand, and the limits on them.
+// Compares differences of small pictures with values computed by hand, and tests the limits.
 #include "compare/difference_picture.h"
 #include "compare/limits.h"
 
@@ -10,7 +10,7 @@
 
 #define PIXELS 4
 
-// Two pixels by two, with the first hits as a fourth channel.
+// Returns an image of 2 x 2 pixels, with the first hits as a fourth channel.
 static StoredImage image_of(const float (*values)[4])
 {
     StoredImage image = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrays the device reads.
+// Tests the arrays that the device reads.
 #include "accel/flat.h"
 #include "scene/scn.h"
 
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Keeps what a flattened scene was made from.
+// A flattened scene and its sources.
 typedef struct {
     Scene scene;
     Triangles triangles;
@@ -66,8 +66,8 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
     release(&all);
 }
 
-// A triangle with its corners in all six orders, the three that turn the same way first, among
-// points that differ in the last coordinate alone.
+// Tests a triangle with its corners in all six orders. The first three orders have the same
+// orientation. Two of its points differ only in the last coordinate.
 static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(void **state)
 {
     static const float points[3][3] = {{1, 2, 5}, {1, 2, 4}, {1, -3, 6}};
@@ -80,7 +80,7 @@ static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(voi
             &corner_orders[corner_order(points[file[0]], points[file[1]], points[file[2]])];
         for (int corner = 0; corner < 3; corner++)
             assert_int_equal(file[order->places[corner]], 2 - corner);
-        assert_int_equal(order->reversed, i < 3); // 2, 1, 0 turns the other way than 0, 1, 2
+        assert_int_equal(order->reversed, i < 3); // 2, 1, 0 has the opposite orientation of 0, 1, 2
     }
 }
 
@@ -160,16 +160,16 @@ static void a_missing_vertex_normal_becomes_the_faces(void **state)
     Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     assert_int_equal(all.flat.normals_count, 1);
     const CornerOrder *order = triangles_order(&all.triangles, 0);
-    const float *of[3] = {NULL}; // the corners of the file
+    const float *of[3] = {NULL}; // normals in the file's order of corners
     for (int corner = 0; corner < 3; corner++)
         of[order->places[corner]] = all.flat.normals[0].normals[corner];
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
-    // Given normals keep their own lengths against each other.
+    // Given normals keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
     release(&all);
 }
 
-// Every scene here has one sphere, so that a triangle's id is its number and one more.
+// Every scene here has one sphere, so a triangle's id is its number plus 1.
 #define NUMBER_OF(id) (((id) & ~TRIANGLE_MARKS) - 1)
 
 static void check_block(const Flattened *all, uint32_t number, const Box *box, unsigned *seen)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A program that crashes, hangs, writes without end or is not there is one sentence.  Shell scripts
-// stand for the program.
-#undef _FORTIFY_SOURCE // with it the system's headers define readlink themselves
+// If clrt-foreign crashes, hangs, writes endlessly or is missing, there is one message. Shell
+// scripts replace the program here.
+#undef _FORTIFY_SOURCE // with it, the system's headers define readlink
 #include "mesh/foreign_process.h"
 
 #include "base/clock.h"
@@ -20,7 +20,7 @@ static char script[] = "/tmp/clrt_reader_XXXXXX";
 
 static bool is_without_proc;
 
-// Stands before the system's own.
+// Overrides the C library's function.
 ssize_t readlink(const char *restrict path, char *restrict target, size_t size)
 {
     if (is_without_proc) {
@@ -115,7 +115,7 @@ static void a_program_that_is_not_there_is_told(void **state)
                                     "such file or directory");
 }
 
-// It may be anybody's.
+// The program in the current folder may belong to anybody.
 static void a_program_of_that_name_in_the_current_folder_is_not_started(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses the output of the program with Assimp: every record, and hostile streams.
+// Tests the parser of clrt-foreign's output with every record, and with hostile streams.
 #include "unit/stream_builder.h"
 
 #include <math.h>

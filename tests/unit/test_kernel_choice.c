@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each OpenCL implementation gets the form of the kernels that suits it, unless the user chooses.
+// Tests that each OpenCL implementation gets the fastest form of the kernels, unless the user
+// chooses.
 #include "device/kernel_choice.h"
 #include "unit/cmocka_all.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of meshes, whoever shares the work.
+// Tests that pieces of meshes are correct for any number of threads.
 #include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
 
@@ -27,7 +27,7 @@ static MeshPieces pieces_of(const Mesh *mesh, Crew *crew)
     return pieces;
 }
 
-// A band of triangles, each of which shares two vertices with the next.
+// Adds a band of triangles. Each triangle shares two vertices with the next.
 static void fill_band(Mesh *mesh, uint32_t first, uint32_t end, uint32_t vertex)
 {
     for (uint32_t i = first; i < end; i++)
@@ -48,7 +48,7 @@ static void a_mesh_of_one_piece_keeps_its_order(void **state)
     free(mesh.triangles);
 }
 
-// By going through all triangles until nothing changes.
+// Computes the lowest vertex of each vertex's piece. Visits all triangles until nothing changes.
 static void find_lowest(const Mesh *mesh, uint32_t *lowest)
 {
     bool changes = true;
@@ -86,7 +86,7 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 #define VERTICES  40000
 #define TRIANGLES 60000
 
-// Triangles at random, each in a stretch of a thousand vertices.
+// Random triangles. The vertices of each triangle are in one range of a thousand.
 static void pieces_are_what_shared_vertices_join(void **state)
 {
     (void)state;

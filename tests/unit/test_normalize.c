@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame scenes are traced in.
+// Tests the normalized coordinate frame of scenes.
 #include "scene/normalize.h"
 #include "scene/scn.h"
 

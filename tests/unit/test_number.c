@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// base/number against known bit patterns and against the C library's strtod in the C locale.
+// Compares base/number with known bit patterns, and with the C library's strtod in the C locale.
 #include "base/number.h"
 
 #include "unit/cmocka_all.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A copy that ends where the text ends, so that the sanitizers see any step beyond it.
+// A copy without spare bytes, so that sanitizers detect every access beyond the end.
 typedef struct {
     char *text, *end;
 } Copy;
@@ -24,7 +24,7 @@ static Copy copy_make(const char *text, size_t size)
     return copy;
 }
 
-// The value of a text that is a number to its end.
+// Returns the value of a text that must be a number to its end.
 static double value_of(const char *text)
 {
     const Copy copy = copy_make(text, strlen(text));
@@ -42,7 +42,7 @@ static void assert_same_double(double value, double expected, const char *text)
         fail_msg("'%.60s' gives %a instead of %a", text, value, expected);
 }
 
-// How many characters a number takes at the start of text; -1 when none starts there.
+// Returns the length of the number at the start of text, or -1 without a number.
 static int length_of(const char *text)
 {
     const Copy copy = copy_make(text, strlen(text));
@@ -140,7 +140,7 @@ static void hard_cases_round_to_the_nearest_double(void **state)
         double value;
     } cases[] = {
         {"9007199254740991", 0x1.fffffffffffffp52},
-        {"9007199254740993", 0x1p53}, // a tie goes to the even neighbor
+        {"9007199254740993", 0x1p53}, // a tie is rounded to even
         {"9007199254740995", 0x1.0000000000002p53},
         {"9007199254740993.0000000000000000000000000001", 0x1.0000000000001p53},
         {"1e22", 1e22},
@@ -163,7 +163,7 @@ static void hard_cases_round_to_the_nearest_double(void **state)
         {"9223372036854775807e28", 9223372036854775807e28},
         {"9999999999999999999e-27", 9999999999999999999e-27},
         {"1e-27", 1e-27},
-        // The quotient ends in a tie and only what is left of the division breaks it.
+        // The quotient ends in a tie, which only the remainder of the division breaks.
         {"11692940222490064e-27", 0x1.9b68a4781c555p-37},
         {"20828936362704393e-27", 0x1.6e6d30a690f5dp-36},
     };
@@ -216,7 +216,7 @@ static void a_double_printed_with_17_digits_comes_back(void **state)
     }
 }
 
-// head, then a million zeros, then tail.
+// Returns the value of head, a million zeros, and tail.
 static double value_around_zeros(const char *head, const char *tail)
 {
     const size_t zeros = 1000000;
@@ -243,14 +243,15 @@ static void a_token_of_a_megabyte_is_still_rounded_correctly(void **state)
     assert_same_double(value_around_zeros("1", ""), HUGE_VAL, "10...0");
 }
 
-// Rounding (2^53 - 1) / 2^1075, half-way between the largest subnormal and the smallest normal
-// number, depends on all of its 768 digits.
+// (2^53 - 1) / 2^1075 is halfway between the largest subnormal and the smallest normal number.
+// Rounding it depends on all of its 768 digits.
 static void a_tie_of_768_digits_is_told_from_its_neighbors(void **state)
 {
     (void)state;
-    char text[800] = "9007199254740991"; // times 5^1075, on its way to be over 10^1075
+    char text[800] = "9007199254740991"; // (2^53 - 1) / 2^1075 is this times 5^1075, divided by
+                                         // 10^1075
     const size_t size = 768;
-    char digits[800] = {0}; // as numbers, the last one first
+    char digits[800] = {0}; // values of the digits, starting with the last
     for (size_t index = 0; index < 16; index++)
         digits[index] = (char)(text[15 - index] - '0');
     for (int power = 0; power < 1075; power++) {
@@ -290,7 +291,7 @@ static void a_locale_with_a_decimal_comma_changes_nothing(void **state)
     setlocale(LC_ALL, "C");
 }
 
-// How many characters an integer takes at the start of text; -1 when none starts there.
+// Returns the length of the integer at the start of text, or -1 without an integer.
 static int integer_length(const char *text, int64_t *value)
 {
     const Copy copy = copy_make(text, strlen(text));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which cells a convex outline touches and samples, judged cell by cell.
+// Tests the cells that an outline touches, and the centers that it contains, cell by cell.
 #include "refine/outline.h"
 #include "unit/cmocka_all.h"
 
@@ -14,7 +14,7 @@ static double random_number(uint64_t *state, double low, double high)
 
 static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};
 
-// Some reach beyond the grid, some are slivers.
+// Returns a random triangle. Some triangles extend beyond the grid, and some are slivers.
 static Outline random_triangle(uint64_t *state)
 {
     Outline outline = {.count = 3};
@@ -43,7 +43,7 @@ static bool holds(const Outline *outline, double x, double y)
     return left == 0 || left == 3;
 }
 
-// Whether all corners of a square lie beyond a side that all of the triangle is this side of.
+// Returns whether the line through side i separates the square from the triangle.
 static bool parted_by(const Outline *outline, uint32_t i, double x, double y, double size)
 {
     const double *from = outline->corners[i], *to = outline->corners[(i + 1) % 3];

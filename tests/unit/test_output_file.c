@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that appear whole or not at all, and what the rest of the process sees of that.
+// Tests that files appear complete or not at all, without effects on the rest of the process.
 #include "base/output_file.h"
 
 #include "unit/cmocka_all.h"
@@ -12,7 +12,7 @@
 static char folder[] = "/tmp/clrt-output-XXXXXX";
 static int mask_changes;
 
-// Stands before the system's own.
+// Overrides the C library's function.
 mode_t umask(mode_t mask)
 {
     mask_changes++;
@@ -59,7 +59,8 @@ static void unfinished_files_of_one_name_are_two(void **state)
     unlink("picture");
 }
 
-// Other threads, whose files would be open to all meanwhile, make theirs with it too.
+// The mask applies to all threads. If it changed, files of other threads could become readable by
+// everyone.
 static void the_mask_is_not_changed_even_for_a_moment(void **state)
 {
     (void)state;
@@ -79,7 +80,7 @@ static int enter_folder(void **state)
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 
-// Which nothing may be left in.
+// Fails if files are left in the folder.
 static int leave_folder(void **state)
 {
     (void)state;

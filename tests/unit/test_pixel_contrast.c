@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contrasts of pixels, compared several at once, are those that one pixel after the other has.
+// Tests that the vectorized contrasts of pixels equal the contrasts computed one by one.
 #include "refine/pixel_contrast.h"
 #include "unit/cmocka_all.h"
 
@@ -44,7 +44,7 @@ static float step(const SampleData *at, const SampleData *other)
     return at->signature == other->signature ? 0 : seam_difference(at, other);
 }
 
-// Across the picture for a stride of 1 and 0, down it for 0 and 1.
+// stride is {1, 0} for the horizontal axis, {0, 1} for the vertical axis.
 static void add_axis(const RefineTree *tree, const uint32_t place[2], const uint32_t stride[2],
                      float *steps, float *bends)
 {

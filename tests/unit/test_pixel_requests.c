@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places of a pixel's samples.
+// Tests the positions and sums of a pixel's samples.
 #include "refine/pixel_requests.h"
 #include "unit/cmocka_all.h"
 
@@ -7,12 +7,13 @@
 
 #define HASH 0x5bd1e995u
 
-// The points that the two digits of a request's offset are XORed to (kernels/ladder.cl).
+// Points of the sequence that are XORed to the request's offset, as in kernels/ladder.cl.
 static const uint32_t points[REQUEST_SAMPLES][2] = {
     {0, 0},    {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128}, {384, 384}, {896, 896},
     {64, 960}, {576, 448}, {320, 192}, {832, 704}, {192, 320}, {704, 832}, {448, 576}, {960, 64}};
 
-// Leaves the places of samples first to end - 1 of a pixel in places, `samples` of them a request.
+// Stores the positions of samples first to end - 1 of a pixel in places. Each request has `samples`
+// samples.
 static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t places[][2])
 {
     const uint32_t pixel[2] = {3, 5};
@@ -27,7 +28,7 @@ static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t place
     }
 }
 
-// The first 16 are requested in fours.
+// Requests of the first 16 samples have four samples.
 static void place_all(uint32_t count, uint32_t places[][2])
 {
     const uint32_t fours = count < REQUEST_SAMPLES ? count : REQUEST_SAMPLES;
@@ -35,7 +36,7 @@ static void place_all(uint32_t count, uint32_t places[][2])
     place(fours, count, REQUEST_SAMPLES, places);
 }
 
-// Cuts the pixel into columns x rows rectangles, and expects as many samples in each.
+// Divides the pixel into columns x rows rectangles, and expects one sample in each.
 static void expect_one_in_each(uint32_t columns, uint32_t rows)
 {
     static uint32_t places[LADDER_GRID][2];
@@ -72,7 +73,7 @@ static void sums_give_mean_and_variance(void **state)
 {
     (void)state;
     PixelSums sums = {.squares = 0};
-    // Half of 16 samples are black and half are (1, 0.5, 0).
+    // Of 16 samples, half are black and half are (1, 0.5, 0).
     const PixelSums bright = {{1ull << 32, 1ull << 31, 0}, (1ull << 48) + (1ull << 46)};
     for (int i = 0; i < 8; i++)
         pixel_sums_add(&sums, &bright);

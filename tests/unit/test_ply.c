@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// scene/ply against good files: what a mesh keeps of them and what it drops.
+// Tests which parts of valid files mesh/ply keeps in the mesh and which it drops.
 #include "unit/ply_builder.h"
 
 static Mesh parse_text(const char *text)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// scene/ply against files built here with every type in every encoding, laid out in usual and
-// unusual ways; and against the same files cut and damaged.
+// Tests mesh/ply with files of every type and encoding, in usual and unusual layouts. Also tests it
+// with truncated and damaged files.
 #include "unit/ply_builder.h"
 
 #include <math.h>
@@ -73,7 +73,7 @@ static void put_values(Builder *builder, const char *type, size_t count, const d
         put_value(builder, type_of(type), values[index]);
 }
 
-// Vertices with normals among values to pass over, a quad and a triangle.
+// Returns a file of vertices with normals and other values, a quad and a triangle.
 static Builder square_with_extras(int encoding)
 {
     static const double vertices[4][6] = {
@@ -104,7 +104,7 @@ static Builder square_with_extras(int encoding)
         put_values(&builder, "uchar", 1, (double[]){face == 0 ? 0 : 1});
         put_values(&builder, "float", face, extras);
     }
-    // One digit at the end: losing it can not be mistaken for a shorter number.
+    // The file ends in a single digit, so a truncated file cannot end in a shorter number.
     builder.size -= encoding == ASCII;
     return builder;
 }
@@ -158,7 +158,7 @@ static void every_type_gives_coordinates_in_every_encoding(void **state)
     }
 }
 
-// A triangle whose corners are numbered by those types.
+// Returns a triangle whose lists have these types for lengths and items.
 static Builder triangle_with_types(int encoding, const char *length, const char *item)
 {
     Builder builder = builder_start(encoding);
@@ -188,7 +188,8 @@ static void every_integer_type_counts_and_numbers_corners(void **state)
     }
 }
 
-// Colors stand among what is used, and a quad among the triangles, which are read many at a time.
+// Colors are between the values that the reader needs. A quad is among the triangles, which are
+// read in bulk.
 static void unusual_elements_among_usual_ones_are_read_in_their_order(void **state)
 {
     (void)state;
@@ -291,7 +292,7 @@ static void random_damage_neither_crashes_nor_allocates_much(void **state)
             random ^= random << 13;
             random ^= random >> 7;
             random ^= random << 17;
-            if (change % 4 == 0) // up to four changes add up: more would break every header
+            if (change % 4 == 0) // up to four changes accumulate; more would break every header
                 damaged = whole[round % 3];
             damaged.bytes[(random >> 8) % damaged.size] = (char)random;
             Mesh mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exact sentence with which scene/ply refuses each kind of faulty file.
+// Tests the exact message of mesh/ply for each kind of faulty file.
 #include "unit/ply_builder.h"
 
 #define TRIANGLE HEAD "element vertex 3\n" XYZ FACES "end_header\n0 0 0\n1 0 0\n0 1 0\n"

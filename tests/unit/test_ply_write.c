@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh that is written and read again is the same, bit for bit, and is as long as announced.
+// Tests that a written mesh is read back bit for bit, and that the file has the announced size.
 #include "mesh/ply.h"
 #include "mesh/ply_write.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
-// cli/check_png.py.
+// Tests the errors that libpng reports by longjmp. cli/check_png.py checks the contents of files.
 #include "image/png_file.h"
 
 #include "unit/cmocka_all.h"
@@ -9,7 +8,8 @@
 
 static const ImageSettings plain = {.format = "png"};
 
-// No two pixels are alike, so that neither streams nor libpng can keep the file to themselves.
+// Returns a picture of different pixels. Its file is too large to stay in the buffers of libpng or
+// streams.
 static Framebuffer noise(uint32_t width, uint32_t height)
 {
     Framebuffer framebuffer;
@@ -39,7 +39,7 @@ static void a_full_device_is_a_fault_with_its_reason(void **state)
 static void what_libpng_refuses_is_a_fault_and_says_nothing_itself(void **state)
 {
     (void)state;
-    // Wider than libpng allows, which shows before any pixel is read.
+    // The width exceeds libpng's limit, which fails before any pixel is read.
     const Framebuffer wide = {NULL, 1000001, 1};
     char *written = NULL, *said = NULL;
     size_t size, said_size;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which cells of a refined picture are neighbors, and how large it may be.
+// Tests the neighbors of cells in a refined picture, and its largest size.
 #include "refine/refine_tree.h"
 
 #include "unit/cmocka_all.h"
 
-// A pixel of two, its right middle cell cut again, all samples taken.
+// Subdivides one of two pixels, and its right middle cell. All samples are taken.
 static void make_tree(RefineTree *tree)
 {
     Error error = {0};
@@ -42,7 +42,7 @@ static void cells_without_their_samples_are_no_neighbors_yet(void **state)
     refine_tree_free(&tree);
 }
 
-// Counted in 32 bits there are none.
+// In 32 bits, the number of pixels wraps around to 0.
 static void a_picture_past_the_numbers_of_its_pixels_is_refused(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene text -> Scene: every statement, and the exact sentence of every fault.
+// Scene text -> Scene: tests every statement, and the exact message of every fault.
 #include "scene/scn.h"
 
 #include "unit/cmocka_all.h"
@@ -44,7 +44,7 @@ static void an_empty_scene_has_the_courses_constants(void **state)
     scene_free(&scene);
 }
 
-// Figures of the course's framework, which prints six decimals.
+// The expected numbers come from the course's framework, which prints six decimals.
 static void the_six_viewpoints_are_the_courses(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
                          "define own matte\nmaterial own\nsphere 0 0 0 1");
     assert_int_equal(scene.spheres.data[0].material, 2);
     assert_int_equal(scene.spheres.data[1].material, 0);
-    assert_int_equal(scene.spheres.data[2].material, 4); // a name that was given comes first
+    assert_int_equal(scene.spheres.data[2].material, 4); // a defined name takes precedence
     scene_free(&scene);
 }
 
@@ -164,7 +164,8 @@ static void sides_and_normals_are_for_the_objects_that_follow(void **state)
     scene_free(&scene);
 }
 
-// 90 degrees about z turns x into y exactly, up to the one rounding of the axis' length.
+// A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis'
+// length.
 static void transforms_apply_in_the_order_written(void **state)
 {
     (void)state;
@@ -271,7 +272,7 @@ static void the_longest_normals_can_be_rotated(void **state)
     (void)state;
     Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
-    // 20 degrees about x: y shrinks by cos - sin, z grows by cos + sin.
+    // The rotation by 20 degrees about x multiplies y by cos - sin, and z by cos + sin.
     assert_true(isfinite(normal[2]));
     assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
     scene_free(&scene);

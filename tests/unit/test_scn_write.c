@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene that is written as text and read again is the same, to the last bit of every number.
+// Tests that a scene written as text is read back bit for bit.
 #include "scene/define.h"
 #include "scene/scn.h"
 #include "scene/scn_write.h"
@@ -96,7 +96,7 @@ static void a_scene_without_cameras_keeps_the_courses(void **state)
     free(again);
 }
 
-// As mesh files name them.
+// Mesh files may contain these names of materials.
 static void names_that_no_scene_can_define_are_replaced(void **state)
 {
     (void)state;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Seams against steps whose place is known.
+// Tests seams with color steps at known positions.
 #include "refine/seam.h"
 #include "unit/cmocka_all.h"
 
 #define SIDE  27u
 #define LINE  (GROUP_SIDE * SIDE)
-#define AREA  (2.0 * SIDE * SIDE) // of a cell, in the sums' unit
+#define AREA  (2.0 * SIDE * SIDE) // of a cell, in the unit of ColorSum
 #define STEPS 4294967296.0
 
 static SampleData seen(float color, uint32_t signature)
@@ -13,7 +13,7 @@ static SampleData seen(float color, uint32_t signature)
     return (SampleData){{color, color, color}, signature};
 }
 
-// Dark up to the place of a step, and bright from there on.
+// Returns a sample that is dark before the step and bright from the step on.
 static SampleData step_at(uint32_t place, uint32_t step)
 {
     return place < step ? seen(0.25f, 1) : seen(0.75f, 2);

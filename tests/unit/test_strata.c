@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strata against populations of pixels whose errors are known.
+// Tests strata with populations of pixels whose errors are known.
 #include "refine/strata.h"
 #include "unit/cmocka_all.h"
 
@@ -9,21 +9,21 @@
 #define POPULATIONS 200
 #define ROUNDS_MOST 300
 
-// Numbers in [0, 1), the same in every run.
+// Returns pseudorandom numbers in [0, 1).
 static double chance(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double)(*state >> 11) * 0x1p-53;
 }
 
-// A pixel that stays where it is has that squared error on the rung it stands on.
+// error is the pixel's squared error on its current rung.
 typedef struct {
     uint32_t stratum;
     double feature, error, chance;
 } Pixel;
 
-// Squared errors go with the square of the bend, except that some flat pixels hide an edge: a part
-// that differs from one population to the next, and most of it beside contrast.
+// Squared errors are proportional to the square of the bend, but some flat pixels hide an edge.
+// Their share differs between populations, and most of them are near contrast.
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;
@@ -42,7 +42,7 @@ static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
     }
 }
 
-// A pixel that advances loses all but a fifth of its error.
+// A pixel that advances keeps a fifth of its error.
 static void advance(Pixel *pixel, Strata *strata, uint64_t *state)
 {
     const uint32_t rung = strata_rung(pixel->stratum);
@@ -62,7 +62,7 @@ static double mean_error(const Pixel pixels[PIXELS])
     return sum / PIXELS;
 }
 
-// Lets pixels advance until the aim is reached; returns whether it was.
+// Advances pixels until the aim is reached. Returns whether it was reached.
 static bool reach(Pixel pixels[PIXELS], Strata *strata, double mean_square, uint64_t seed)
 {
     const StrataAim aim = {.mean_square = mean_square, .samples = INFINITY};

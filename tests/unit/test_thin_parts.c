@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which cells are cut for thin triangles, where those are hard to project or too many.
+// Tests the cells that are subdivided for thin triangles, if these are hard to project or too many.
 #include "refine/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
@@ -10,11 +10,11 @@
 #include <string.h>
 
 #define SIDE  120
-#define FOCUS 100.0 // pixels at a distance of one
+#define FOCUS 100.0 // the side of a pixel is 1 / FOCUS at distance 1
 #define PI    3.14159265358979
 
-// The eye is at the origin and looks along y, with z up: a point appears FOCUS * x / y pixels right
-// of the middle.
+// A mesh and its view. The eye is at the origin and looks along y, with z up. A point appears FOCUS
+// * x / y pixels to the right of the center.
 typedef struct {
     double (*positions)[3];
     uint32_t (*triangles)[3];
@@ -102,7 +102,7 @@ static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
     return count;
 }
 
-// A point that appears at that place, in pixels from the upper left corner.
+// Returns the point at that depth that appears at (x, y), in pixels from the upper left corner.
 static Vec3 point_at(double x, double y, double depth)
 {
     return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
@@ -144,7 +144,7 @@ static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
     assert_int_equal(cuts_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
 }
 
-// A path below the eye that begins far behind it appears from the picture's lower edge upward.
+// A sliver below the eye that starts far behind it appears from the picture's lower edge upward.
 static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture(void **st
     close_world(&world);
 }
 
-// Across the picture in all directions.
+// Adds slivers across the picture in all directions.
 static void add_slivers(World *world, int count, double thickness)
 {
     uint64_t random = 1;
@@ -233,7 +233,7 @@ static void any_threads_find_the_same_cells(void **state)
         close_world(&worlds[i]);
 }
 
-// Two triangles side by side that share no vertex.
+// Adds two adjacent triangles that share no vertex.
 static void add_strip(World *world, double left, double right)
 {
     add_triangle(world, point_at(left, 10.1, 4), point_at(left, 109.9, 4),
@@ -254,7 +254,7 @@ static void a_wide_part_made_of_thin_ones_is_not_cut(void **state)
     close_world(&world);
 }
 
-// One that is a piece.
+// Adds a strip whose triangles form a piece.
 static void add_joined_strip(World *world, double left, double right)
 {
     Mesh *mesh = &world->object.mesh;
@@ -289,7 +289,7 @@ static void a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh(void **state)
     close_world(&world);
 }
 
-// The broader strip holds samples of the cells, and is looked at first.
+// The broader strip contains samples of these cells, and is searched first.
 static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels(void **state)
 {
     (void)state;

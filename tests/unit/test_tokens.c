@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting scene text into tokens.
+// Tests the tokenizer of scene text.
 #include "scene/tokens.h"
 
 #include "unit/cmocka_all.h"

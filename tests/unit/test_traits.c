@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's contents determine its program.
+// Tests that a scene's contents determine its kernel features.
 #include "accel/traits.h"
 
 #include "unit/cmocka_all.h"

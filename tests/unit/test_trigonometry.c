@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fixed sine and cosine against the C library's long double.
+// Compares the fixed sine and cosine with the C library's long double functions.
 #include "base/trigonometry.h"
 
 #include "unit/cmocka_all.h"
@@ -16,7 +16,7 @@ static void multiples_of_ninety_degrees_are_exact(void **state)
     }
 }
 
-// 4 units of 2^-53: two roundings of the series and one of the angle on each side.
+// The tolerance of 4 * 2^-53 covers two roundings of the series and one of the angle on each side.
 static void all_angles_agree_with_the_library(void **state)
 {
     (void)state;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How many levels of rays a scene needs.
+// Tests how many levels of rays a scene needs.
 #include "scene/truncation.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
 
-// A scene with a sphere of each reflectivity.
+// Returns a scene with a sphere of each reflectivity.
 static Scene scene_of(const float reflectivities[], size_t count)
 {
     Scene scene = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Guessing the word that was meant.
+// Tests the suggestions for misspelled words.
 #include "base/word.h"
 
 #include "unit/cmocka_all.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of triangles that builders must cope with, in the normalized frame.
+// Difficult sets of triangles for the tests of builders, in normalized coordinates.
 #pragma once
 
 #include "accel/triangles.h"
