@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Preloaded, makes a driver crash at the first launch of a kernel, as CLRT_CRASH says: "abort",
-// "exit", "segv", "bus" or "ill", each with "-thread" behind it for a thread of the driver's, and
-// "-two" for two of its threads at once.  "own" crashes in the program's own code.  "fpe" crashes
-// at the first call of OpenCL, before PoCL has a handler that steps over divisions by zero.
+// If preloaded, makes a driver crash at the first launch of a kernel. CLRT_CRASH selects how:
+// "abort", "exit", "segv", "bus" or "ill". With "-thread" appended, a thread of the driver crashes.
+// With "-two", two threads crash at once. "own" crashes in the program's code. "fpe" crashes at the
+// first call of OpenCL, before PoCL installs its handler for divisions by zero.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>
@@ -27,7 +27,8 @@ static void touch_lost_page(void)
         zero = page[0];
 }
 
-// The code that the program starts with ends in a halt, which is not for programs.
+// Runs the halt instruction at the end of the program's entry code, which is forbidden in user
+// mode.
 static void halt(void)
 {
     void (*run)(void);

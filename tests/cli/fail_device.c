@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Preloaded, makes the device fail: from the CLRT_FAIL_CALL-th call on, counted from 1, of the
-// function of OpenCL that CLRT_FAIL_NAME names, none succeeds, as where a device runs out of memory
-// or is lost.
+// If preloaded, makes the device fail as if it ran out of memory or were lost. CLRT_FAIL_NAME names
+// a function of OpenCL. Its calls fail from number CLRT_FAIL_CALL on, counted from 1.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdatomic.h>

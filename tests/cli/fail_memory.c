@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Preloaded, makes memory run out for clrt itself, not for the libraries that it calls: from the
-// CLRT_FAIL_MEMORY-th allocation on, counted from 1, none succeeds.
+// If preloaded, makes allocations of clrt fail, but not those of libraries. They fail from number
+// CLRT_FAIL_MEMORY on, counted from 1.
 #include <dlfcn.h>
 #include <errno.h>
 #include <link.h>
@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-// The range of the program's code: the first object that the loader reports.
+// The range of the program's code. The program is the first object that the loader reports.
 static uintptr_t program_start, program_end;
 static long first_failure;
 static atomic_long allocations;

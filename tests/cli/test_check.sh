@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clrt check and --bad-geometry as their user meets them: text, JSON, exit codes and sentences.
-# Usage: CLRT=path/to/clrt test_check.sh SOURCE_FOLDER WORK_FOLDER
+# Tests clrt check and --bad-geometry: text, JSON, exit codes and messages. Usage: CLRT=path/to/clrt
+# test_check.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
 
 tells() { grep -qF -- "$1" out; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); m=d['meshes'][0]; sys.exit(not ($2))"; }
 
-# Writes an ascii PLY: name, vertices and triangles, a line each.
+# Writes an ASCII PLY file. The arguments are its name, vertices and triangles; each vertex or
+# triangle is a line.
 mesh() {
   local vertices faces
   vertices=$(printf '%s\n' "$2" | wc -l)

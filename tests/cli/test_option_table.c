@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of options against itself and against its readers.
+// Tests that the table of options is consistent, and that --help and the parser match it.
 #include "cli/help.h"
 #include "cli/options/table.h"
 #include "unit/cmocka_all.h"
@@ -13,7 +13,7 @@ static bool is_choice(const Option *option)
     return option->argument != NULL && strchr(option->argument, '|') != NULL;
 }
 
-// Without the brackets of a value that may be left out.
+// Copies the option's argument without the brackets of an optional argument.
 static void copy_words(char words[128], const Option *option)
 {
     const char *list = option->argument + (option->argument[0] == '[' ? 2 : 0);
@@ -52,7 +52,7 @@ static void settings_that_cost_or_buy_speed_are_classed(void **state)
     }
 }
 
-// A bound is stated where it is promised.
+// The help of options of class bounded must contain the bound.
 static void bounded_settings_tell_their_bound(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void bounded_settings_tell_their_bound(void **state)
             assert_non_null(strstr(option_table[i].help, "the error is at most"));
 }
 
-// A name in capitals stands for any value.
+// Returns whether the word is a name in capitals, which stands for any value.
 static bool is_name(const char *word)
 {
     return isupper((unsigned char)word[0]);
@@ -115,7 +115,7 @@ static const char *help_text(void)
     return text;
 }
 
-// Where the option's sentence begins, and where it ends.
+// Finds the start and the end of the option's text in --help.
 static const char *find_entry(const char *help, const Option *option, const char **end)
 {
     char start[80], letter[8] = "    ";
@@ -127,7 +127,7 @@ static const char *find_entry(const char *help, const Option *option, const char
     const char *entry = strstr(help, start);
     assert_non_null(entry);
     *end = entry + 1 + strcspn(entry + 1, "\n");
-    while (strspn(*end + 1, " ") > 6) // lines that go on
+    while (strspn(*end + 1, " ") > 6) // continuation lines
         *end += 1 + strcspn(*end + 1, "\n");
     return entry + strlen(start);
 }

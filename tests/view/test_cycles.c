@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens and closes the viewer again and again in one process, whose memory, files and threads must
-// not grow.  In builds with AddressSanitizer every byte is asked for at the end.
+// Opens and closes the viewer repeatedly in one process. Its memory, files and threads must not
+// grow. In builds with AddressSanitizer, no byte may leak.
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
 #include "view/viewer.h"
@@ -13,9 +13,9 @@
 #ifdef __SANITIZE_ADDRESS__
 #define CYCLES 200
 #else
-#define CYCLES 60 // enough for growth to show
+#define CYCLES 60 // enough to detect growth
 #endif
-#define WARMING_UP 20 // cycles after which drivers have all they keep
+#define WARMING_UP 20 // after these cycles, drivers keep no more memory
 
 // Three times the memory that PoCL keeps for each kernel. A picture here is six times as large.
 #define BYTES_A_CYCLE 32768
@@ -47,7 +47,7 @@ static void show_once(const char *keys)
         fail_msg("%s", error.text);
 }
 
-// The linker puts these before the window's own.
+// The linker replaces the window's functions by these.
 static int losses, openings;
 bool __real_window_is_lost(const Window *window);
 bool __wrap_window_is_lost(const Window *window);

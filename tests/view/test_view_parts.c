@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of the viewer that need neither window nor device: what is traced next, boxes, keys
-// that are played, files that change, pictures in two layers.
+// Tests the parts of the viewer that need neither window nor device. They are the plan of passes,
+// boxes, played keys, changed files, and pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
 #include "view/draw/boxes.h"
@@ -47,7 +47,7 @@ static void what_stands_still_sharpens_step_by_step(void **state)
 static void moving_pictures_take_the_time_of_a_frame(void **state)
 {
     (void)state;
-    const PlanReached reached = {6, 1, 2, true}; // of another camera
+    const PlanReached reached = {6, 1, 2, true}; // for another camera
     PlanRequest request = plain;
     assert_int_equal(plan_pass(&request, &reached).divisor, 1);
     for (double cost = 1e-9; cost < 1e-5; cost *= 1.1) {
@@ -91,7 +91,7 @@ static void brute_force_is_expected_to_be_dear(void **state)
     assert_true(plan_first_guess(1000000, false) > 1e-4);
 }
 
-// The boxes of a level, by a walk that knows depths.
+// Returns the number of boxes of a level by recursion.
 static uint32_t count_level(const Bvh *bvh, uint32_t number, uint32_t depth, uint32_t level)
 {
     const BvhNode *node = &bvh->nodes[number];
@@ -173,7 +173,7 @@ static void set_time(const char *path, long nanoseconds)
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
-// A folder, the path of a file in it, and a watch that looks at neither yet.
+// A folder, the path of a file in it, and a new watch.
 typedef struct {
     char folder[32], path[64];
     Watch watch;
@@ -205,7 +205,7 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     for (int look = 0; look < 3; look++)
         assert_false(watch_look(&watched.watch));
     set_time(watched.path, 1);
-    assert_false(watch_look(&watched.watch)); // perhaps it is still being written
+    assert_false(watch_look(&watched.watch)); // the file may still be incomplete
     assert_true(watch_look(&watched.watch));
     assert_false(watch_look(&watched.watch));
     unlink(watched.path);
@@ -258,14 +258,14 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     canvas_open(&canvas, ENCODE_RAW);
     assert_null(canvas_whole(&canvas));
     Layer *first = canvas_begin(&canvas, &settings, true, &error);
-    assert_null(canvas_unfinished(&canvas)); // it is to be shown whole
+    assert_null(canvas_unfinished(&canvas)); // the picture is to be shown only when complete
     first->framebuffer.pixels[3][1] = 0.5f;
     canvas_add_tiles(&canvas, first, 2, 1);
     canvas_finish(&canvas, first);
     assert_ptr_equal(canvas_whole(&canvas), first);
     assert_int_equal(first->bytes[3 * 3 + 1], 128);
     canvas_encode_again(&canvas, 4);
-    assert_int_equal(first->bytes[3 * 3 + 1], 255); // brighter than white is white
+    assert_int_equal(first->bytes[3 * 3 + 1], 255); // brighter colors become white
     assert_int_equal(first->revision, 1);
     Layer *second = canvas_begin(&canvas, &settings, false, &error);
     assert_ptr_equal(canvas_unfinished(&canvas), second);

@@ -108,7 +108,7 @@ static void dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole(void **state)
     scene_free(&fixture.scene);
 }
 
-// Where a point is seen in a window of 512 x 512, from its middle.
+// Computes the position of a point in a window of 512 x 512, relative to the center.
 static void see(const Viewpoint *camera, Vec3 point, double place[2])
 {
     const Vec3 ahead = vec3_normalize(vec3_sub(camera->look_at, camera->eye));
@@ -182,7 +182,7 @@ static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
     (void)state;
     Fixture fixture = opened("");
     press(&fixture, "]]");
-    assert_int_equal(fixture.state.level, 0); // no boxes are shown
+    assert_int_equal(fixture.state.level, 0); // boxes are hidden
     press(&fixture, "B]]");
     assert_int_equal(fixture.state.level, 2);
     press(&fixture, "]]]]");
@@ -192,7 +192,7 @@ static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
     press(&fixture, "[[[[");
     assert_int_equal(fixture.state.level, 0);
     press(&fixture, "]BB");
-    assert_int_equal(fixture.state.level, 0); // shown anew, they are the leaves
+    assert_int_equal(fixture.state.level, 0); // showing boxes again starts with the leaves
     scene_free(&fixture.scene);
 }
 
@@ -325,7 +325,7 @@ static void the_overlay_tells_figures_failures_and_help(void **state)
     assert_non_null(strstr(text, status_text_help()));
     char small[16];
     status_text_overlay(small, sizeof small, &fixture.state, &figures);
-    assert_string_equal(small, "ray traced, vie"); // what does not fit is cut off
+    assert_string_equal(small, "ray traced, vie"); // long text is truncated
     scene_free(&fixture.scene);
 }
 
