@@ -56,7 +56,7 @@ static bool is_own_code(const ucontext_t *context)
 static void print_message(const char *message)
 {
     const ssize_t written = write(STDERR_FILENO, message, strlen(message));
-    (void)written; // a closed standard error changes nothing
+    (void)written; // if standard error is closed, there is no message
 }
 
 // Only the first thread that crashes prints; other threads wait here for the exit.
@@ -96,7 +96,7 @@ static bool is_kept(int number)
     return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT;
 }
 
-// The C library's own name for sigaction.
+// The C library's internal name of sigaction.
 extern int __sigaction(int number, const struct sigaction *action, struct sigaction *before);
 
 __attribute__((visibility("default"))) int sigaction(int number, const struct sigaction *action,

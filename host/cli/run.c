@@ -118,7 +118,7 @@ bool run_await_device(Run *run, Error *error)
     return true;
 }
 
-// An explicit --bvh always builds a tree.
+// Returns whether to build a tree. An explicit --bvh always builds one.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;

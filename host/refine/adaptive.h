@@ -24,7 +24,7 @@ typedef struct {
     PixelContrasts pixel_contrasts;
     Footprints footprints; // small spheres; their cells are always subdivided
     ThinParts thin_parts;  // thin parts of meshes; their cells are always subdivided
-    uint64_t samples;      // taken
+    uint64_t samples;      // the number of samples taken
 } Adaptive;
 
 // The inputs of adaptive anti-aliasing.

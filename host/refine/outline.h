@@ -22,7 +22,7 @@ typedef struct {
 
 // The square cells of one level of a picture. Their samples are at their centers.
 typedef struct {
-    double side, per_length; // its inverse
+    double side, per_length; // per_length is 1 / side
     uint32_t counts[2];      // of columns and of rows
 } CellGrid;
 

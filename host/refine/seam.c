@@ -82,7 +82,7 @@ bool seam_take(Seam *seam, const SampleData *sample, Seam *rest)
     return true;
 }
 
-// An interval of the line in half places, and the sample that represents it.
+// An interval of the line, in halves of a last-level cell, and the sample that represents it.
 typedef struct {
     uint32_t begin, end;
     const SampleData *seen;

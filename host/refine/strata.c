@@ -28,12 +28,12 @@
 // Above rung 0, the new samples contain the old samples, so the change underestimates the error.
 #define NESTED_FACTOR 1.15
 
-// The first controls of a stratum: at least this fraction, and at least this many pixels.
+// The first step of a stratum advances at least this fraction and this many pixels as controls.
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
 
-// A stratum without controls must get some if its expected error is at least this fraction of the
-// aim.
+// A stratum without controls must advance some pixels if its expected error exceeds this fraction
+// of the aim.
 #define FORCED_PART 0.02
 
 // A round plans to remove COVERED_PART of the bound's excess. It counts only GAIN_PART of the

@@ -24,7 +24,7 @@ typedef struct {
     CellSet covered[REFINE_LEVELS]; // cells whose samples the piece contains
     CellSet wide;                   // pixels at which the piece is wide
     _Atomic uint32_t top, bottom;   // the piece covers rows of pixels top to bottom - 1
-    uint32_t level;                 // the current one
+    uint32_t level;                 // the level that is being searched
     _Atomic bool found;             // a triangle remains to be searched
     _Atomic uint64_t cuts[REFINE_LEVELS];
 } Search;

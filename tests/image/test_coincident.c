@@ -83,7 +83,7 @@ static void write_pairs(char path[TEMPORARY_PATH], bool second)
     temporary_close(stream);
 }
 
-// Which meshes are two-sided.
+// Whether the first and the second mesh are two-sided.
 typedef struct {
     bool first, second;
 } Sides;

@@ -9,7 +9,7 @@ typedef struct {
     Program program;
 } Probe;
 
-// One input array of a kernel, in the order of its arguments.
+// An input array of a kernel. Inputs have the order of the kernel's arguments.
 typedef struct {
     const void *data;
     size_t size;

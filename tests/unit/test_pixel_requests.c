@@ -73,7 +73,7 @@ static void sums_give_mean_and_variance(void **state)
 {
     (void)state;
     PixelSums sums = {.squares = 0};
-    // Of 16 samples, half are black and half are (1, 0.5, 0).
+    // Eight of the 16 samples are black, and eight are (1, 0.5, 0).
     const PixelSums bright = {{1ull << 32, 1ull << 31, 0}, (1ull << 48) + (1ull << 46)};
     for (int i = 0; i < 8; i++)
         pixel_sums_add(&sums, &bright);

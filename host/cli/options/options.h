@@ -104,17 +104,17 @@ typedef struct {
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;
-    bool no_metadata;          // in picture files
+    bool no_metadata;          // omit the metadata of picture files
     bool hash;                 // print the hash of the pixels
     const char *expected_hash; // of the pixels; NULL: do not check
     const char *keys;          // key presses to play in the window; NULL for none
     uint32_t quit_after;       // the number of frames before the window closes; 0: the user closes
                                // it
     BadGeometry bad_geometry;
-    bool lists_json;       // of ACTION_LIST_DEVICES
+    bool lists_json;       // ACTION_LIST_DEVICES prints JSON
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
-    bool json;             // of ACTION_CHECK, ACTION_COMPARE, ACTION_EXPLAIN, ACTION_EXPLAIN_SCENE
+    bool json;             // of check, compare, --explain and --explain-pixel
     const char *json_path; // NULL or "-": print JSON instead of the text on standard output
     bool quiet, verbose;
 } Options;
