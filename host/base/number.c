@@ -60,7 +60,7 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     const char *stop = digits;
     int64_t size = 0;
     for (; stop < end && is_digit(*stop); stop++) {
-        if (size < INT64_MAX / 100) // no file has enough digits to balance a larger exponent
+        if (size < INT64_MAX / 100) // no file has enough digits to cancel a larger exponent
             size = size * 10 + (*stop - '0');
     }
     if (stop == digits)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prepares a scene of only this mesh like any other scene, and casts rays at its aims.
+// Prepares a scene that contains only the mesh for the device, and casts rays at the mesh's edges
+// and vertices (check/aims.h).
 #include "check/leaks.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PoCL compiles a kernel again for each local size and grid kind, and that must happen under the
-// cache's lock. The first launch has no rays and runs under this lock. All launches therefore have
-// its size.
+// PoCL compiles a kernel again for each local size. This must happen under the lock of the kernel
+// cache. The first launch therefore has no rays and runs under the lock, and all later launches
+// have the same size.
 #include "check/ray_caster.h"
 
 #include "device/upload.h"

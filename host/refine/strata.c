@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A stratum with few controls relies on a prior error: its mean feature times the rung's change per
-// feature. Pixels that look flat may hide detail that no sample has hit, so the prior's feature has
-// a minimum. The minimum is larger near contrast, where most hidden detail was found. With one
-// minimum for all strata, errors reached 1.3 times the goal on tiled floors.
+// Pixels that have advanced are the controls of their stratum (strata.h defines the other terms). A
+// stratum with few controls uses a prior error: its mean feature times the rung's change per unit
+// of feature. Pixels that look flat may hide detail that no sample hit. The feature in a prior
+// therefore has a minimum, which is larger near contrast, where most hidden detail was found. With
+// one minimum for all strata, errors reached 1.3 times the goal on tiled floors.
 #include "refine/strata.h"
 
 #include <math.h>
 
-// Pixels with a bend above BENT are bent. Pixels with a bend of at least CONTRAST nearby are near
-// contrast.
+// A pixel is bent if its bend, the second difference of its color, exceeds BENT. A pixel is near
+// contrast if a nearby pixel has a bend of at least CONTRAST.
 #define BENT     0.05
 #define CONTRAST 0.125
 
@@ -19,8 +20,8 @@
 // The change per feature on rung 0 before any change is measured.
 #define FIRST_RATIO 0.03
 
-// The least feature in a prior, as a fraction of the rung's largest mean feature. NEAR and FAR mean
-// near contrast and elsewhere on rung 0; SAMPLED means above rung 0.
+// The least feature in a prior, as a fraction of the rung's largest mean feature. On rung 0,
+// NEAR applies near contrast and FAR elsewhere. SAMPLED applies above rung 0.
 #define LEAST_NEAR    0.3
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
@@ -32,13 +33,13 @@
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
 
-// A stratum without controls must advance some pixels if its expected error exceeds this fraction
-// of the aim.
+// A stratum without controls must advance some pixels if it is on rung 0, or if its expected error
+// exceeds this fraction of the aim.
 #define FORCED_PART 0.02
 
 // A round plans to remove COVERED_PART of the bound's excess. It counts only GAIN_PART of the
-// expected decrease of the mean. It takes steps that score at least SCORE_PART of the best score,
-// and at least STEP_PART of each.
+// expected decrease of the mean. It takes steps that score at least SCORE_PART of the best score.
+// It takes at least STEP_PART of each step.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -196,7 +197,7 @@ StrataEstimate strata_estimate(const Strata *strata)
     return (StrataEstimate){forecast.mean / pixels, bound_of(&forecast) / pixels};
 }
 
-// A step of a stratum's fraction.
+// A possible increase of the fraction of a stratum that advances.
 typedef struct {
     uint32_t stratum;
     double fraction; // after the step
@@ -255,7 +256,8 @@ static uint32_t best_step(const Step *steps, uint32_t count)
     return best;
 }
 
-// Takes the steps with the highest scores until they cover the missing gain or use up the samples.
+// Takes the steps with the highest scores until they cover the missing gain or use up the samples,
+// or until the remaining scores are low.
 static void take_steps(Strata *strata, Step *steps, uint32_t count, double missing, double samples)
 {
     double good = 0;

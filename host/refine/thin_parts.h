@@ -4,17 +4,17 @@
 //
 // A triangle is thin at a level if no disk with the cells' diagonal as diameter fits into it. Every
 // cell of that level that a thin triangle touches is subdivided, unless the triangle's mesh piece
-// is wide at the cell. A piece is wide at a cell if it contains the four samples around a corner of
-// the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and contrast finds
-// its outline.
+// is wide at the cell. A piece is wide at a cell if it contains all four samples around some corner
+// of the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and contrast
+// finds its outline.
 //
 // A sample therefore hits each triangle whose incircle is at least 1/57 pixel across, except
-// - within two pixels of a part of the same piece that is wider than a pixel, and likewise at each
-//   level;
+// - triangles within two pixels of a wider part of the same piece, and at deeper levels within two
+//   cells of it;
 // - hidden triangles, on which samples are wasted;
 // - triangles visible only in mirrors or by their shadows;
-// - at the deepest levels, if all subdivisions together would take more than THIN_SAMPLES samples
-//   per pixel of the picture.
+// - the thinnest triangles, if all subdivisions together would take more than THIN_SAMPLES samples
+//   per pixel of the picture. The deepest levels are then omitted.
 #pragma once
 
 #include "base/parallel.h"
@@ -42,8 +42,8 @@ typedef struct {
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);
 void thin_parts_free(ThinParts *parts);
 
-// Returns whether the cell of a level at that place must be subdivided. The place is in cells of
-// the last level.
+// Returns whether the cell of a level at that place must be subdivided. The unit of place is a cell
+// of the last level.
 static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2], uint32_t level)
 {
     const uint32_t side = refine_tree_cell_side(level);
@@ -51,8 +51,8 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
            cell_set_has(&parts->cut[level], place[0] / side, place[1] / side);
 }
 
-// Returns a bit for each of 32 pixels of a row from left on that must be subdivided. left is a
-// multiple of 32.
+// Returns a mask of 32 pixels of a row from column left on, a multiple of 32. Set bits mark pixels
+// to subdivide.
 static inline uint32_t thin_parts_pixels(const ThinParts *parts, uint32_t left, uint32_t row)
 {
     return parts->levels == 0 ? 0 : pixel_set_bits(&parts->cut[0], left, row);

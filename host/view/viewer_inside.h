@@ -16,7 +16,8 @@
 #define STATE_SIZE 1024
 
 typedef struct {
-    ViewerSettings settings; // copied like the cache, because the worker may outlive viewer_run
+    ViewerSettings
+        settings; // settings and cache are copies, since the worker may outlive viewer_run
     Cache cache;
     Window window;
     Views views;
@@ -24,7 +25,7 @@ typedef struct {
     Worker *worker;
     WorkerRequest request;
     WorkerStatus status;
-    Model *model; // with a reference; NULL until the first scene is read
+    Model *model; // holds a reference; NULL until the first scene is read
     StateScene scene;
     State state;
     ARRAY(char *) dropped; // paths; owned, because the worker may still read any of these files

@@ -7,7 +7,7 @@
 struct Worker {
     WorkerSetup setup;
     pthread_t thread;
-    pthread_mutex_t mutex; // guards the next five members
+    pthread_mutex_t mutex; // guards request to stops
     pthread_cond_t changed;
     WorkerRequest request;
     WorkerStatus status;
