@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Reads every #include and names those that do not go downward.  A floor is a folder of host/; a
-# file includes headers of its own folder and of the floors below it, never in a circle.  Kernels
-# form one chain: each includes only files before it in CMakeLists.txt's list.
+# Reads every #include and reports violations of the layers. A layer ("floor") is a folder of host/.
+# A file may include headers of its own folder and of lower layers, but not in a cycle. A kernel
+# file may include only files that precede it in the list in CMakeLists.txt.
 import argparse
 import pathlib
 import re
 import sys
 
-# The floors that each floor may include besides itself.  Pictures are beside the scene, not above it.
+# The layers that each layer may include besides itself. image is beside scene, not above it.
 BELOW = {
     "base": [],
     "image": ["base"],
@@ -31,14 +31,14 @@ BELOW |= {
 BELOW["explain"] = BELOW["jobs"] = [*TRACING, "compare", "cli/options"]
 BELOW["cli"] = [floor for floor in BELOW if floor not in ("foreign", "library")]
 
-# The core runs under sanitizers and fuzzers, so it knows no driver and no other large library.
+# The core runs under sanitizers and fuzzers, so it includes no driver and no other large library.
 CORE = ["base", "mesh", "scene", "accel"]
 FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
 # The one file that starts threads, for all of the core.
 THREADS = ("base/thread_pool.c", "pthread.h")
 
-# Host and kernels share one header, and one host file brings it in for all floors above.
+# Host and kernels share one header. Only one host file includes it, for all layers above.
 SHARED = "../kernels/shared.h"
 SHARED_BY = "scene/scene.h"
 
@@ -46,20 +46,20 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTIL
 
 
 def read_includes(file):
-    """Yields line number, '"' or '<', and the path of each #include."""
+    """Yields the line number, '"' or '<', and the path of each #include."""
     text = file.read_text()
     for match in INCLUDE.finditer(text):
         yield text.count("\n", 0, match.start()) + 1, match[1], match[2]
 
 
 def floor_of(name):
-    """The options are a floor below the rest of the command line; other folders in folders are not
-    floors of their own."""
+    """Returns the layer of a file. cli/options is a layer of its own; all other subfolders belong
+    to their parent's layer."""
     return "cli/options" if name.startswith("cli/options/") else name.split("/")[0]
 
 
 def judge_own(name, target):
-    """Says what is wrong with a host file's include of a host file; None where nothing is."""
+    """Returns the fault of a host file's include of another host file, or None."""
     floor, other = floor_of(name), floor_of(target)
     if not target.endswith(".h"):
         return f"{target} is not a header"
@@ -69,7 +69,7 @@ def judge_own(name, target):
 
 
 def judge_outside(name, quote, target):
-    """The same for an include of anything else."""
+    """Returns the fault of a host file's include of any other file, or None."""
     if quote == '"':
         if target != SHARED:
             return f"{target} is no header of host/"
@@ -82,7 +82,7 @@ def judge_outside(name, quote, target):
 
 
 def find_cycle(graph):
-    """Returns one circle of includes as a list of names, or None."""
+    """Returns a cycle of includes as a list of names, or None."""
     finished = set()
 
     def visit(name, path):

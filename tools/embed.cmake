@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Joins the kernel files into one C array: each #include of render.cl, and so on down, gives way to
-# the file's text; a file with an include guard comes once, one without wherever it is included.
-# A #line before each piece makes build logs name the real file and line.
-# Usage: cmake -DFOLDER=kernels -DFILE=render.cl -DNAME=kernel_source -DOUTPUT=file.c -P embed.cmake
+# Joins the kernel files into one C array. The text of a file replaces each #include of it,
+# recursively. A file with an include guard is inserted only once. A #line before each piece makes
+# build logs name the real file and line. Usage: cmake -DFOLDER=kernels -DFILE=render.cl
+# -DNAME=kernel_source -DOUTPUT=file.c -P embed.cmake
 cmake_minimum_required(VERSION 3.25)
 set(seen "")
 

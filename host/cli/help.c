@@ -57,7 +57,7 @@ static void write_group(FILE *stream, OptionGroup group)
 
 static void write_classes(FILE *stream)
 {
-    fputs("\nWhat a setting may do to the picture:\n", stream);
+    fputs("\nEffects of settings on the picture:\n", stream);
     for (size_t i = CLASS_NONE + 1; i < OPTION_CLASSES; i++) {
         char name[32];
         snprintf(name, sizeof name, "  [%s]", option_class_names[i]);
@@ -74,7 +74,7 @@ static void write_usage(FILE *stream)
     for (size_t i = 0; i < command_count; i++)
         fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,
                 command_table[i].operands);
-    fputs("Traces a scene (.scn, or a mesh alone) with OpenCL; - is one on standard input.\n",
+    fputs("Traces a scene file (.scn) or a single mesh with OpenCL; - reads standard input.\n",
           stream);
     fputs("\nCommands:\n", stream);
     for (size_t i = 0; i < command_count; i++) {
@@ -86,8 +86,7 @@ static void write_usage(FILE *stream)
 
 static void write_channels(FILE *stream)
 {
-    fputs("\nChannels of --aov, of the ray through each pixel's center unless said otherwise:\n",
-          stream);
+    fputs("\nChannels of --aov, for the ray through each pixel's center unless noted:\n", stream);
     for (size_t i = 0; i < aov_count; i++) {
         char name[32];
         snprintf(name, sizeof name, "  %s", aov_table[i].name);
@@ -103,9 +102,9 @@ void options_write_help(FILE *stream)
     write_channels(stream);
     write_classes(stream);
     show_write_keys(stream);
-    fprintf(stream,
-            "\nExit status: 0 done, 1 check found faults, compare's limits are broken, or a hash,\n"
-            "             an error or a time is not as asked, 2 usage,\n"
-            "             3 scene, mesh or picture, 4 device, 5 output,\n"
-            "             128 + signal when stopped.\n");
+    fprintf(
+        stream,
+        "\nExit status: 0 done; 1 faults found by check, a limit of compare exceeded, or a hash,\n"
+        "             error or time goal missed; 2 usage; 3 scene, mesh or picture;\n"
+        "             4 device; 5 output; 128 + signal if stopped.\n");
 }

@@ -66,9 +66,9 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
         write_light(report, &ray->lights[i], i + 1, material, stream);
     fprintf(stream, "    color      ");
     write_vector(ray->shaded, stream);
-    fprintf(stream, ", of which the sample takes %.6g", ray->share);
+    fprintf(stream, ", weight %.6g in the sample", ray->share);
     if (material->reflectivity > 0)
-        fprintf(stream, "; the surface reflects %.6g", (double)material->reflectivity);
+        fprintf(stream, "; reflectivity %.6g", (double)material->reflectivity);
     fprintf(stream, "\n");
 }
 
@@ -78,7 +78,7 @@ static void write_ray(const ExplainReport *report, const ExplainedRay *ray, uint
     if (level == 0)
         fprintf(stream, "  the camera's ray\n");
     else
-        fprintf(stream, "  reflected ray %u, of which the sample takes %.6g\n", level, ray->weight);
+        fprintf(stream, "  reflected ray %u, weight %.6g in the sample\n", level, ray->weight);
     fprintf(stream, "    from       ");
     write_vector(ray->origin, stream);
     fprintf(stream, " along ");
@@ -102,7 +102,7 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
     if (sample->background_weight > 0) {
         fprintf(stream, "  the background ");
         write_vector(report->scene->background, stream);
-        fprintf(stream, ", of which the sample takes %.6g\n", sample->background_weight);
+        fprintf(stream, ", weight %.6g in the sample\n", sample->background_weight);
     }
     fprintf(stream, "  the sample's color ");
     write_vector(vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),

@@ -147,23 +147,23 @@ void status_text_camera(char *text, size_t size, const State *state)
 
 const char *status_text_help(void)
 {
-    return "r  OpenGL or ray traced\n"
+    return "r  OpenGL or ray tracing\n"
            "1-9  the scene's cameras\n"
            "left drag, arrows  turn\n"
-           "right drag, wheel  come nearer\n"
+           "right drag, wheel  move closer or away\n"
            "middle or Shift drag  move sideways\n"
-           "o  turn by itself\n"
+           "o  turn continuously\n"
            "a  anti-aliasing\n"
-           "b  tree or brute force\n"
+           "b  tree, or every triangle\n"
            "B  boxes of the tree's leaves\n"
-           "] [  boxes of inner nodes, deeper and back\n"
+           "] [  boxes of inner nodes, a level deeper or back\n"
            "n  normals\n"
            "+ -  exposure\n"
-           "a file dropped here  the scene shown instead\n"
+           "drop a file  show that scene\n"
            "c  print the camera\n"
            "s  save the picture\n"
-           "R  read everything again\n"
-           "t  text on and off\n"
-           "h  this help\n"
+           "R  reload the scene and the kernels\n"
+           "t  show or hide the text\n"
+           "h  show or hide this help\n"
            "q, Esc  quit";
 }

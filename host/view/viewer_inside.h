@@ -16,7 +16,8 @@
 #define STATE_SIZE 1024
 
 typedef struct {
-    ViewerSettings settings; // copied, with the cache, because the worker may outlive the call
+    ViewerSettings
+        settings; // settings and cache are copies, since the worker may outlive viewer_run
     Cache cache;
     Window window;
     Views views;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Embree renderer of tools/bench draws clrt's picture with clrt's rays, in each of its modes:
-else it would be no measure.  Its arithmetic is its own, so edges may differ.
+"""Tests that the Embree renderer of tools/bench draws clrt's picture with as many rays, in each
+mode. Otherwise the comparison would be meaningless. Its arithmetic differs, so edges may differ.
 Usage: test_agree.py CLRT EMBREE_PEER
 """
 
@@ -27,7 +27,7 @@ def peer_draws(peer, mode, words, picture):
 
 
 def faults_of(mode, found, expected, share):
-    """Sentences about what is not as it must be."""
+    """Yields a message for each fault of a mode."""
     if len(found["frame_seconds"]) != 1:
         yield f"{mode}: {len(found['frame_seconds'])} frames instead of 1"
     if share > PIXELS_APART:

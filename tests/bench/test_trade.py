@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tools/trade on a small picture: its fronts, its figures and its page: test_trade.py FOLDER."""
+"""Tests tools/trade with a small picture: the fronts, the figures and the page. Usage:
+test_trade.py FOLDER"""
 
 import csv
 import json
@@ -137,7 +138,7 @@ class Trade(unittest.TestCase):
             self.assertLessEqual(goal["fixed"]["milliseconds"], goal["uniform"]["milliseconds"])
             self.assertIn(f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E", self.told)
         self.assertTrue(0.5 < told["times"][0]["seconds_ratio"] < 2)
-        self.assertIn("aa=3", self.rows)  # holds 1 %, and is not in the quick grid
+        self.assertIn("aa=3", self.rows)  # meets 1 %, and is not in the quick grid
 
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# A kernel cache for each test and runs of clrt with it, for tests whose first word is CLRT.
+# Runs of clrt with a separate kernel cache for each test. The first argument of these tests is
+# CLRT.
 import os
 import pathlib
 import shutil
@@ -11,12 +12,12 @@ import unittest
 CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
-# Drawn by kernels that are compiled soonest.
+# These kernels compile fastest.
 PICTURE = [SCENE, "-s", "48x32", "-q", "--kernel=ray", "--nodes=pair", "--specialize=never"]
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 
-# Each test gets a copy of one cache in which PICTURE's kernels are compiled, and the picture.
+# Each test gets a copy of a cache that contains PICTURE's kernels, and the expected picture.
 class CacheWork(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -64,5 +65,5 @@ class CacheWork(unittest.TestCase):
         return sorted(path for path in self.cache.rglob("*") if path.is_file())
 
     def kernels(self):
-        """When the kernels were compiled."""
+        """Returns the modification time of each compiled kernel."""
         return {path: path.stat().st_mtime_ns for path in self.cache.rglob("*.so")}

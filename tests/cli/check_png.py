@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads a PNG by the standard alone and compares it with the PFM of the same picture:
-check_png.py PICTURE.png PICTURE.pfm [raw|srgb].  Says what is wrong and exits 1."""
+"""Reads a PNG file with its own decoder and compares it with the PFM file of the same picture. On a
+fault, prints it and exits with status 1. Usage: check_png.py PICTURE.png PICTURE.pfm [raw|srgb]"""
 
 import struct
 import sys
@@ -12,7 +12,7 @@ TEXTS = ["Software", "clrt:version", "clrt:scene_hash", "clrt:mesh_hash", "clrt:
 
 
 def read_chunks(data):
-    """Type and bytes of each chunk, whose sums must be right."""
+    """Returns type and content of each chunk. Checks the CRCs."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", "the signature is wrong"
     chunks, place = [], 8
     while place < len(data):
@@ -33,7 +33,7 @@ def predict(kind, left, above, corner):
 
 
 def unfilter(data, width, height):
-    """The rows' bytes, whatever their filters."""
+    """Returns the rows' bytes after undoing their filters."""
     size = 3 * width
     assert len(data) == height * (size + 1), "the number of bytes is wrong"
     above, rows = bytes(size), []
@@ -68,7 +68,7 @@ def shown(value, encoding):
 
 
 def read_pfm(path, encoding):
-    """Its rows as the PNG should have them."""
+    """Returns the PFM file's rows as the PNG file should contain them."""
     with open(path, "rb") as file:
         assert file.readline() == b"PF\n", "not a PFM"
         width, height = map(int, file.readline().split())

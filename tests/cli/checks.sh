@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Shared by the command line's tests: counted checks, and runs of clrt with an expected exit code.
-# Sourced in the folder that the streams of each run go to.
+# Functions for the command line's tests: counted checks, and runs of clrt with an expected exit
+# code. The streams of each run go to the current folder.
 failures=0
 checks=0
 
-# Counts the test named $1 as passed where the command after it succeeds.
+# Counts the check named $1 as passed if the following command succeeds.
 check() {
   local name=$1
   shift
@@ -17,7 +17,8 @@ check() {
   fi
 }
 
-# Runs clrt with the words after the expected exit code; its streams go to the files out and err.
+# Runs clrt with the arguments after the expected exit code. Its streams go to the files out and
+# err.
 run() {
   local expected=$1 code
   shift
@@ -26,7 +27,8 @@ run() {
   [ "$code" = "$expected" ] || { echo "exit $code instead of $expected" >>err && false; }
 }
 
-# Runs clrt with these words, which must fail with that code and say that one sentence.
+# Runs clrt with the arguments after $2. It must fail with exit code $1 and print only the message
+# $2.
 refuses() {
   local code=$1 sentence=$2
   shift 2

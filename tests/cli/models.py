@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# One mesh in several formats, written from Python's numbers: each function returns a file's bytes.
+# Writes one mesh in several formats, from Python's numbers. Each format's function returns the
+# bytes of a file.
 import io
 import json
 import math
@@ -8,12 +9,13 @@ import zipfile
 
 
 def rounded(value):
-    """The nearest float."""
+    """Returns the nearest float."""
     return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
 def knot(rings=24, sides=10):
-    """A closed tube around a trefoil, of floats that no short decimal is: points and triangles."""
+    """Returns points and triangles of a closed tube around a trefoil. Its floats have no short
+    decimals."""
     points, triangles = [], []
     for ring in range(rings):
         turn = 2 * math.pi * ring / rings
@@ -37,12 +39,12 @@ def knot(rings=24, sides=10):
 
 
 def coarse(points):
-    """The same on a grid of 1/64, which every decimal notation keeps."""
+    """Returns the points rounded to multiples of 1/64, which every decimal notation preserves."""
     return [tuple(round(value * 64) / 64 for value in point) for point in points]
 
 
 def normals_of(points):
-    """A direction for each point, of floats."""
+    """Returns a direction of floats for each point."""
     directions = []
     for x, y, z in points:
         length = math.sqrt(x * x + y * y + z * z) or 1
@@ -51,7 +53,8 @@ def normals_of(points):
 
 
 def axes_of(points):
-    """The same along the nearest axis, which every notation and every length keeps."""
+    """Returns the direction of the nearest axis for each point, which every notation and
+    normalization preserves."""
     nearest = [max(range(3), key=lambda axis: abs(point[axis])) for point in points]
     return [
         tuple(math.copysign(1.0, point[axis]) if axis == near else 0.0 for axis in range(3))
@@ -73,7 +76,8 @@ def ply(points, triangles, normals=None):
 
 
 def obj(points, triangles, head="", groups=None):
-    """Groups: pairs of the line before some triangles and the number of the first of them."""
+    """Returns an OBJ file. groups contains pairs (line, number of the first triangle after this
+    line)."""
     lines = [head] + [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
     starts = {first: line for line, first in groups or []}
     for number, triangle in enumerate(triangles):
@@ -84,7 +88,7 @@ def obj(points, triangles, head="", groups=None):
 
 
 def stl(points, triangles):
-    """Binary, with normals that are wrong, as those of many programs are."""
+    """Returns a binary STL file with wrong normals, like files of many programs."""
     facets = b"".join(
         struct.pack("<12fH", 0, 0, 1, *points[a], *points[b], *points[c], 0)
         for a, b, c in triangles
@@ -105,8 +109,8 @@ def _low_high(points):
 
 
 def glb(points, triangles, normals=None, node=None, change=None):
-    """node: what the node has beside its mesh; change: a function of the document, before it is
-    packed."""
+    """Returns a GLB file. node contains further properties of the mesh's node. change modifies the
+    document before it is packed."""
     parts = [b"".join(struct.pack("<3I", *t) for t in triangles)]
     parts += [b"".join(struct.pack("<3f", *p) for p in v) for v in (points, normals) if v]
     low, high = _low_high(points)
@@ -156,7 +160,7 @@ def glb(points, triangles, normals=None, node=None, change=None):
     )
 
 
-# With the number of its last corner to be filled in.
+# %d is the number of the last corner.
 THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="model"><mesh>
 <vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
 </vertices><triangles><triangle v1="0" v2="1" v3="%d"/></triangles></mesh></object></resources>
@@ -164,7 +168,7 @@ THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="
 
 
 def three_mf(model, is_found=True):
-    """A 3MF file of that XML, which may be lost in it."""
+    """Returns a 3MF file with that XML. If not is_found, the relation refers to a missing file."""
     relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
     target = f'<Relationship Target="/3D/3DModel.model" Id="rel0" Type="{relation}"/>'
     file = io.BytesIO()

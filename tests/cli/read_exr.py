@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# A reader of OpenEXR files of its own: single part, scanlines, uncompressed or ZIP.  Succeeds where
-# EXPRESSION holds, with types, a dict of channel to "uint" or "float", and c, one of channel to the
-# list of its values, the top row first; with ROW, only those of the chunk that has it.
-# Usage: read_exr.py FILE EXPRESSION [ROW]
+# A separate reader of OpenEXR files: single part, scanlines, uncompressed or ZIP. Succeeds if the
+# Python EXPRESSION is true. In it, `types` maps channels to "uint" or "float", and `c` maps
+# channels to lists of values, the top row first. With ROW, the lists contain only the chunk of this
+# row. Usage: read_exr.py FILE EXPRESSION [ROW]
 import math
 import struct
 import sys
 import zlib
 
 TYPES = {0: ("uint", "I"), 2: ("float", "f")}
-ROWS = {0: 1, 2: 1, 3: 16}  # of a chunk, by compression
+ROWS = {0: 1, 2: 1, 3: 16}  # rows of a chunk, by compression
 
 
 def read_text(data, place):
@@ -19,7 +19,7 @@ def read_text(data, place):
 
 
 def read_header(data):
-    """Returns the attributes' bytes by name, and where the header ends."""
+    """Returns {name: bytes} of the attributes, and the position after the header."""
     assert struct.unpack_from("<II", data) == (20000630, 2), "single part, scanlines"
     attributes, place = {}, 8
     while data[place] != 0:
@@ -41,7 +41,8 @@ def read_channels(data):
 
 
 def unpack_chunk(packed, size):
-    """Undoes ZIP: bytes are halved into even and odd ones, each the difference to the last."""
+    """Decompresses a ZIP chunk, then undoes the differences between bytes and the separation of
+    even and odd bytes."""
     if len(packed) == size:
         return packed
     steps = bytearray(zlib.decompress(packed))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Runs each shell on its own terminal and reads its completions by the tab key.
+# Runs each shell in its own terminal, and reads its completions after the tab key.
 import fcntl
 import os
 import pty
@@ -33,7 +33,7 @@ def is_here(shell):
 
 
 class Terminal:
-    """A shell that types at a terminal of 400 lines."""
+    """A shell in a terminal of 400 lines."""
 
     def __init__(self, words, work):
         self.pid, self.file = pty.fork()
@@ -47,7 +47,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def read(self, until, seconds=20):
-        """Returns the output until the function is satisfied or the time is over."""
+        """Reads output until until(output) is true or the time is over. Returns the output."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not until(text):
             if select.select([self.file], [], [], 0.2)[0]:
@@ -70,7 +70,7 @@ def ask_terminal(shell, folder, line, work):
         terminal.type(setup.format(folder=folder) + "; echo ready to' 'go\n")
         terminal.read(lambda text: READY in text)
         terminal.type(line + "\t")
-        # The next line the shell reads shows that the list is complete.
+        # If the shell echoes the next line, the list is complete.
         quiet = [time.monotonic(), 0]
 
         def is_quiet(text):
@@ -91,7 +91,7 @@ def ask_fish(folder, line, work):
 
 
 def complete(shell, folder, line, work):
-    """The words that the shell offers at the end of the line, with what it says about them."""
+    """Returns the completions at the end of the line, with their descriptions."""
     if shell == "fish":
         return ask_fish(folder, line, work)
     return ask_terminal(shell, folder, line, work)

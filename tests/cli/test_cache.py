@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Whatever happens to the kernel cache, clrt draws the picture, or ends with status 4 and one message
-# and draws it the next time.
-# Usage: test_cache.py CLRT [TEST...]
+# Tests faults of the kernel cache. clrt must draw the picture, or end with status 4 and one message
+# and draw it the next time. Usage: test_cache.py CLRT [TEST...]
 import pathlib
 import random
 import shutil

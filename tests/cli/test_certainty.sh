@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# --aov certainty as its user meets it: the channel, the counts, and what it does to the picture.
-# Usage: CLRT=path/to/clrt NO_FP64=path/to/no_fp64.so test_certainty.sh SOURCE_FOLDER WORK_FOLDER
+# Tests --aov certainty: the channel, the counts, and the repaired pixels. Usage: CLRT=path/to/clrt
+# NO_FP64=path/to/no_fp64.so test_certainty.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
 scene=$source/scenes/reflections.scn
 
 says() { grep -q -- "$1" err; }
 draws() { run 0 "$scene" -s 256x192 -o "$@"; }
-# An expression over the channels of a.exr (plain), c.exr (certain) and d.exr (fp64), and over the
-# statistics s.
+# Evaluates an expression of the channels of a.exr (plain), c.exr (certain) and d.exr (fp64), and of
+# the statistics s.
 holds() {
   python3 - "$1" 2>>err <<PYTHON
 import json, sys

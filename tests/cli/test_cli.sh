@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The program as its user meets it: exit codes, sentences, and an effect of every option.
-# Usage: CLRT=path/to/clrt test_cli.sh SOURCE_FOLDER WORK_FOLDER
+# Tests the command line: exit codes, messages, and an effect of every option. Usage:
+# CLRT=path/to/clrt test_cli.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
 scene=$source/scenes/reflections.scn
@@ -233,9 +233,9 @@ check "... as PFM" bash -c "head -c 2 out | grep -q PF"
 "$CLRT" "$scene" -s 48x32 -o link.pfm 2>/dev/null
 check "nothing unfinished is left beside pictures" test -z "$(find . -name '*.pfm.*')"
 
-# A picture of many seconds is stopped early: what is done is written.
-# Jobs in the background of a shell may have it ignored.
-# Busy machines take longer to the first tile, before which there is nothing to write.
+# Stops a long picture early. clrt must write the finished tiles. Background jobs of a shell may
+# ignore SIGINT, so env restores its default. Busy machines need longer for the first tile, before
+# which clrt writes nothing.
 for moment in 1.5 5 20; do
   env --default-signal=INT "$CLRT" "$scene" -s 4000x4000 --aa=12 -o stopped.pfm --stats=stopped.json 2>err &
   sleep $moment
@@ -248,7 +248,7 @@ check "Ctrl-C exits with 130" test $code = 130
 check "... and writes what is done" test -s stopped.pfm
 check "... marked as incomplete" json stopped.json "not d['complete']"
 
-# Compiled ahead: a second run prints the first line in the past tense.
+# After --warm, a second run reports the first kernels as already compiled.
 rm -rf warm-cache
 warm() { env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/warm-cache" "$CLRT" --warm --kernel ray "$@" >out 2>err; }
 check "--warm compiles ahead" warm
@@ -265,7 +265,7 @@ check "... and takes it" json warm.json "d['settings']['specialized']"
 check "--warm reports a missing scene" run 3 --warm missing.scn
 check "--warm with a device that is not there" run 4 --warm --device 9:9
 
-# Twelve cold starts on one cache.
+# Twelve concurrent cold starts share a cache.
 rm -rf cold-cache
 for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
   env -u POCL_CACHE_DIR XDG_CACHE_HOME="$work/cold-cache" "$CLRT" "$scene" -s 48x32 -o "cold$i.pfm" 2>"err$i" &
@@ -276,7 +276,7 @@ for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
   check "cold start $i of twelve at once succeeds" cmp plain.pfm "cold$i.pfm"
 done
 
-# Before packets are compiled, small pictures are drawn by what is compiled sooner.
+# While packet kernels are not compiled, clrt draws small pictures with kernels that compile faster.
 sooner() { run 0 "$scene" -s 48x32 -o soon.pfm -v "$@"; }
 drew() { grep -q "^kernels: $1, $2 nodes" err; }
 export_cache() { rm -rf "$1" && export XDG_CACHE_HOME=$work/$1 POCL_CACHE_DIR=$work/$1/pocl; }
@@ -325,7 +325,7 @@ check "PNG goes to standard output" run 0 "$scene" -s 48x32 -o -
 check "... the same as to a file" cmp out a.png
 check "--format overrides the extension" pixels odd.bin --format png
 check "... as the same PNG" cmp odd.bin a.png
-# The scene comes late: its pipe is opened once the folder has been looked at.
+# The scene is a pipe, which clrt opens after it has checked the folder.
 mkdir gone
 mkfifo late.scn
 check "a folder that vanishes is exit 5" bash -c "'$CLRT' late.scn -s 8x8 -o gone/a.png 2>err & \

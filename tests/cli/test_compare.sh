@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clrt compare as its user meets it: every format, text, JSON, the map, limits, exit codes, and
-# files made to harm.
+# Tests clrt compare: all formats, text, JSON, the map, limits, exit codes, and hostile files.
 # Usage: CLRT=path/to/clrt FORMATS="png, pfm" test_compare.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
@@ -9,7 +8,8 @@
 tells() { grep -qF -- "$1" out; }
 json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
 
-# Writes a PFM of one row: name, green and blue of all pixels, red of each.
+# Writes a PFM file of one row. The arguments are its name, green and blue of all pixels, and red of
+# each pixel.
 row() {
   python3 - "$@" <<'END'
 import struct, sys
@@ -82,7 +82,7 @@ check "so is infinity" refuses 3 "inf.pfm: R of pixel 1,0 is not finite" compare
 check "a map that cannot be written is exit 5" run 5 compare a.pfm b.pfm -o none/map.png
 check "a full disk is exit 5" run 5 compare a.pfm b.pfm --json=/dev/full
 
-# clrt recognizes every format it writes by the first bytes. JPEG and HDR are less exact.
+# clrt recognizes every format that it writes by the first bytes. JPEG and HDR are inexact.
 scene="$source/tests/image/every_feature.scn"
 "$CLRT" "$scene" -s 64x48 -q -o one.pfm
 for format in ${FORMATS//,/}; do
@@ -94,7 +94,8 @@ for format in ${FORMATS//,/}; do
   check "... with the map of its kind" run 0 compare "one.$format" "two.$format" -o "map.$format"
 done
 
-# Colors in integers of 32 bits are parts of the largest, unlike those that number things.
+# Colors in 32-bit integers are fractions of the largest integer. Integers in other channels are
+# numbers.
 case $FORMATS in *tif*)
   python3 - <<'END'
 import struct
@@ -108,7 +109,8 @@ END
   check "colors of 32 bits are read" run 0 compare wide.tif colors.pfm --fail max=1e-6 ;;
 esac
 
-# Causes, from channels that --aov writes: a light and spheres that move, a limit, other samples.
+# Tests causes from the channels of --aov: a moved light, moved spheres, a level limit, and other
+# samples.
 case $FORMATS in *exr*)
   sed "s|^ply_file |ply_file $source/scenes/|" "$source/scenes/reflections.scn" >scene.scn
   awk '$1 == "light" { $2 += 0.7 } { print }' scene.scn >light.scn
@@ -136,7 +138,8 @@ case $FORMATS in *exr*)
   check "... and kept where the hits are the same" run 0 compare plain.exr aa.exr --fail hits=0 ;;
 esac
 
-# Cut short, with bytes changed, and with sizes nobody has: one sentence, exit 3 or a picture.
+# For truncated files, changed bytes and absurd sizes, clrt must print one message and exit with 3,
+# or read a picture.
 survives() { "$CLRT" compare -q "$1" "$1" >out 2>err; case $? in 0 | 3) ! grep -q 'clrt: .*clrt:' err ;; *) false ;; esac; }
 for format in ${FORMATS//,/}; do
   head -c 40 "one.$format" >short

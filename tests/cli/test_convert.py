@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# clrt convert: what it writes gives the same picture, bit for bit, and nothing is harmed on the way.
-# Usage: test_convert.py CLRT 1|0, the latter for a build without Assimp
+# Tests that files written by clrt convert give the same picture, bit for bit, and that it damages
+# no files. Usage: test_convert.py CLRT 1|0, with 0 for a build without Assimp
 import os
 import pathlib
 import random
@@ -35,7 +35,7 @@ class Convert(Work):
 
 class Scenes(Convert):
     def scenes(self):
-        """Those that are here whole, but for large models, which take minutes."""
+        """Returns the scenes whose meshes exist, without large models, which take minutes."""
         for scene in sorted(ROOT.glob("scenes/*.scn")) + sorted(COURSE.glob("scenes/*.scn")):
             statements = [line.split() for line in scene.read_text(errors="replace").splitlines()]
             meshes = [

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Drivers that crash or end the process are one message and status 4, and the next run draws.
-# Usage: test_crashes.py CLRT CRASH_DEVICE [TEST...], as tests/cli/crash_device.c is built
+# If a driver crashes or ends the process, clrt prints one message and exits with status 4. The next
+# run draws the picture. Usage: test_crashes.py CLRT CRASH_DEVICE [TEST...], with the library of
+# tests/cli/crash_device.c
 import itertools
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# A crop has the bits of that part of the whole picture, regardless of how it is rendered.
-# Usage: test_crop.py CLRT FORMATS
+# Tests that a crop has the bits of this part of the whole picture with all options. Usage:
+# test_crop.py CLRT FORMATS
 import json
 import pathlib
 import struct
@@ -24,7 +24,7 @@ def part_of(rows, crop):
 
 
 def read_pfm(path):
-    """The rows, the top one first, of three floats as bytes for each pixel."""
+    """Returns the rows, the top row first. Each pixel is the bytes of three floats."""
     with open(path, "rb") as file:
         assert file.readline() == b"PF\n"
         width, height = map(int, file.readline().split())
@@ -34,12 +34,12 @@ def read_pfm(path):
 
 
 def channels_in_rows(path):
-    """Each channel's rows, and the windows of data and display."""
+    """Returns the rows of each channel, the data window and the display window."""
     attributes, _ = read_header(path.read_bytes())
     data, display = (struct.unpack("<4i", attributes[name]) for name in ("dataWindow", "displayWindow"))
     width = data[2] - data[0] + 1
     _, channels = read_exr(path)
-    # Texts, so that what is no number equals itself.
+    # Compares texts, because NaN does not equal itself.
     rows = {name: [list(map(repr, values[at : at + width])) for at in range(0, len(values), width)]
             for name, values in channels.items()}
     return rows, data, display

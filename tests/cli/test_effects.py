@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Every option that --help lists changes what can be seen of a run: its exit status, its streams, its
-# picture or its statistics.  An option without a trial here fails.
-# Usage: test_effects.py CLRT
+# Tests that every option of --help has a visible effect on the exit status, streams, picture or
+# statistics. The test fails for options without a trial. Usage: test_effects.py CLRT
 import functools
 import hashlib
 import json
@@ -25,8 +24,8 @@ CHECK = ["check", FLAT]
 EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
-# Words without the option, and words with it, which must be seen to differ: in the picture where the
-# option asks for another one, so these write no statistics, which repeat the settings.
+# For each option, arguments without and with the option, whose effects must differ. If the option
+# changes the picture, the arguments write no statistics, because statistics repeat the settings.
 TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
     "format": (PLAIN, PLAIN + ["--format", "png"]),
@@ -84,7 +83,7 @@ TRIALS = {
     "help": ([], ["--help"]),
 }
 
-# Options that need a window are tested there.
+# Other tests test the options that need a window.
 IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
 
 # Values that differ between two runs with the same arguments.

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clrt --explain-pixel as its user meets it: text, JSON, the picture's color and sentences.
-# Usage: CLRT=path/to/clrt test_explain.sh SOURCE_FOLDER WORK_FOLDER
+# Tests clrt --explain-pixel: text, JSON, the picture's color and messages. Usage: CLRT=path/to/clrt
+# test_explain.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
 scene=$source/tests/image/every_feature.scn
 
-# Worked out by hand in tests/image/test_explain_by_hand.c.
+# tests/image/test_explain_by_hand.c computes these numbers by hand.
 cat >mirrors.scn <<'END'
 size 5 5
 ambient 0.1
@@ -22,7 +22,7 @@ END
 json() { python3 -c "import json,sys; d=json.load(open('$1')); sys.exit(not ($2))"; }
 tells() { grep -qF -- "$1" out; }
 
-# The reported color of pixel 70,60 is the picture's with the same options.
+# The reported color of pixel 70,60 must be the picture's with the same options.
 agrees() {
   run 0 "$scene" --explain-pixel 70,60 --json=explained.json "$@" &&
     run 0 "$scene" -o a.pfm "$@" && python3 - <<'END'
@@ -40,8 +40,8 @@ check "... on standard output alone" test ! -s err
 check "... the picture first" test "$(head -n 1 out)" = "pixel 2,2 of 5 x 5, view 1 of mirrors.scn"
 check "... what a ray meets" test "$(grep -c "meets      sphere 1, material mirror" out)" = 2
 check "... what a light does" tells "light 1    reaches it from 2.82843 away; cosine 0.707107; diffuse 0.353553"
-check "... what is reflected" tells "reflected ray 2, of which the sample takes 0.25"
-check "... the background's part" tells "the background (0, 0, 1), of which the sample takes 0.125"
+check "... what is reflected" tells "reflected ray 2, weight 0.25 in the sample"
+check "... the background's part" tells "the background (0, 0, 1), weight 0.125 in the sample"
 check "... and the color" test "$(tail -n 1 out)" = "the pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits 101 101 133"
 check "docs/explaining.md shows the same" python3 -c "import sys; sys.exit(open('out').read() not in open('$source/docs/explaining.md').read())"
 check "a corner sees the background" run 0 mirrors.scn --explain-pixel 0,4
@@ -54,7 +54,7 @@ check "... and kinds" json out "[r['kind'] for r in d['samples'][0]['rays']] == 
 check "a blocker is named" run 0 "$scene" --explain-pixel 70,60 --json
 check "... with its kind and file" json out "all(b is None or b['kind'] == 'sphere' or b['file'].endswith('.ply') for s in d['samples'] for r in s['rays'] if r['hit'] for l in r['hit']['lights'] for b in [l['blocker']])"
 
-# The first light is behind the face alone, the second behind the normal too, as worked out there.
+# The first light is behind the face only, the second light is also behind the normal.
 cat >leaning.ply <<'END'
 ply
 format ascii 1.0

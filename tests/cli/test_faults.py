@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Faults of the system - full or read-only disks, files that change while they are read, exhausted
-# memory - end with one message, the documented exit status and no partial file.
-# Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], as tests/cli/fail_memory.c
-# and fail_device.c are built
+# Tests faults of the system: full or read-only disks, files that change during reading, and
+# exhausted memory. clrt must print one message, exit with the documented status and leave no
+# partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], with the
+# libraries of tests/cli/fail_memory.c and fail_device.c
 import os
 import pathlib
 import resource
@@ -18,7 +18,7 @@ FORMATS = sys.argv[2].split(", ")
 FAIL_MEMORY, FAIL_DEVICE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
-# In every format more than a disk holds here; with kernels that are the same each time.
+# In every format, this picture exceeds DISK_SIZE. Its kernels do not depend on the cache.
 LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
 DISK_SIZE = 8192
 
@@ -54,7 +54,8 @@ class Faults(unittest.TestCase):
     def clrt(self, *words, **more):
         return self.run_command([CLRT, *words], **more)
 
-    # On a disk of its own, mounted at target for that one process, whose listing follows.
+    # Runs clrt with a disk at target that only this process sees. Afterwards lists the disk's files
+    # on standard output.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \
@@ -97,12 +98,12 @@ class Disks(Faults):
 class Outputs(Faults):
     def test_a_file_past_the_limit_of_its_size_is_told_and_removed(self):
         def limit():
-            # PoCL writes preprocessed kernels of somewhat more than a MiB in each run.
+            # In each run, PoCL writes preprocessed kernels of a little more than 1 MiB.
             resource.setrlimit(resource.RLIMIT_FSIZE, (5 << 18, 5 << 18))
 
         large = [*LARGE, "-s", "800x600"]
         for format in {"pfm", "ppm"} & set(FORMATS):
-            self.clrt(*large, "-o", "warm." + format)  # compiled kernels are files too
+            self.clrt(*large, "-o", "warm." + format)  # also writes the compiled kernels
             run = self.clrt(*large, "-o", f"target/a.{format}", preexec_fn=limit)
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
             self.assertEqual(os.listdir(self.target), [])
@@ -184,7 +185,8 @@ class Device(Faults):
 
 
 class Memory(Faults):
-    # The first allocations one by one are the first to fail, later ones in larger steps.
+    # Tests each of the first allocations as the first failure, and later allocations in larger
+    # steps.
     def count_failures(self, *words):
         first, failures = 1, 0
         while True:

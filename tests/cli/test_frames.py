@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Many pictures from one run: each is the picture that is drawn alone, in a numbered file.
+# Tests runs with many pictures. Each numbered file must equal the picture that is drawn alone.
 # Usage: test_frames.py CLRT FORMATS
 import json
 import pathlib

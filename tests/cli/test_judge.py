@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""clrt compare and OpenImageIO's comparison tell the same of the same files, in every format:
-test_judge.py CLRT JUDGE SCENE."""
+"""Tests that clrt compare and OpenImageIO report the same differences in every format. Usage:
+test_judge.py CLRT JUDGE SCENE"""
 
 import json
 import os
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 FORMATS = ["png", "jpg", "tif", "ppm", "exr", "hdr", "pfm"]
-ROUNDING = 2.0**-22  # on top of a step, as clrt counts it
+ROUNDING = 2.0**-22  # the tolerance of clrt's counts
 
 
 def told(words):
@@ -18,7 +18,8 @@ def told(words):
 
 
 def differences(ours, judged):
-    """The figures that are not the same.  Sums of squares in floats are so to 1e-6."""
+    """Yields a message for each figure that differs. OpenImageIO's sums of squares have a relative
+    error of 1e-6."""
     figures = {
         "rmse": (ours["rmse"], judged["rmse"], 1e-6 * judged["rmse"]),
         "psnr": (ours["psnr"], judged["psnr"], 1e-5),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Holds man pages and completions against --help and the grammar of scenes.
-# Usage: test_manual.py CLRT FOLDER_OF_THE_MANUAL
+# Compares man pages and completions with --help and the grammar of scenes. Usage: test_manual.py
+# CLRT FOLDER_OF_THE_MANUAL
 import os
 import pathlib
 import re
@@ -26,7 +26,7 @@ def run(*words, **settings):
 
 
 def read_page(page):
-    """The page as it is read, on one line."""
+    """Returns the formatted page as one line."""
     environment = dict(os.environ, MANWIDTH="1000", LC_ALL="C.UTF-8")
     text = run("man", "-E", "ascii", "-l", page, env=environment).stdout
     return re.sub(r"\s+", " ", re.sub(r".\x08", "", text))
@@ -140,7 +140,7 @@ class Completions(unittest.TestCase):
             self.assertRegex(text, rf"(?<![\w-])-{letter}(?!\w)", shell)
 
     def check_words(self, shell):
-        # The shells write what all words share themselves, and list what is left.
+        # The shells insert the common prefix of the words, and list the words.
         for _, name, value in OPTIONS:
             if "|" not in value:
                 continue

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Meshes in other formats than PLY: the same picture, the materials of their files, and files that
-# are made to harm.
-# Usage: test_models.py CLRT 1|0 [EXPORT], 0 for a build without Assimp; EXPORT is of export_model.c
+# Tests meshes in formats other than PLY: the same picture, the materials of files, and hostile
+# files. Usage: test_models.py CLRT 1|0 [EXPORT], with 0 for a build without Assimp. EXPORT is the
+# program of export_model.c.
 import os
 import subprocess
 import sys
@@ -129,7 +129,7 @@ class Formats(Work):
 
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
 class Exported(Work):
-    """Returns the file that Assimp itself writes for a PLY mesh."""
+    """Tests files that Assimp writes from a PLY mesh."""
 
     SCENE = CAMERA + "material 2\nmesh "
 
@@ -143,7 +143,7 @@ class Exported(Work):
 
     def test_every_ending_that_assimp_reads_is_a_model(self):
         told = subprocess.run([EXPORT], capture_output=True, text=True, check=True).stdout
-        own = {"ply", "scn", "xml"}  # the last says nothing
+        own = {"ply", "scn", "xml"}  # .xml does not identify a format
         for ending in set(told.split()) - own:
             (self.work / f"a.{ending}").write_text("light\n")
             done = self.run_clrt(f"a.{ending}", "-o", "a.pfm")
@@ -242,7 +242,7 @@ class Hostile(Work):
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
         self.assert_small_failure("Assimp needs more memory than the limit for a file of its size")
 
-    # Memory takes the time: a gigabyte more takes seconds.
+    # Limits the memory, because a further gigabyte takes seconds.
     def assert_small_failure(self, sentence, before=""):
         command = ["bash", "-c", f'{before}exec "$@"', "bash", CLRT, "a.glb", "-o", "a.pfm"]
         process = subprocess.Popen(command, cwd=self.work, stderr=subprocess.PIPE, text=True)
@@ -308,7 +308,7 @@ class Hostile(Work):
         for name, library in ("inner/a.obj", "colors.mtl"), ("inner/b.obj", "out/secret.mtl"):
             says = f"clrt: {name}: its materials, {library}, cannot be opened; {note}\n"
             self.assertEqual(self.picture(name, says=says), plain)
-        # Links inside the folder work, and so does a link that the user names as the model.
+        # Links inside the folder work. The model that the user names may be a link, too.
         (self.work / "inner/kept.mtl").write_text(LIBRARY)
         (self.work / "inner/own.mtl").symlink_to(self.work / "inner/kept.mtl")
         colored = self.picture("inner/c.obj")

@@ -58,7 +58,7 @@ static void bounded_settings_tell_their_bound(void **state)
     (void)state;
     for (size_t i = 0; i < option_count; i++)
         if (option_table[i].class == CLASS_BOUNDED)
-            assert_non_null(strstr(option_table[i].help, "off by at most"));
+            assert_non_null(strstr(option_table[i].help, "the error is at most"));
 }
 
 // Returns whether the word is a name in capitals, which stands for any value.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# No output replaces an input or another output, whatever names and links lead to the file.
-# Usage: test_overwriting.py CLRT FORMATS
+# Tests that no output replaces an input or another output, for all kinds of names and links. Usage:
+# test_overwriting.py CLRT FORMATS
 import os
 import pathlib
 import subprocess
@@ -25,7 +25,8 @@ class Overwriting(Work):
         return {file.name: file.read_bytes() for file in self.work.iterdir() if file.is_file()}
 
     def refuses(self, one, other, *words, **settings):
-        """Two files are one: a sentence names both, and no file in the folder changes."""
+        """Expects that one message names both files, which are the same, and that no file in the
+        folder changes."""
         before = self.contents()
         done = subprocess.run([CLRT, *words], cwd=self.work, stderr=subprocess.PIPE, text=True, timeout=300,
                               **{"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, **settings})

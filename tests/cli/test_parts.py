@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Parts of a picture, drawn apart and merged, are the whole one, to the byte; what does not fit
-# together is refused.
-# Usage: test_parts.py CLRT
+# Tests that merged parts of a picture equal the whole picture, byte for byte. clrt must reject
+# parts that do not belong together. Usage: test_parts.py CLRT
 import json
 import pathlib
 import sys
@@ -19,7 +18,7 @@ CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 
 class Parts(Work):
     def draw(self, *words, of=3, parts=None):
-        """The names of the parts' files."""
+        """Draws the parts. Returns the names of their files."""
         names = []
         for part in parts or range(1, of + 1):
             names.append(f"part{part}.exr")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Every feature that tools/manual/peers.md claims for clrt has a test that exists.
-# Usage: test_peers.py CTEST BUILD_FOLDER
+# Tests that every feature that tools/manual/peers.md claims for clrt has an existing test. Usage:
+# test_peers.py CTEST BUILD_FOLDER
 import json
 import pathlib
 import re
@@ -16,7 +16,7 @@ PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", 
 
 
 def rows():
-    """The cells of every row below the heads of the tables."""
+    """Returns the cells of every row of the tables, without the heads."""
     lines = [line for line in PAGE.read_text().splitlines() if line.startswith("|")]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     return [row for row in cells if row[0] != "what" and set(row[0]) != {"-"}]

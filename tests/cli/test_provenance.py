@@ -37,7 +37,7 @@ def exr_texts(path):
 
 
 def tiff_description(data):
-    """The first text of tag 270 of a TIFF file whose bytes are in the order of this machine."""
+    """Returns the text of tag 270 in the first directory of a little-endian TIFF file."""
     assert data[:4] == b"II*\0"
     (place,) = struct.unpack_from("<I", data, 4)
     (entries,) = struct.unpack_from("<H", data, place)
@@ -51,7 +51,7 @@ def tiff_description(data):
 
 def jpeg_comment(data):
     place = 2
-    while data[place + 1] != 0xDA:  # where the picture begins
+    while data[place + 1] != 0xDA:  # until the start of the picture
         (size,) = struct.unpack_from(">H", data, place + 2)
         if data[place + 1] == 0xFE:
             return data[place + 4 : place + 2 + size].rstrip(b"\0").decode()

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# --reference: what it says of pictures whose error is known to fall, and of itself.
+# Tests --reference with pictures whose errors decrease, and the error that it reports for itself.
 # Usage: CLRT=path/to/clrt FORMATS="png, pfm" test_reference.sh SOURCE_FOLDER WORK_FOLDER
 # shellcheck source=tests/cli/workplace.sh
 . "$(dirname "$0")/workplace.sh"
 
-# An expression over the reports that follow it: r, s, t.
+# Evaluates an expression of the following reports, called r, s and t.
 holds() {
   python3 - "$@" <<'END'
 import json, sys

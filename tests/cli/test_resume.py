@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Pictures that were killed or stopped and go on: the same file in the end, whenever it was, and
-# never a half one under the final name.
-# Usage: test_resume.py CLRT FORMATS [--kills N] [TEST...]
+# Kills or stops pictures at any time, and resumes them. The final file must be the same, and must
+# never be incomplete. Usage: test_resume.py CLRT FORMATS [--kills N] [TEST...]
 import json
 import os
 import pathlib
@@ -23,7 +22,7 @@ KILLS = int(sys.argv[sys.argv.index("--kills") + 1]) if "--kills" in sys.argv el
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 NAME = "a.exr" if HAS_EXR else "a.pfm"
-# Many small tiles, and some seconds; one tile that takes as long.
+# LONG has many small tiles and takes some seconds. ONE_TILE takes as long with a single tile.
 WIDTH, HEIGHT, TILE = 400, 300, 20
 TILES = WIDTH // TILE * HEIGHT // TILE
 LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tile", f"{TILE}x{TILE}", "-j", "1"]
@@ -65,7 +64,7 @@ class Resume(unittest.TestCase):
             time.sleep(0.002)
 
     def kill_in_the_middle(self, *words, tiles=40):
-        """Leaves a journal with that many tiles, and some more or not."""
+        """Kills a run when its journal has at least that many tiles."""
         process = self.start(*words, "-o", NAME, "--resume")
         size = tiles * TILE * TILE * 12
         self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > size)
@@ -74,7 +73,7 @@ class Resume(unittest.TestCase):
         self.assertEqual(process.wait(), -signal.SIGKILL)
 
     def resumed_tiles(self, *words):
-        """Continues to the end and returns the number of tiles found."""
+        """Resumes and finishes the picture. Returns the number of tiles found."""
         talk = self.clrt(*words, "-o", NAME, "--resume", "-v")
         line = next(line for line in talk.splitlines() if line.startswith("resumed: "))
         return int(line.split()[1])
@@ -180,7 +179,7 @@ class Kills(Resume):
 
 class Stops(Resume):
     def stop(self, *words, number=signal.SIGINT):
-        """Stops a picture on its way, by what its journal shows."""
+        """Sends a signal to a run once its journal contains tiles."""
         process = self.start(*words, "-o", NAME, "--resume")
         self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 100000)
                       or process.poll() is not None)
@@ -274,7 +273,7 @@ class Refusals(Resume):
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
-        process.send_signal(signal.SIGSTOP)  # or it might be done before the other begins
+        process.send_signal(signal.SIGSTOP)  # otherwise it might end before the other begins
         self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
                          f"clrt: {NAME}.part: another process draws this picture\n")
         process.kill()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Ctrl-C at any moment: while kernels are compiled, which no driver can be asked to stop, and while
-# tiles are drawn.  One sentence, 128 + the signal, and a picture that is marked incomplete or none.
-# Usage: test_stops.py CLRT FORMATS
+# Stops clrt by signals at any moment, while it compiles kernels or draws tiles. Drivers cannot stop
+# compiling. clrt must print one message and exit with 128 + the signal. It must write no picture,
+# or one marked as incomplete. Usage: test_stops.py CLRT FORMATS
 import json
 import os
 import pathlib
@@ -20,7 +20,7 @@ CLRT = pathlib.Path(sys.argv[1]).resolve()
 NAME = "a.exr" if "exr" in sys.argv[2] else "a.pfm"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
-# Minutes of many tiles; one tile that takes as long.
+# LONG has many tiles and takes minutes. ONE_TILE takes as long with a single tile.
 LONG = [SCENE, "-s", "3000x3000", "--aa=16"]
 ONE_TILE = [*LONG, "--tile", "3000x3000"]
 EARLY = "clrt: stopped before the first tile: no picture is written\n"
@@ -36,7 +36,7 @@ class Stops(unittest.TestCase):
         self.caches = 0
 
     def start(self, *words, cold, **more):
-        """Starts a picture, and waits until signals are no longer the system's."""
+        """Starts a picture, and waits until clrt has installed its signal handlers."""
         environment = dict(os.environ)
         if cold:
             self.caches += 1
@@ -59,7 +59,7 @@ class Stops(unittest.TestCase):
         return int(caught.split()[1], 16) >> signal.SIGINT - 1 & 1
 
     def expect_stopped(self, process, number):
-        """Returns whether there is a picture."""
+        """Returns whether clrt has written a picture."""
         talk = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 128 + number, talk)
         if talk == EARLY:
@@ -100,7 +100,7 @@ class Stops(unittest.TestCase):
 
     def test_once_tiles_are_drawn_there_is_a_picture(self):
         subprocess.run([CLRT, *LONG, "-s", "8x8", "-o", "/dev/null", "--format", "pfm"], check=True)
-        while self.stop_often([2], cold=False) == 0:  # by chance, on a machine that stands still
+        while self.stop_often([2], cold=False) == 0:  # a slow machine may not have finished a tile
             continue
         self.stop_often([self.chance.uniform(0, 0.3) for _ in range(10)], cold=False)
 
@@ -135,6 +135,6 @@ class Stops(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # clrt would inherit ignored signals, as a background job has them.
+    # clrt would inherit ignored signals if this is a background job.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -137,7 +137,7 @@ class Terminals(Run):
         try:
             while chunk := os.read(talk, 4096):
                 text += chunk
-        except OSError:  # the program has closed its end
+        except OSError:  # the program has closed the terminal
             pass
         process.wait()
         os.close(talk)

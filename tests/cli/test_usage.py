@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Words that a command line must not contain together, and notes on what a user may not have meant.
-# Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
+# Tests arguments that exclude each other, and notes about probable mistakes. Usage: test_usage.py
+# CLRT FORMATS WINDOW, with WINDOW ON for a build with a window
 import json
 import os
 import pathlib
@@ -104,7 +104,8 @@ class Combinations(Work):
 
 class Notes(Work):
     def draws(self, note, *words):
-        """The picture is drawn, with the note on standard error unless -q forbids it."""
+        """Expects that clrt draws the picture, and prints the note on standard error unless -q is
+        given."""
         for quiet in [], ["-q"]:
             done = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", *quiet)
             expected = f"clrt: {note}\n" if note and not quiet else ""
@@ -122,7 +123,7 @@ class Notes(Work):
 
     def test_what_needs_no_light_is_drawn_in_silence(self):
         self.write(
-            a_scn="sphere 0 0 0 1\n",  # a silhouette
+            a_scn="sphere 0 0 0 1\n",  # default material: a silhouette
             b_scn="define all matte reflectivity 1\nmaterial all\nsphere 0 0 0 1\n",
             c_scn="light 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
         )
@@ -164,7 +165,8 @@ class Notes(Work):
 
     def test_explain_counts_the_nodes_that_verbose_counts(self):
         scene = str(SCENES / "simple.scn")
-        # The kernels' nodes hold several of the tree's, which has leaves that suit them.
+        # A kernel's node contains several nodes of the tree, whose leaves depend on the kind of
+        # nodes.
         for nodes, stored in ("wide", "1 wide node"), ("pair", "16 pair nodes"):
             words = [scene, "--kernel", "ray", "--nodes", nodes]
             told = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", "-v").stderr

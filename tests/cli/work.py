@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A folder for each test and runs of clrt in it, for tests whose first word is CLRT.
+# Runs of clrt in a separate folder for each test. The first argument of these tests is CLRT.
 import os
 import pathlib
 import subprocess
@@ -17,7 +17,7 @@ class Work(unittest.TestCase):
         self.work = pathlib.Path(folder.name)
 
     def write(self, **files):
-        """Files by name, in which the last underscore stands for the point."""
+        """Writes files. In their names, the last underscore means a dot."""
         for name, content in files.items():
             content = content.encode() if isinstance(content, str) else content
             path = self.work / ".".join(name.rsplit("_", 1))
@@ -37,7 +37,8 @@ class Work(unittest.TestCase):
         )
 
     def clrt(self, *words, code=0, **environment):
-        """Returns its standard output or, if it shall fail with code, its standard error."""
+        """Runs clrt. Returns its standard output, or its standard error if it must fail with
+        code."""
         done = self.run_clrt(*words, **environment)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr if code else done.stdout

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A seed and a number -> a scene file and its meshes, for tests of promises on unseen scenes.
-Scene `number` of a seed depends on nothing else, so that any one can be made again alone."""
+"""A seed and a number -> a scene file and its meshes, for tests of --error on unseen scenes. A
+scene depends only on the seed and its number, so any scene can be regenerated alone."""
 
 import array
 import math
@@ -9,12 +9,13 @@ import random
 import struct
 import sys
 
-# One scene in every COUNT has the dense mesh, whose million triangles take seconds to write.
+# Only one scene in DENSE_EVERY has the dense mesh, because writing its million triangles takes
+# seconds.
 DENSE_EVERY = 20
 
 
 def write_ply(path, vertices, triangles):
-    """Positions and corner indices, as flat lists, to a binary PLY file."""
+    """Writes a binary PLY file from flat lists of positions and corner indices."""
     header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices) // 3}\n"
               "property float x\nproperty float y\nproperty float z\n"
               f"element face {len(triangles) // 3}\n"
@@ -30,7 +31,8 @@ def write_ply(path, vertices, triangles):
 
 
 def grid_triangles(columns, rows):
-    """Two triangles for every cell of a grid of columns x rows vertices, numbered row by row."""
+    """Returns two triangles for every cell of a grid of columns x rows vertices, numbered row by
+    row."""
     triangles = []
     for row in range(rows - 1):
         for column in range(columns - 1):
@@ -40,7 +42,7 @@ def grid_triangles(columns, rows):
 
 
 def bumpy_ball(rng, path, triangle_count):
-    """A closed ball of radius about 1 whose surface waves, the finer the more triangles it has."""
+    """Writes a closed, wavy ball of radius about 1. More triangles give shorter waves."""
     rows = max(4, round(math.sqrt(triangle_count / 4)))
     columns = 2 * rows
     waves = [(p, rng.randint(1, 1 + rows // 8), rng.uniform(0, 7), rng.uniform(0.1, 0.4) / (3 + p))
@@ -60,7 +62,7 @@ def bumpy_ball(rng, path, triangle_count):
 
 
 def terrain(rng, path, side, height):
-    """A square of 8 x 8 whose height is the sum of waves."""
+    """Writes a square of 8 x 8 units whose height is a sum of waves."""
     waves = [(rng.uniform(-6, 6), rng.uniform(-6, 6), rng.uniform(0, 7), rng.uniform(0.1, 1))
              for _ in range(8)]
     vertices = []
@@ -73,7 +75,7 @@ def terrain(rng, path, side, height):
 
 
 def boxes(rng, path, count, size):
-    """Separate boxes of random sides, scattered around the origin."""
+    """Writes separate boxes with random sides around the origin."""
     vertices, triangles = [], []
     faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
     for _ in range(count):
@@ -89,7 +91,7 @@ def boxes(rng, path, count, size):
 
 
 def strips(path, count, width, length, step):
-    """Thin strips beside each other, upright along x."""
+    """Writes thin, parallel, upright strips along x."""
     vertices, triangles = [], []
     for i in range(count):
         y = (i - count / 2) * step
@@ -101,7 +103,7 @@ def strips(path, count, width, length, step):
 
 
 def tiles(path, side, parity):
-    """Every other square of a checkered floor of 60 x 60 units."""
+    """Writes every other square of a checkered floor of 60 x 60 units."""
     size = 60 / side
     vertices, triangles = [], []
     for row in range(side):
@@ -114,7 +116,7 @@ def tiles(path, side, parity):
 
 
 class Scene:
-    """Statements of a scene file, and the folder that its meshes are written to."""
+    """The statements of a scene file, and the folder for its meshes."""
 
     def __init__(self, rng, folder, name):
         self.rng, self.folder, self.name = rng, folder, name
@@ -304,7 +306,7 @@ KINDS = [draw_spheres, draw_tiles, draw_ball, draw_strips, draw_mirrors, draw_bo
 
 
 def generate(seed, number, folder):
-    """Writes scene `number` of the seed into the folder; returns its path."""
+    """Writes scene `number` of the seed into the folder. Returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
     rng = random.Random(f"{seed}/{number}")
     kind = draw_dense if number % DENSE_EVERY == DENSE_EVERY - 1 else KINDS[number % len(KINDS)]

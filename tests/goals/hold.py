@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Draws generated scenes with --error and measures the true error of every picture.
 
-A scene's figures are one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named by the program's hash.
-Scenes whose line exists are skipped, so that an interrupted run resumes.  Ends with a summary, and with exit status 1
-where the promise of --error is broken."""
+Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash.
+Scenes with a line are skipped, so that an interrupted run resumes. Prints a summary. The exit
+status is 1 if the results break the promise of --error."""
 
 import argparse
 import hashlib
@@ -20,23 +20,23 @@ import summary
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GOALS = "0.02,0.01,0.005,0.002"
 
-# A reference may be off by this part of the smallest goal.
+# The error of a reference may be this fraction of the smallest goal.
 REFERENCE_PART = 0.1
 REFERENCE_SAMPLES = [64, 65536]
 
-# The largest N of --aa=N that competes, and the thresholds of --aa-adaptive: tools/trade's.
+# The largest N of --aa=N to compare with, and the thresholds of --aa-adaptive, as in tools/trade.
 LARGEST_SIDE = 24
 THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 
-# Rivals follow rays this far: as far as the smallest goal's picture.
+# The fixed settings to compare with follow rays at least as far as the smallest goal's picture.
 LEVELS = ["--max-level", "auto", "--encode", "raw"]
 
-# Pictures that a timed process draws; the fastest counts.
+# The number of pictures that a timed process draws. The fastest picture counts.
 FRAMES = 3
 
 
 class Clrt:
-    """The program, drawing one scene at one size into a folder."""
+    """Runs of clrt for one scene at one size, with outputs in a folder."""
 
     def __init__(self, program, scene, size, folder):
         self.program, self.scene, self.size, self.folder = program, scene, size, folder
@@ -49,7 +49,7 @@ class Clrt:
         return done
 
     def draw(self, *words, statuses=(0,)):
-        """Draws a.pfm; returns the exit status and the statistics."""
+        """Draws a.pfm. Returns the exit status and the statistics."""
         report = self.folder / "a.json"
         done = self.run(self.scene, "-q", "-s", self.size, "-o", self.folder / "a.pfm",
                         f"--stats={report}", *words, statuses=statuses)
@@ -60,7 +60,7 @@ class Clrt:
         return json.loads(done.stdout)["rmse"]
 
     def measure(self, reference, *words, statuses=(0,), frames=1):
-        """The picture's figures, with the fastest time of a frame."""
+        """Returns the picture's figures, with the time of the fastest frame."""
         status, report = self.draw("--repeat", frames, *words, statuses=statuses)
         samples = report["samples"]
         return {"status": status, "rmse": self.rmse(reference), "samples": samples["per_pixel"],
@@ -69,8 +69,8 @@ class Clrt:
 
 
 def draw_reference(clrt, path, wanted):
-    """Draws a reference whose own error is at most what is wanted; returns its figures.  Its rays
-    are followed as far as floats show, since an error counts those that are cut off too."""
+    """Draws a reference whose own error is at most `wanted`. Returns its figures. The reference has
+    as many levels as floats can show, because the error includes truncated reflections."""
     samples = REFERENCE_SAMPLES[0]
     while True:
         _, report = clrt.draw("--max-level", "auto", f"--reference={path}",
@@ -83,7 +83,7 @@ def draw_reference(clrt, path, wanted):
 
 
 def cheapest_side(clrt, reference, goal, sides):
-    """The figures of the smallest N whose --aa=N holds the goal, None where none does."""
+    """Returns the figures of the smallest N whose --aa=N meets the goal, or None."""
     low, high = 0, LARGEST_SIDE + 1
     while high - low > 1:
         side = (low + high) // 2
@@ -94,7 +94,7 @@ def cheapest_side(clrt, reference, goal, sides):
 
 
 def measure_rivals(clrt, reference, goals):
-    """For each goal the cheapest --aa=N and the fastest --aa-adaptive=T that hold it."""
+    """Returns for each goal the smallest --aa=N and the fastest --aa-adaptive=T that meet it."""
     sides = {}
     adaptive = [clrt.measure(reference, f"--aa-adaptive={threshold}", *LEVELS, frames=FRAMES)
                 for threshold in THRESHOLDS]
@@ -143,7 +143,7 @@ def parse():
 
 
 def measure_seed(options, seed):
-    """Measures the scenes of a seed that its file lacks; returns the file."""
+    """Measures the scenes of a seed that are not in its file. Returns the file's path."""
     path = options.output / f"{seed}-{options.size}.jsonl"
     done = {row["scene"][:3] for row in summary.read([path])} if path.exists() else set()
     for number in range(options.scenes):

@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Files of hold.py -> tables, and whether the promise of --error is kept."""
+"""Files of hold.py -> tables, and whether the results keep the promise of --error."""
 
 import json
 import math
 import pathlib
 
-# An error within this many times the goal counts as held.
+# Errors up to this multiple of the goal meet the goal.
 MARGIN = 1.1
 
-# Bounds hold with 95 % confidence.  More errors above them than this are less likely than CHANCE.
+# With 95 % confidence, 5 % of the errors may exceed their bounds. More are accepted unless their
+# probability is below CHANCE.
 ABOVE_MOST = 0.05
 CHANCE = 0.01
 
-# The promise: the share of pictures that are held, and of those with status 1; of those with
-# status 0, the share above WIDE goals, and the largest error in goals.
+# The promise: the least share of pictures that meet their goal, and the largest share with status
+# 1. For pictures with status 0: the largest share with errors above WIDE times the goal, and the
+# largest error as a multiple of the goal.
 HELD_LEAST = 0.95
 MISSED_MOST = 0.05
 WIDE, WIDE_MOST = 1.3, 0.01
@@ -25,7 +27,7 @@ def read(paths):
 
 
 def pictures_of(rows):
-    """One dictionary for each picture, with its error in goals as `ratio`."""
+    """Returns a dictionary for each picture. Its `ratio` is the error divided by the goal."""
     return [{"scene": row["scene"], "seed": row["seed"], **goal,
              "ratio": goal["rmse"] / goal["goal"]} for row in rows for goal in row["goals"]]
 
@@ -39,7 +41,7 @@ def share(pictures, holds):
 
 
 def chance_of(count, total, probability):
-    """The chance of at least count events among total."""
+    """Returns the probability of at least count events among total."""
     def chance_of_exactly(i):
         ways = math.lgamma(total + 1) - math.lgamma(i + 1) - math.lgamma(total - i + 1)
         return math.exp(ways + i * math.log(probability) + (total - i) * math.log(1 - probability))
@@ -48,7 +50,7 @@ def chance_of(count, total, probability):
 
 
 def judge(pictures):
-    """The promise's figures, each with whether it is kept."""
+    """Returns the figures of the promise, each with whether it is kept."""
     done = [picture for picture in pictures if picture["status"] == 0]
     held = share(pictures, lambda picture: picture["ratio"] <= MARGIN)
     missed = 1 - len(done) / len(pictures)
@@ -86,7 +88,7 @@ def print_costs(pictures):
 
 
 def report(paths):
-    """Prints the tables; returns an exit status, 1 where the promise is broken."""
+    """Prints the tables. Returns the exit status, which is 1 if the promise is broken."""
     pictures = pictures_of(read(paths))
     for picture in pictures:
         picture["kind"] = picture["scene"].split("-")[1]

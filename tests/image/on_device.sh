@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL.  Prints
-# a message and succeeds if this machine lacks KIND.  Each kind has its own kernel cache, because
-# PoCL's ignores the target.
-# Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
+# Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL. Prints
+# a message and succeeds if this machine lacks KIND. Each kind has its own kernel cache, because
+# PoCL's ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
 set -eu
 kind=$1
 cache=$2/$1
@@ -16,12 +15,12 @@ pass_over() {
   exit 0
 }
 
-# Installs a fixed version of Intel's runtime for CPUs, once for all tests.
+# Installs a fixed version of Intel's CPU runtime, once for all tests.
 fetch_intel() {
   exec 9>"$1.lock"
   flock 9
   [ ! -e "$1/fetched" ] || return 0
-  # Intel's libOpenCL would replace the system's loader.
+  # Otherwise Intel's libOpenCL would replace the system's loader.
   python3 -m venv --clear "$1" &&
     "$1/bin/pip" install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0 tbb==2023.2.0 &&
     mkdir "$1/libraries" "$1/vendors" &&
@@ -33,7 +32,7 @@ fetch_intel() {
 
 case $kind in
 serial)
-  # PoCL 6.0 calls it cpu-minimal.
+  # PoCL 6.0 calls this device cpu-minimal.
   for name in basic cpu-minimal; do
     export POCL_DEVICES=$name
     "$CLRT" --list-devices >/dev/null 2>&1 && break
@@ -48,7 +47,7 @@ unoptimized) export CLRT_TEST_OPTIONS=-cl-opt-disable ;;
 oclgrind)
   command -v oclgrind >/dev/null || pass_over "oclgrind is not installed (Debian 13 has none)"
   log=$cache/oclgrind.log
-  # Its own optimizer makes an intrinsic that its interpreter does not know.
+  # Oclgrind's optimizer generates an intrinsic that its interpreter does not support.
   oclgrind --build-options -cl-opt-disable --uninitialized --data-races --log "$log" "$@"
   if [ -s "$log" ]; then
     cat "$log"

@@ -88,37 +88,26 @@ static void every_form_draws_pictures_of_a_few_pixels(void **state)
     }
 }
 
-static void every_tile_size_draws_the_same(void **state)
+static void every_size_of_tiles_and_work_groups_draws_the_same(void **state)
 {
     (void)state;
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
-    enum { COUNT = sizeof tiles / sizeof tiles[0] };
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest usual = small_request(scene);
-        PictureRequest tiled[COUNT];
-        for (size_t i = 0; i < COUNT; i++) {
-            tiled[i] = usual;
-            tiled[i].tile_width = tiles[i][0];
-            tiled[i].tile_height = tiles[i][1];
-        }
-        rendered_expect_same(&usual, tiled, COUNT);
-    }
-}
-
-static void every_work_group_size_draws_the_same(void **state)
-{
-    (void)state;
     static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
-    enum { COUNT = sizeof groups / sizeof groups[0] };
+    enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         const PictureRequest usual = small_request(scene);
-        PictureRequest grouped[COUNT];
-        for (size_t i = 0; i < COUNT; i++) {
-            grouped[i] = usual;
-            grouped[i].group_width = groups[i][0];
-            grouped[i].group_height = groups[i][1];
+        PictureRequest others[TILES + GROUPS];
+        for (size_t i = 0; i < TILES + GROUPS; i++) {
+            others[i] = usual;
+            if (i < TILES) {
+                others[i].tile_width = tiles[i][0];
+                others[i].tile_height = tiles[i][1];
+            } else {
+                others[i].group_width = groups[i - TILES][0];
+                others[i].group_height = groups[i - TILES][1];
+            }
         }
-        rendered_expect_same(&usual, grouped, COUNT);
+        rendered_expect_same(&usual, others, TILES + GROUPS);
     }
 }
 
@@ -231,8 +220,7 @@ int main(void)
         cmocka_unit_test(every_way_to_find_triangles_draws_the_same),
         cmocka_unit_test(every_form_of_the_kernels_draws_the_same),
         cmocka_unit_test(every_form_draws_pictures_of_a_few_pixels),
-        cmocka_unit_test(every_tile_size_draws_the_same),
-        cmocka_unit_test(every_work_group_size_draws_the_same),
+        cmocka_unit_test(every_size_of_tiles_and_work_groups_draws_the_same),
         cmocka_unit_test(counting_changes_no_pixel),
         cmocka_unit_test(specialized_rays_draw_what_general_ones_do),
         cmocka_unit_test(specialized_packets_draw_what_general_ones_do),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# libclrt in an installed tree: built against by pkg-config and by CMake, its picture is the
-# program's; under valgrind it leaves nothing behind; and it shows its header's functions alone.
+# Tests libclrt in an installed tree. Programs built with pkg-config and with CMake draw the same
+# picture as clrt. Valgrind finds no leaks. The library exports only the functions of its header.
 # Usage: test_installed.py CLRT BUILD_FOLDER C_COMPILER
 import os
 import pathlib
@@ -18,7 +18,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 EXAMPLE = TESTS / "library/picture.c"
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
-# The scene of the example.
+# The scene of the example tests/library/picture.c.
 SCENE = """
 light 4 -2 6 0.9
 camera 3 -5 3 0 0 0 45
@@ -112,7 +112,7 @@ class Installed(unittest.TestCase):
         self.build_by_pkg_config(program, "-std=c99", *STRICT)
         self.assertEqual(run(program, env=self.environment), self.expected)
 
-    # PoCL cannot make a folder in /proc, not even as root.
+    # Not even root can create a folder in /proc, so PoCL has no cache.
     def test_where_no_cache_can_be_written_the_variable_that_helps_is_named(self):
         program = self.work / "without-cache"
         self.build_by_pkg_config(program)
@@ -184,8 +184,8 @@ class Installed(unittest.TestCase):
             return
         program = self.work / "for-valgrind"
         self.build_by_pkg_config(program, "-g")
-        # valgrind's processor has no AVX-512.  Kernels for less are the same under it and without,
-        # where they are compiled fifty times as fast.
+        # Valgrind's virtual processor has no AVX-512. Kernels for AVX2 or SSE2 are equal with and
+        # without valgrind. They are compiled without valgrind, which is fifty times as fast.
         target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
         cache = pathlib.Path(os.environ["XDG_CACHE_HOME"]) / "valgrind"
         cache.mkdir(parents=True, exist_ok=True)

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Renders every scene under valgrind (release) and under ASan and UBSan (debug build), small.
-# Findings inside drivers are suppressed by library in drivers.supp.
-# Usage: check.sh SCENE...
+# Renders small pictures of scenes under valgrind (release build), and under ASan and UBSan (debug
+# build). drivers.supp suppresses findings inside the libraries of drivers. Usage: check.sh SCENE...
 set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)

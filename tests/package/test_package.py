@@ -40,7 +40,7 @@ DEVELOPMENT = [
     "pkgconfig/clrt.pc",
     "doc/clrt/examples/picture.c",
 ]
-# Only where the prefix is /usr is there a folder for libraries of the processor's kind.
+# CMake uses the architecture's folder for libraries only if the prefix is /usr.
 LINTIAN = ["lintian", "--fail-on", "error,warning"]
 if "CMAKE_INSTALL_LIBDIR:PATH=lib\n" in CACHE:
     LINTIAN += ["--suppress-tags", "pkg-config-unavailable-for-cross-compilation"]
@@ -97,7 +97,7 @@ class Package(unittest.TestCase):
             installed = files_under(pathlib.Path(prefix))
         packed = files_under(self.root / "usr") + [
             name for name in files_under(self.library_root / "usr")
-            if not re.match(r"share/(doc|lintian/overrides)/libclrt", name)  # Debian's own
+            if not re.match(r"share/(doc|lintian/overrides)/libclrt", name)  # added for Debian
         ]
         without_folder = [
             sorted(re.sub(r"^lib/.*/", "lib/", name) for name in names)
@@ -139,7 +139,8 @@ class Package(unittest.TestCase):
         environment = {**os.environ, "HOME": "/proc", "XDG_CACHE_HOME": "/proc"}
         environment.pop("POCL_CACHE_DIR", None)
         with tempfile.TemporaryDirectory() as work:
-            for ending in {"png", "exr"}.intersection(formats):  # by clrt, and by its module
+            for ending in {"png", "exr"}.intersection(formats):  # png is written by clrt, exr by
+                                                                 # its module
                 pictures = [f"{work}/{whose}.{ending}" for whose in ("package", "build")]
                 scene = [self.root / "usr" / SCENE, "-s", "24x16", "-q", "-o"]
                 run(self.clrt, *scene, pictures[0], env=environment)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Drags a file over a window and drops it there, as file managers do: the protocol XDND, version 5,
-spoken to the X server through its own library."""
+"""Drags a file over a window and drops it there, as file managers do. Uses XDND version 5 through
+libX11."""
 
 import ctypes
 import pathlib
@@ -35,7 +35,7 @@ class Event(ctypes.Union):
 
 
 class Drag:
-    """A window of a client of its own, from which files are dragged."""
+    """A window of another client, from which files are dragged."""
 
     def __init__(self, screen_name):
         self.x = ctypes.CDLL("libX11.so.6")

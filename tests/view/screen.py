@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A display of the tests' own, what it shows, and clrt's window on it, driven by real events."""
+"""A private display for tests, its contents, and clrt's window on it, controlled by real events."""
 
 import array
 import mmap
@@ -16,8 +16,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
-PATIENCE = 60  # seconds that anything may take: kernels may have to be compiled
-TICK = 0.02  # they are counted in, so that a machine which stood still meanwhile is forgiven
+PATIENCE = 60  # seconds that any step may take, because kernels may have to be compiled
+TICK = 0.02  # waiting counts these steps, so that a pause of the machine does not count
 
 
 def pass_over(reason):
@@ -32,7 +32,7 @@ def require_tools():
 
 
 class Screen:
-    """An X server that keeps what it shows in a file."""
+    """An X server that stores its screen in a file."""
 
     def __init__(self, width=1024, height=768):
         require_tools()
@@ -56,7 +56,8 @@ class Screen:
         return {**os.environ, "DISPLAY": self.name, "LIBGL_ALWAYS_SOFTWARE": "1"}
 
     def read(self, width, height):
-        """The upper left corner's pixels as bytes: blue, green, red and one unused."""
+        """Returns the pixels of the upper left corner as bytes: blue, green, red and an unused
+        byte."""
         rows = (self.start + row * self.stride for row in range(height))
         return b"".join(self.memory[row:row + 4 * width] for row in rows)
 
@@ -65,7 +66,7 @@ class Screen:
                        stdout=subprocess.DEVNULL)
 
     def clear(self):
-        """Ends windows that a failed test has left."""
+        """Ends windows that a failed test has left open."""
         for process in self.windows:
             if process.poll() is None:
                 process.kill()
@@ -81,7 +82,7 @@ class Screen:
 
 
 class Window:
-    """clrt showing a scene. With -v it prints its state when nothing moves any more."""
+    """clrt with a scene in a window. With -v it prints its state when the picture is finished."""
 
     def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
         self.screen, self.size = screen, size
@@ -125,7 +126,7 @@ class Window:
                        "mouseup", button)
 
     def read(self):
-        """Returns the window's content when it stands still."""
+        """Returns the window's content once it no longer changes."""
         shown = None
         while True:
             before, shown = shown, self.screen.read(*self.size)
@@ -134,7 +135,7 @@ class Window:
             time.sleep(0.05)
 
     def until(self, condition, what):
-        """Returns the window's content when it meets the condition."""
+        """Waits until the window's content meets the condition. Returns the content."""
         for _ in range(int(PATIENCE / TICK)):
             shown = self.screen.read(*self.size)
             if condition(shown):
@@ -161,7 +162,7 @@ def render(scene, *options, size=(320, 240)):
 
 
 def opened(screen, scene):
-    """A window that shows the scene ray traced, without text."""
+    """Returns a window that shows the ray-traced scene without text."""
     window = Window(screen, scene)
     window.wait("OpenGL, view 1")
     window.press("t", "text off")
@@ -170,7 +171,7 @@ def opened(screen, scene):
 
 
 def expect(window, scene, what):
-    """Waits until the window shows what -o writes of the scene."""
+    """Waits until the window shows the picture that -o writes."""
     picture = render(scene)
     window.until(lambda shown: planes_of(shown) == picture, what)
 
@@ -185,12 +186,12 @@ def planes_of_pfm(content, size):
 
 
 def planes_of(shown):
-    """The same of what a window shows."""
+    """Returns blue, green and red of the content of a window."""
     return shown[0::4], shown[1::4], shown[2::4]
 
 
 def count_pixels(shown, wanted):
-    """How many pixels (red, green, blue) are wanted ones."""
+    """Returns the number of pixels with wanted(red, green, blue)."""
     blue, green, red = planes_of(shown)
     return sum(1 for color in zip(red, green, blue) if wanted(*color))
 
@@ -204,8 +205,8 @@ def is_blue(red, green, blue):
 
 
 def run_tests(tests, screen):
-    """Runs the functions, whose names say what must hold; those named on the command line alone,
-    where there are any."""
+    """Runs the functions, or only those named on the command line. A function's name states what it
+    tests."""
     failures = 0
     named = [test for test in tests if test.__name__ in sys.argv[1:]]
     for test in named or tests:

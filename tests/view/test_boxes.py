@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The boxes of a level are as many as the tree has nodes there: told by the window, counted in its
-picture, and written as statistics.  Usage: CLRT=path/to/clrt test_boxes.py"""
+"""Tests that the window shows as many boxes of a level as the tree has nodes there. Compares the
+window's text, its picture and the statistics. Usage: CLRT=path/to/clrt test_boxes.py"""
 
 import json
 import os
@@ -11,7 +11,7 @@ import tempfile
 
 from screen import COURSE, ROOT, Screen, Window, is_blue, is_red, planes_of, run_tests
 
-SIDE = 4  # clusters a side of the scene made here
+SIDE = 4  # clusters along a side of the scene
 
 
 def statistics(scene, *options):
@@ -22,7 +22,7 @@ def statistics(scene, *options):
 
 
 def check_counts(screen, scene, *options):
-    """Level by level, played as keys."""
+    """Checks all levels, selected by played keys."""
     tree = statistics(scene, *options)
     inner = tree["inner_nodes"]
     window = Window(screen, scene, "--keys", "B" + "]" * len(inner), "--quit-after", "1", *options)
@@ -47,10 +47,11 @@ def counts_agree_with_statistics(screen):
 
 
 def write_clusters(folder):
-    """Small groups of triangles with gaps between them, in a plane seen from above."""
+    """Writes a scene of small groups of triangles in a plane, with gaps between groups. The camera
+    is above the plane."""
     corners, faces = [], []
     for cluster in range(SIDE * SIDE):
-        # The gaps have several sizes: otherwise the order of division is arbitrary.
+        # The gaps have different sizes. Otherwise the order of division would be arbitrary.
         x, y = (place + 0.05 * place * place for place in divmod(cluster, SIDE))
         for part in range(6):
             first = len(corners)
@@ -68,7 +69,7 @@ def write_clusters(folder):
 
 
 def count_shapes(shown, size, wanted):
-    """Connected groups of wanted pixels, corners touching included."""
+    """Returns the number of connected groups of wanted pixels. Diagonal neighbors are connected."""
     blue, green, red = planes_of(shown)
     left = {place for place, color in enumerate(zip(red, green, blue)) if wanted(*color)}
     steps = [right + down * size[0] for right in (-1, 0, 1) for down in (-1, 0, 1)]

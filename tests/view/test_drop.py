@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A file that is dropped on the window is shown in place of its scene.
-Usage: CLRT=path/to/clrt test_drop.py"""
+"""Tests that the window shows a dropped file instead of its scene. Usage: CLRT=path/to/clrt
+test_drop.py"""
 
 import os
 import pathlib

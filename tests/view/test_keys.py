@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every key and every movement of the mouse has the effect that the help tells, seen in the window
-or in the line of its state.  Usage: CLRT=path/to/clrt test_keys.py"""
+"""Tests that every key and mouse movement has the effect that the help describes, in the picture or
+in the printed state. Usage: CLRT=path/to/clrt test_keys.py"""
 
 import os
 import pathlib
@@ -14,7 +14,7 @@ SCENE = ROOT / "scenes" / "reflections.scn"
 
 
 def opened(screen, *options, **more):
-    """A window without text over its picture."""
+    """Returns a window without text over its picture."""
     window = Window(screen, SCENE, *options, **more)
     window.wait("OpenGL, view 1")
     window.press("t", "text off")
@@ -227,7 +227,7 @@ def r_in_capitals_reads_everything_again(screen):
         window.wait("OpenGL")
         window.press("t", "text off")
         large = window.read()
-        # Changed where nobody sees it: in place, with the same size and time.
+        # Changes the file invisibly: in place, with the same size and time.
         scene.write_text("material 0\nsphere 0 0 0.5 2\n")
         os.utime(scene, ns=(before.st_atime_ns, before.st_mtime_ns))
         window.press("R")

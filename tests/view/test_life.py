@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Large scenes open, move and close; a window closed while it traces is gone at once; pictures for
-files never touch a display.  Usage: CLRT=path/to/clrt test_life.py"""
+"""Tests that large scenes open, move and close, that a window closed during tracing disappears at
+once, and that -o never connects to a display. Usage: CLRT=path/to/clrt test_life.py"""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ import time
 from screen import ROOT, Screen, Window, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
-GONE_SECONDS = 0.1  # beyond what the same window takes that is at rest, which is up to the machine
+GONE_SECONDS = 0.1  # in addition to the seconds for closing an idle window on this machine
 
 
 def write_large(folder):
@@ -49,7 +49,7 @@ def a_million_triangles_open_orbit_and_close(screen):
 
 
 def seconds_to_close(screen, scene, *options, is_tracing):
-    """From the key to the end of the process."""
+    """Returns the seconds from the key press to the end of the process."""
     window = Window(screen, scene, *options, size=(500, 400))
     window.wait("OpenGL, view 1")
     if is_tracing:
@@ -76,7 +76,7 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen):
 
 
 def camera_moves_while_a_picture_is_traced(screen):
-    """The first pictures of a moved camera come long before the picture would be finished."""
+    """Coarse pictures of a moved camera appear long before the full picture would be finished."""
     window = Window(screen, ROOT / "scenes" / "reflections.scn", "--aa=64", size=(500, 400))
     window.wait("OpenGL, view 1")
     window.press("t", "text off")
@@ -109,7 +109,7 @@ def a_minimised_and_a_tiny_window_go_on(screen):
 
 
 def o_never_touches_the_display(_):
-    """A display that nobody serves, but counts who comes."""
+    """The display is only a socket that detects connections."""
     with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_INET) as door:
         door.bind(("127.0.0.1", 0))
         door.listen()
@@ -129,7 +129,7 @@ def o_never_touches_the_display(_):
         with subprocess.Popen(words, env=there, stderr=subprocess.DEVNULL) as window:
             door.settimeout(20)
             try:
-                door.accept()[0].close()  # the window does, so the count can be trusted
+                door.accept()[0].close()  # the window connects, so the socket works
             except TimeoutError as silence:
                 raise AssertionError("a window does not come to this display") from silence
             finally:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""OpenGL and rays see the same outlines: where the two views of a scene whose objects each have a
-color of their own differ, an edge is at most two pixels away.  For every course scene and view, and
-clrt's own.  They also see the same lit and unlit sides of a coarse convex mesh with smooth normals.
-Usage: CLRT=path/to/clrt test_outlines.py"""
+"""Tests that OpenGL and rays show the same outlines, for all scenes and views of the course and of
+clrt. Each object gets its own color, and the two pictures may differ only within two pixels of an
+edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals. Usage:
+CLRT=path/to/clrt test_outlines.py"""
 
 import math
 import pathlib
@@ -14,12 +14,13 @@ from screen import COURSE, ROOT, Screen, Window, run_tests
 SIZE = (512, 512)
 NAMES = ("silhouette", "matte", "blinn_phong", "reflections", "simple", "cow", "buddha")
 OWN = ("simple", "reflections", "creature")
-FARTHEST = 2  # pixels from an edge
+FARTHEST = 2  # the largest distance from an edge, in pixels
 ALL_ONES = int.from_bytes(b"\1" * (SIZE[0] * SIZE[1]), "little")
 
 
 def colored(path):
-    """The scene's text with a color for each object, which neither light nor mirrors change."""
+    """Returns the scene's text with a constant color for each object, without lights and
+    mirrors."""
     lines, objects = ["background 0 0 0"], 0
     for line in path.read_text().splitlines():
         words = line.split()
@@ -37,19 +38,20 @@ def colored(path):
 
 
 def flags(number):
-    """1 in each byte that is not 0, as one number again."""
+    """Returns a number with 1 in each byte that is not 0."""
     content = number.to_bytes(SIZE[0] * SIZE[1], "little")
     return int.from_bytes(content.translate(b"\0" + b"\1" * 255), "little")
 
 
 def moved(number, right, down):
-    """The picture shifted by so many pixels; what comes in at the sides does no harm."""
+    """Returns the picture shifted by that many pixels. The pixels that enter at the sides do not
+    matter."""
     places = 8 * (right + down * SIZE[0])
     return (number << places if places >= 0 else number >> -places) & ALL_ONES
 
 
 def edges_of(labels):
-    """Pixels whose right or lower neighbor belongs to another object."""
+    """Returns the pixels whose right or lower neighbor belongs to another object."""
     return flags(labels ^ (labels >> 8)) | flags(labels ^ (labels >> 8 * SIZE[0]))
 
 
@@ -62,7 +64,7 @@ def near(edges):
 
 
 def compare(name, view, drawn, traced):
-    """Returns how many pixels differ; none of them may be far from an edge."""
+    """Returns how many pixels differ. Fails if one of them is far from an edge."""
     drawn, traced = (int.from_bytes(shown[2::4], "little") for shown in (drawn, traced))
     assert traced != 0 or view == "4", f"{name}, view {view}: nothing is seen"
     apart = flags(drawn ^ traced)
@@ -114,7 +116,7 @@ def outlines_agree_in_own_scenes(screen):
 
 
 def ball(rings=4, slices=7):
-    """A PLY file of a closed ball whose normals are those of a round one."""
+    """Returns a PLY file of a coarse closed ball with the normals of a smooth ball."""
     corners, faces = [], []
     for ring in range(rings + 1):
         for part in range(slices):

@@ -88,7 +88,7 @@ def options_that_change_the_picture_do_so_here(screen):
 
 
 def unfiltered(kind, row, above, step=3):
-    """A PNG's row without its filter."""
+    """Returns a row of a PNG file after undoing its filter."""
     out = bytearray(row)
     for i, value in enumerate(row):
         left = out[i - step] if i >= step else 0
@@ -140,7 +140,8 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
             if saved.exists():
                 subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "160x120", "-o",
                                 str(folder / f"a.{ending}")], check=True)
-                # The texts at the start have different settings; the pixels after them are equal.
+                # The texts at the start contain different settings. The pixels after them must be
+                # equal.
                 written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
                 same = common_end(written, found)
                 assert same > 0.9 * len(written), f"the .{ending} differs: {same} bytes are equal"

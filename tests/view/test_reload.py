@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scene, meshes and kernels are watched: what changes is shown anew, and what is wrong is said over
-the last good picture.  Usage: CLRT=path/to/clrt test_reload.py"""
+"""Tests that the window reloads changed scenes, meshes and kernels. It must show errors over the
+last valid picture. Usage: CLRT=path/to/clrt test_reload.py"""
 
 import os
 import pathlib
@@ -12,7 +12,7 @@ from screen import ROOT, Screen, expect, opened, render, run_tests
 
 
 def in_folder(test):
-    """Runs the test with a folder that is gone afterwards."""
+    """Runs the test with a temporary folder."""
     def run(screen):
         with tempfile.TemporaryDirectory() as name:
             test(screen, pathlib.Path(name))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Curves on logarithmic axes as SVG."""
+"""Draws curves on logarithmic axes as SVG."""
 
 import html
 import math
@@ -9,7 +9,7 @@ LEFT, RIGHT, TOP, BOTTOM = 64, 16, 36, 48
 
 
 def decades(values):
-    """The powers of ten that enclose the values."""
+    """Returns the exponents of the powers of ten that enclose the values."""
     low = math.floor(math.log10(min(values)) + 1e-9)
     return low, max(math.ceil(math.log10(max(values)) - 1e-9), low + 1)
 
@@ -20,7 +20,7 @@ def text(x, y, words, anchor="middle", extra=""):
 
 
 class Axis:
-    """From values to places between two ends."""
+    """A logarithmic axis: maps values to positions from start to end."""
 
     def __init__(self, values, start, end):
         self.low, self.high = decades(values)
@@ -36,7 +36,7 @@ class Axis:
 
 
 def panel(title, across, upward, points, left):
-    """One curve, its title and the names of its axes."""
+    """Returns the SVG of one curve with its title and the names of its axes."""
     x = Axis([p[0] for p in points], left + LEFT, left + WIDTH - RIGHT)
     y = Axis([p[1] for p in points], HEIGHT - BOTTOM, TOP)
     parts = [text(left + WIDTH / 2, 20, title, extra=' font-weight="bold"'),
@@ -57,7 +57,7 @@ def panel(title, across, upward, points, left):
 
 
 def write(path, panels):
-    """Writes panels, each (title, name of x, name of y, points), side by side."""
+    """Writes panels side by side. A panel is (title, name of x, name of y, points)."""
     width = WIDTH * len(panels)
     drawn = [panel(*each, WIDTH * i) for i, each in enumerate(panels)]
     with open(path, "w", encoding="ascii") as file:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Shared by all comparisons: paths, clrt as a command, and figures as text."""
+"""Functions for all comparisons: paths, runs of clrt, and figures as text."""
 
 import json
 import os
@@ -17,12 +17,13 @@ CLRT = os.environ.get("CLRT", str(BUILD / "clrt"))
 
 
 def compile_ahead():
-    """Small pictures are not drawn by the fastest kernels before those are compiled."""
+    """Compiles the kernels. Otherwise clrt would draw small pictures with kernels that compile
+    faster."""
     subprocess.run([CLRT, "--warm", "-q"], check=True)
 
 
 def draw(scene, options, folder, frames=1):
-    """Seconds of each of the pictures that clrt draws of a scene, one after another."""
+    """Draws a scene several times in one run of clrt. Returns the seconds of each picture."""
     frames = ["--repeat", str(frames)] if frames > 1 else []
     done = subprocess.run([CLRT, str(scene), "-q", "-v", "-o", f"{folder}/clrt.pfm", *frames,
                            *options], capture_output=True, text=True, check=False)
@@ -32,7 +33,7 @@ def draw(scene, options, folder, frames=1):
 
 
 def report(scene, options, folder):
-    """The statistics of one picture, rays and tests counted."""
+    """Returns the statistics of one picture, including rays and tests."""
     path = pathlib.Path(folder) / "clrt.json"
     subprocess.run([CLRT, str(scene), "-q", "-o", f"{folder}/clrt.pfm", f"--stats={path}",
                     *options], check=True)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What each scene of the project's set costs clrt.
+"""Measures how long clrt takes for each scene of the project's set.
 
-Rates by kind of ray come from three pictures of a scene: without lights and reflections (camera
-rays alone), with lights, and whole; the rays that a picture adds are divided by the time it adds,
-shading included.  Times are medians of pictures traced without counters; counts come from one run
-with them.  Scenes alternate within a round, so that drift of the machine meets all of them.
+The rate of each kind of ray comes from three pictures of a scene. The first has neither lights nor
+reflections, so it has only camera rays. The second has lights, and the third is complete. A rate is
+the number of rays that a picture adds, divided by the time that it adds, including shading. Times
+are medians of pictures without counters. Counts come from one run with counters. Scenes alternate
+within a round, so that drift of the machine affects all scenes.
 """
 
 import pathlib
@@ -34,7 +35,7 @@ def without_lights(scene, folder):
 
 
 class Picture:
-    """One way to render a scene: its counts, and its times as they are measured."""
+    """The counts and measured times of a scene with some options."""
 
     def __init__(self, scene, options, frames, folder):
         self.scene, self.options, self.frames, self.folder = scene, options, frames, folder
@@ -53,7 +54,8 @@ class Picture:
 
 
 def rate(more, less):
-    """Mray/s of the rays that one picture has more than another; None where there are none."""
+    """Returns the Mray/s of the rays that picture `more` has in addition to `less`, or None without
+    such rays."""
     rays = more.rays() - (less.rays() if less else 0)
     seconds = more.seconds() - (less.seconds() if less else 0)
     return rays / seconds / 1e6 if rays > 0 and seconds > 0 else None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""clrt against an Embree renderer of the same pictures (tools/embree), frame by frame.
+"""Compares the frame times of clrt and of an Embree renderer of the same pictures (tools/embree).
 
-Each round draws with clrt and with every mode of Embree, so that drift of the machine meets all;
-a ratio is the median of the rounds' ratios.  Embree is given what serves it best: for each mode
-the kinds of rays that it is told are coherent are those that made it fastest before the rounds.
+Each round draws with clrt and with every mode of Embree, so that drift of the machine affects all
+of them. A ratio is the median of the rounds' ratios. Embree gets its best settings: before the
+rounds, embree_peer finds the fastest coherent flags of each mode.
 """
 
 import array
@@ -41,7 +41,7 @@ def share_of_differing_pixels(first, second):
 
 
 class Contest:
-    """One scene on one number of threads: the seconds of every contestant, round by round."""
+    """The seconds of every contestant in every round, for one scene and number of threads."""
 
     def __init__(self, name, variant, scene, threads, columns, options):
         self.name, self.variant, self.scene, self.threads = name, variant, scene, threads
@@ -100,7 +100,7 @@ class Contest:
 
 
 def columns_of(options):
-    """clrt's contestants: each --clrt-options, or what it chooses and single rays."""
+    """Returns clrt's contestants: each --clrt-options, or the default kernels and single rays."""
     if options.clrt_options:
         return {f"clrt {words}".strip(): words.split() for words in options.clrt_options}
     columns = {"clrt": []}
@@ -130,7 +130,8 @@ def print_table(results, columns):
 
 
 def builds_of(name, scene, runs, folder):
-    """Seconds that each builds its tree in, on all threads."""
+    """Returns the seconds for building the tree on all threads, for clrt and for each quality of
+    Embree."""
     threads = str(common.threads_of_machine())
     times = {"clrt": [], **{quality: [] for quality in QUALITIES}}
     for _ in range(runs):

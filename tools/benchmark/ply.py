@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Reads the PLY that clrt's own scenes and the course's use: float vertices with or without
-normals, and triangles, little-endian or as text."""
+"""Reads the PLY files of clrt's scenes and of the course: float vertices with or without normals,
+and triangles, little-endian or as text."""
 
 import array
 import struct
 
 
 def read_header(file):
-    """Whether the file is binary, and each element's count and lines."""
+    """Returns whether the file is binary, and {element: (count, property lines)}."""
     elements, binary = {}, False
     name = None
     while (line := file.readline().decode("ascii").split()) != ["end_header"]:
@@ -22,7 +22,8 @@ def read_header(file):
 
 
 def read(path):
-    """Positions and normals, three numbers each (no normals: empty), and corners, three each."""
+    """Returns lists of positions, normals and triangles' corners, three numbers each. The list of
+    normals is empty if the file has none."""
     with open(path, "rb") as file:
         binary, elements = read_header(file)
         count, properties = elements["vertex"]

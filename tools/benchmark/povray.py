@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""clrt against POV-Ray 3.7 from file to PNG: whole processes, alternating.
+"""Compares clrt with POV-Ray 3.7 from file to PNG: whole processes, alternating.
 
-The scene is written as POV-Ray input.  Its meshes become text, since POV-Ray reads no PLY; it
-shades from the same formula, follows as many reflections and takes one sample a pixel.
+Converts the scene to POV-Ray input. Meshes become text, because POV-Ray does not read PLY. POV-Ray
+uses the same shading formula, number of reflections and one sample per pixel.
 """
 
 import math
@@ -28,7 +28,8 @@ def statements(text):
 
 
 def finish_of(words, ambient):
-    """The texture of a define statement, its color with and without the reflection weighed."""
+    """Returns the texture of a define statement. Ambient and diffuse light are scaled by 1 -
+    reflectivity, as in clrt."""
     figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"]}
     if words[0] != "matte":
         raise ValueError(f"POV-Ray has no {words[0]} as clrt's")
@@ -55,8 +56,8 @@ def mesh_of(path, texture):
 
 
 def camera_of(words, width, height):
-    """clrt's angle is vertical and its picture not mirrored; POV-Ray's is horizontal, and its
-    space left-handed unless `right` points left."""
+    """Returns POV-Ray's camera. clrt's angle is vertical, POV-Ray's is horizontal. POV-Ray's space
+    is left-handed unless `right` points left."""
     eye, target, angle = words[:3], words[3:6], float(words[6])
     across = 2 * math.degrees(math.atan(math.tan(math.radians(angle) / 2) * width / height))
     return (f"camera {{ perspective location {vector(eye)} sky <0,0,1> up y "
@@ -64,11 +65,11 @@ def camera_of(words, width, height):
 
 
 def translate(text, width, height):
-    """The scene of the benchmark as POV-Ray input."""
+    """Returns the scene as POV-Ray input."""
     known = {name: words for name, words in statements(text)}
     ambient = float(known["ambient"][0])
     textures, texture = {}, None
-    # Nothing is left out for being faint: clrt follows every ray as well.
+    # adc_bailout 0 follows even rays with a low weight, as clrt does.
     out = ["#version 3.7;",
            f"global_settings {{ assumed_gamma 1 adc_bailout 0 "
            f"max_trace_level {known['max_level'][0]} }}",
@@ -87,7 +88,7 @@ def translate(text, width, height):
 
 
 class Contest:
-    """A scene from file to picture."""
+    """The times of clrt and POV-Ray for one scene, from file to picture."""
 
     def __init__(self, name, variant, scene, options, folder):
         text = scene.read_text()
@@ -100,7 +101,7 @@ class Contest:
         source.write_text(translate(text, int(width), int(height)))
         self.picture_bytes = 3 * int(width) * int(height)
         self.clrt = [common.CLRT, str(scene), "-q", *options.clrt_words]
-        # File_Gamma=1 writes the values as they are, as clrt does.
+        # File_Gamma=1 writes raw values, as clrt does.
         self.povray = ["povray", f"+I{source}", f"+W{width}", f"+H{height}", f"+WT{threads}", "-D",
                        "-A", "-P", "-V", "File_Gamma=1"]
         self.times = {"clrt": [], "povray": []}
@@ -108,13 +109,13 @@ class Contest:
         self.difference = None
 
     def run(self, ending):
-        """Draws with both to files of that ending; returns the seconds of each, and what POV-Ray
-        said."""
+        """Draws with both renderers to files with that ending. Returns the seconds of each, and
+        POV-Ray's messages."""
         kind = {"png": "N", "ppm": "P"}[ending]
         start = time.monotonic()
         subprocess.run([*self.clrt, "-o", self.path("clrt", ending)], check=True)
         middle = time.monotonic()
-        # Its messages name the seconds of tracing alone.
+        # The messages contain the seconds of tracing.
         done = subprocess.run([*self.povray, f"+F{kind}8", f"+O{self.path('povray', ending)}"],
                               check=True, capture_output=True, text=True)
         return middle - start, time.monotonic() - middle, done.stderr
@@ -123,7 +124,7 @@ class Contest:
         return str(self.folder / f"{self.name}-{self.variant}-{who}.{ending}")
 
     def prepare(self):
-        """A run that is not timed, on which the pictures are compared."""
+        """Draws once without timing, and compares the pictures."""
         self.run("ppm")
         first, second = (pathlib.Path(self.path(who, "ppm")).read_bytes()[-self.picture_bytes:]
                          for who in ("clrt", "povray"))

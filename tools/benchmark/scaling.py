@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frame time as a mesh gets more triangles, and as a picture gets more pixels."""
+"""Measures frame times for meshes with more triangles, and for pictures with more pixels."""
 
 import pathlib
 import statistics
@@ -7,13 +7,13 @@ import statistics
 from benchmark import chart, common, scenes, torus
 
 TRIANGLES = [10 ** power for power in range(3, 8)]
-PIXELS_WITH = 10 ** 5  # triangles, where pixels grow
+PIXELS_WITH = 10 ** 5  # triangles of the mesh for the series of picture sizes
 SIZES = [256, 512, 1024, 2048, 4096, 8192]
 CAMERA = "2.1 -1.3 1.5  0 0 0.26  32"
 
 
 def scene_of(count, folder):
-    """Writes a mesh and its scene; returns the scene's path and the triangles of the mesh."""
+    """Writes a mesh and its scene. Returns the scene's path and the mesh's number of triangles."""
     mesh = pathlib.Path(folder) / f"torus-{count}.ply"
     made = torus.write(mesh, count)
     text = scenes.with_absolute_paths(scenes.FOLDER / "creature.scn")
@@ -21,12 +21,12 @@ def scene_of(count, folder):
 
 
 class Step:
-    """A picture on the way: one scene at one size."""
+    """One picture of a series: a scene at a size."""
 
     def __init__(self, scene, triangles, size, options):
         self.scene, self.triangles, self.size = scene, triangles, size
         self.words = [*options.clrt_words, "-s", f"{size}x{size}"]
-        # Large pictures need no repeating: they take long enough.
+        # Large pictures take long enough for a single measurement.
         self.frames = (options.frames or 3) + 1 if size <= 2048 else 1
         self.times = []
         self.report = None
@@ -36,7 +36,8 @@ class Step:
         self.times.append(statistics.median(times[1:] or times))
 
     def count(self, folder):
-        """The rays, from a small picture, so that counting costs little; and the build."""
+        """Gets the number of rays and the build time from a small picture, because counting is
+        slow."""
         self.report = common.report(self.scene, [*self.words, "-s", "256x256"], folder)
 
     def summary(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The scenes that renderers are compared on, as text: those of tests/bench, the same with two of
-the course's meshes where they are, and their variants."""
+"""The scenes for comparisons of renderers, as text: the scenes of tests/bench, the course's two
+meshes if they exist, and variants of all."""
 
 import pathlib
 
@@ -9,7 +9,7 @@ from benchmark import common
 FOLDER = common.ROOT / "tests" / "bench"
 OWN = ["creature", "figure", "coral"]
 
-# The course's meshes, and a camera that frames each as tests/bench frames its own.
+# The course's meshes, each with a camera that frames it like the meshes of tests/bench.
 FROM_COURSE = {"cow": "2.0 -0.7 0.9  0.16 0.18 0.29  24", "buddha": "1.9 -1.1 1.0  -0.02 0 0.47  25"}
 
 VARIANTS = ["mirrors", "shadows", "lights"]
@@ -17,7 +17,7 @@ SECOND_LIGHT = "light -7 2 8 0.4"
 
 
 def with_absolute_paths(scene):
-    """The scene's text, its meshes found from anywhere."""
+    """Returns the scene's text with absolute paths of meshes."""
     lines = []
     for line in scene.read_text().splitlines():
         words = line.split()
@@ -29,7 +29,7 @@ def with_absolute_paths(scene):
 
 
 def with_mesh(text, mesh, camera):
-    """The scene with another mesh in place of its last one, and another camera."""
+    """Returns the scene with its last mesh and its camera replaced."""
     lines = text.splitlines()
     last = max(i for i, line in enumerate(lines) if line.startswith("ply_file"))
     lines[last] = f"ply_file {mesh}"
@@ -38,7 +38,8 @@ def with_mesh(text, mesh, camera):
 
 
 def variant_of(text, variant):
-    """mirrors: as it is; shadows: nothing reflects; lights: a second light."""
+    """Returns a variant of the scene. mirrors: unchanged; shadows: without reflections; lights:
+    with a second light."""
     if variant == "shadows":
         return text.replace("reflectivity 0.25", "reflectivity 0")
     if variant == "lights":
@@ -47,7 +48,7 @@ def variant_of(text, variant):
 
 
 def texts(names):
-    """Name and text of each scene asked for, or of all there are."""
+    """Returns {name: text} of the requested scenes, or of all available scenes."""
     if names:
         return {pathlib.Path(name).stem: with_absolute_paths(pathlib.Path(name).resolve())
                 for name in names}

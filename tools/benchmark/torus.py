@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Writes a mesh of any number of triangles: a bumpy torus, closed and without poles, so that every
-triangle is like its neighbors however many there are."""
+"""Writes a mesh of any number of triangles. It is a closed, bumpy torus. A torus has no poles, so
+triangles resemble their neighbors in meshes of every size."""
 
 import array
 import math
 import struct
 
 RING, TUBE, HEIGHT = 0.45, 0.2, 0.35
-BUMPS = [(3, 0.10), (7, 0.05), (19, 0.015)]  # times around, and depth
+BUMPS = [(3, 0.10), (7, 0.05), (19, 0.015)]  # periods around the torus, and depth
 
 HEADER = b"""ply
 format binary_little_endian 1.0
@@ -25,12 +25,13 @@ end_header
 
 
 def waves(angle):
-    """Returns the height at an angle and the slope of each kind of bump."""
+    """Returns (height, slope) of each kind of bump at an angle."""
     return [(math.sin(n * angle + n), n * math.cos(n * angle + n)) for n, _ in BUMPS]
 
 
 def vertex(u, v, over, along):
-    """Position and normal at two angles, of which the waves are known."""
+    """Returns position and normal. u and v are (cosine, sine) of the two angles; over and along are
+    their waves."""
     radius, by_u, by_v = TUBE, 0.0, 0.0
     for (_, depth), (a, slope_a), (b, slope_b) in zip(BUMPS, over, along):
         radius += TUBE * depth * a * b
@@ -39,14 +40,14 @@ def vertex(u, v, over, along):
     cosine, sine = v
     out = RING + radius * cosine
     outward, upward = by_v * cosine - radius * sine, by_v * sine + radius * cosine
-    # Across the ring, along it, and up.
+    # The components are across the ring, along the ring, and up.
     normal = (out * upward, by_u * (sine * outward - cosine * upward), -out * outward)
     return (out * u[0], out * u[1], HEIGHT + radius * sine,
             normal[0] * u[0] - normal[1] * u[1], normal[0] * u[1] + normal[1] * u[0], normal[2])
 
 
 def write(path, wanted):
-    """Writes about as many triangles as wanted and returns how many they are."""
+    """Writes about `wanted` triangles, and returns their number."""
     across = max(3, round(math.sqrt(wanted / 4)))
     around = 2 * across
     angles = [math.tau * j / across for j in range(across)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# libclrt: the stages below the command line behind one header, with what pkg-config and CMake need
-# to find it.  Programs see the functions of clrt.h and no others.
+# libclrt: the stages below the command line behind one header, clrt.h, with files for pkg-config
+# and CMake. The library exports only the functions of clrt.h.
 set_target_properties(clrt_core clrt_cl PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
 file(GLOB library_sources CONFIGURE_DEPENDS host/library/*.c)
@@ -16,7 +16,7 @@ target_include_directories(
 target_link_libraries(clrt_library PRIVATE clrt_cl)
 target_link_options(clrt_library PRIVATE -Wl,--version-script=${library_map})
 
-# Debian puts what programs run with and what they are built with into two packages.
+# Debian splits a library into a package for running programs and a package for building them.
 install(TARGETS clrt_library EXPORT clrt
         LIBRARY COMPONENT library NAMELINK_COMPONENT development
         PUBLIC_HEADER COMPONENT development)
@@ -26,7 +26,7 @@ install(EXPORT clrt FILE clrtConfig.cmake NAMESPACE clrt:: DESTINATION ${package
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/clrtConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
-# Found from where the file lies, so that an installed tree may be moved.
+# The prefix is relative to the file's folder, so that an installed tree can be moved.
 file(RELATIVE_PATH prefix_of_pkgconfig ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
      ${CMAKE_INSTALL_PREFIX})
 configure_file(tools/package/clrt.pc.in clrt.pc @ONLY)

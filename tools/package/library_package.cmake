@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# libclrt as Debian has libraries: one package for programs to run with and one to build them with.
-# Their documents are no part of other installations.
+# The Debian packages of libclrt: one for running programs and one for building them. Their
+# documents are not part of other installations.
 list(APPEND CPACK_COMPONENTS_ALL library development)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
@@ -15,7 +15,7 @@ bits on every device.")
 file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${folder}/shlibs "libclrt 0 libclrt0 (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${folder}/triggers;${folder}/shlibs")
-# With this option CPack would add scripts that run ldconfig, beside the trigger.
+# With this option, CPack would add scripts that run ldconfig, although the trigger already does.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/tools/package/library_depends.cmake)
 set(CPACK_CLRT_LIBRARY ${CMAKE_BINARY_DIR}/libclrt.so.${PROJECT_VERSION})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The files of an installation beside the program, and the Debian packages, which cmake --workflow
-# --preset package makes. The packages run no script at installation. Kernels are compiled on first
-# use, or by clrt --warm.
+# The other files of an installation, and the Debian packages. `cmake --workflow --preset package`
+# builds them. The packages run no scripts at installation. Kernels are compiled on first use, or by
+# clrt --warm.
 set(folder ${CMAKE_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")
@@ -19,13 +19,13 @@ endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# Debian's archive has no request for the package that its changelog could close. lintian -I has
-# three more remarks: CPack's strip leaves the compilers' names (.comment) in, shlibs gives the
-# versions of symbols, and "ment" is a piece of a word that the compiler has cut.
+# Debian has no package request that the changelog could close. lintian -I makes three more remarks,
+# all harmless. CPack's strip keeps the section .comment, and shlibs replaces a symbols file. The
+# word "ment" is part of a word that the compiler has split.
 file(WRITE ${folder}/clrt "clrt: initial-upload-closes-no-bugs\n")
 install(FILES ${folder}/clrt DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides)
 
-# The scenes that need no large model.
+# Scenes without large models.
 file(GLOB examples scenes/*.ply)
 foreach(scene blinn_phong matte reflections silhouette simple)
   list(APPEND examples scenes/${scene}.scn)
@@ -34,7 +34,7 @@ install(FILES ${examples} DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The clrt authors")
-# Who makes a package for others is its maintainer; the authors have no address, and so it says.
+# Packagers set their own name and address. The authors have no address.
 set(CLRT_MAINTAINER "The clrt authors <nobody@clrt.invalid>" CACHE STRING
     "Name and address of whoever maintains the Debian packages")
 set(CPACK_PACKAGE_CONTACT ${CLRT_MAINTAINER})

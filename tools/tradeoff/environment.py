@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The Python packages that the perceptual figures and the page want, pinned, in a virtual
-environment of their own under build/."""
+"""Installs the Python packages for perceptual figures and for the page. They have fixed versions,
+in a virtual environment under build/."""
 
 import hashlib
 import os
@@ -19,7 +19,7 @@ def is_inside():
 
 
 def install():
-    """Makes the environment; the reason where that fails, None where it stands."""
+    """Creates the environment. Returns the reason on failure, None on success."""
     stamp = FOLDER / "installed"
     wanted = hashlib.sha256(REQUIREMENTS.read_bytes()).hexdigest()
     if stamp.exists() and stamp.read_text() == wanted:
@@ -39,7 +39,8 @@ def install():
 
 
 def enter():
-    """Goes on in the environment; returns the reason where there is none."""
+    """Restarts the program in the environment. Returns None if it already runs there, or the reason
+    if installation fails."""
     if is_inside():
         return None
     reason = install()

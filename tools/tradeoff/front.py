@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Which settings nothing beats, and what an error costs."""
+"""Finds the Pareto front of settings, and the fastest setting for an error."""
 
 
 def mark(rows):
-    """Sets "front" of each row: no other is as fast and as right, and better in one of the two."""
+    """Sets "front" of each row to whether no other row beats it: at least as fast and accurate, and
+    better in one of them."""
     for row in rows:
         row["front"] = not any(
             other["milliseconds"] <= row["milliseconds"] and other["rmse"] <= row["rmse"]
@@ -12,11 +13,11 @@ def mark(rows):
 
 
 def front(rows):
-    """The rows on the front, the fastest first."""
+    """Returns the rows on the front, the fastest first."""
     return sorted((row for row in rows if row["front"]), key=lambda row: row["milliseconds"])
 
 
 def time_at(rows, rmse):
-    """The fastest row within an error, None where no setting is."""
+    """Returns the fastest row with at most that error, or None."""
     within = [row for row in rows if row["rmse"] <= rmse]
     return min(within, key=lambda row: row["milliseconds"], default=None)

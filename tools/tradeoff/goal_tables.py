@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes the page's tables of goals."""
+"""Creates the page's tables of goals."""
 
 import html
 
@@ -46,7 +46,7 @@ NOTE = ('<p class="note">What is estimated contains the most that rays beyond th
 
 
 def of_scene(scene):
-    """The goals of one scene."""
+    """Returns the tables of one scene's goals."""
     told = scene["goals"]
     tables = [table(head, map(row, goals_of_kind))
               for head, row, goals_of_kind in [(ERROR_HEAD, error_row, told["errors"]),
@@ -62,7 +62,7 @@ def short(goal):
 
 
 def of_all(scenes):
-    """A row a scene, a column an error."""
+    """Returns a table with a row per scene and a column per error."""
     asked = [goal["goal"] for goal in scenes[0]["goals"]["errors"]]
     rows = [[html.escape(scene["scene"]), *map(short, scene["goals"]["errors"])]
             for scene in scenes]

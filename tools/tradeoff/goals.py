@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""What goals hold and cost: each beside the fastest fixed setting that holds the same error, and
-the fastest of those that take N x N samples everywhere."""
+"""Judges whether clrt meets goals, and at which cost. Compares each error goal with the fastest
+fixed setting that meets it, and with the fastest setting of N x N samples per pixel."""
 
 from tradeoff import front
 
-# Errors up to this times the goal count as held, as in tests/image/test_goals.c.
+# Errors up to this multiple of the goal meet the goal, as in tests/image/test_goals.c.
 MARGIN = 1.1
 
 
 def rival(row, rows):
-    """The fastest of the rows within the goal of the row, and what the row costs beside it."""
+    """Returns the fastest of rows that meets the row's goal, with the row's relative cost, or
+    None."""
     best = front.time_at(rows, row["goal"])
     if best is None:
         return None
@@ -30,7 +31,7 @@ def judge_error(row, rows):
 
 
 def judge_time(row, rows):
-    """A time's rival is the least wrong fixed setting that takes no longer."""
+    """Compares a time goal with the most accurate fixed setting that is not slower."""
     within = [other for other in rows
               if other["goal"] is None and other["milliseconds"] <= row["milliseconds"]]
     best = min(within, key=lambda other: other["rmse"], default=None)
@@ -42,7 +43,8 @@ def judge_time(row, rows):
 
 
 def judge(rows):
-    """The goals of a scene: {"errors": [...], "times": [...]}, in the order of the rows."""
+    """Returns the goals of a scene as {"errors": [...], "times": [...]}, in the order of the
+    rows."""
     return {"errors": [judge_error(row, rows) for row in rows if row["kind"] == "error"],
             "times": [judge_time(row, rows) for row in rows if row["kind"] == "time"]}
 
@@ -52,7 +54,7 @@ def all_errors(scenes):
 
 
 def summary(scenes):
-    """One sentence on all errors that were asked for, None where none was."""
+    """Returns a sentence about all error goals, or None without error goals."""
     errors = all_errors(scenes)
     if not errors:
         return None

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The settings that are tried: a kind, a name and clrt's words for each.  Goals tell clrt what is
-wanted, an error or a time; all other kinds are fixed settings."""
+"""The settings to measure. Each has a kind, a name and arguments for clrt. The kinds error and time
+are goals; all other kinds are fixed settings."""
 
 import collections
 
@@ -8,10 +8,10 @@ from benchmark import common
 
 KINDS = ["uniform", "levels", "fp64", "adaptive", "error", "time"]
 
-# The assignment's own setting, which others are compared with.
+# The course assignment's setting, the base of comparisons.
 BASE = "aa=2"
 
-# Goals: root mean square errors, and seconds of tracing.
+# The goals: root mean square errors, and seconds of tracing.
 ERRORS = [0.02, 0.01, 0.005, 0.002]
 SECONDS = [0.5, 2]
 
@@ -51,6 +51,6 @@ def many_settings():
 
 
 def all_settings(is_quick, kinds):
-    """Those of the kinds; a quick grid has few."""
+    """Returns the settings of these kinds. A quick grid has few settings."""
     settings = quick_settings() if is_quick else many_settings()
     return [chosen for chosen in settings if chosen.kind in kinds]

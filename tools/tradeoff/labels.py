@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Names of points, placed so that none lies on another name or on a point: each takes the nearest
-of places around its point that is free, and a thin line where that is far."""
+"""Places the names of points so that they cover neither names nor points. Each name takes the
+nearest free position around its point. A thin line leads to a distant name."""
 
 import math
 
-SIZE = 8  # of the letters, in points
+SIZE = 8  # of letters, in typographic points
 GAP = 6  # between a point and its name
-FAR = 18  # from here on a line leads to the name
+FAR = 18  # from this distance on, a line leads to the name
 DIRECTIONS = [(1, 1), (-1, -1), (1, -1), (-1, 1), (0, 1), (0, -1), (1, 0), (-1, 0)]
 DISTANCES = [GAP, 14, 24, 36, 50, 66, 84]
 
 
 def extent(text):
-    """Half the width and half the height of a name, in points, roughly."""
+    """Returns approximately half the width and half the height of a name, in typographic points."""
     return 0.29 * SIZE * len(text) + 1, 0.62 * SIZE
 
 
@@ -38,7 +38,7 @@ def outside(box, frame):
 
 
 def cost(candidate, half, taken, frame):
-    """Returns the covered area first and the distance second."""
+    """Returns (covered area, distance), the order of preference."""
     distance, center = candidate
     box = box_at(center, half)
     covered = sum(overlap(box, other) for other in taken)
@@ -46,7 +46,8 @@ def cost(candidate, half, taken, frame):
 
 
 def place(names, points, frame):
-    """[(center, distance)] of each of the names ((x, y), text), in points of the page."""
+    """Returns (center, distance) of each name. A name is ((x, y), text); all lengths are
+    typographic points."""
     taken = [(x - 4, y - 4, x + 4, y + 4) for x, y in points]
     placed = []
     for point, text in names:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A scene and settings -> rows of figures: time, and error against one reference."""
+"""A scene and settings -> rows of figures, with time and with error against one reference."""
 
 import json
 import pathlib
@@ -11,12 +11,13 @@ import sys
 from benchmark import common
 from tradeoff import front, goals, grid, uniform
 
-# Pictures that a process draws: the first pays for what comes late, the others are timed.
+# The number of pictures that a process draws. The first picture includes late initialization, so
+# only the others are timed.
 FRAMES = 3
 
 
 def names_of(paths):
-    """The files' names without endings, numbered where two are the same."""
+    """Returns the files' names without endings. Repeated names get a number."""
     names = []
     for path in paths:
         stem = pathlib.Path(path).stem
@@ -26,7 +27,7 @@ def names_of(paths):
 
 
 def run_clrt(words, may_miss=False):
-    """clrt ends with 1 where it misses an error that is asked for."""
+    """Runs clrt. With may_miss, exit status 1 is allowed, because clrt may miss an error goal."""
     done = subprocess.run([common.CLRT, *map(str, words)], capture_output=True, text=True,
                           check=False)
     if done.returncode not in ([0, 1] if may_miss else [0]):
@@ -35,7 +36,7 @@ def run_clrt(words, may_miss=False):
 
 
 def draw_reference(scene, options, folder):
-    """The report of a run with a reference, which is written to folder."""
+    """Writes a reference to folder. Returns the report of the run."""
     report = folder / "reference.json"
     run_clrt([scene, "-q", "-o", folder / "unused.pfm", *options.clrt_words,
               f"--reference={folder / 'reference.pfm'}",
@@ -49,16 +50,16 @@ def compare(picture, reference, picture_map=None):
 
 
 def draw(setting, scene, options, picture, *more):
-    """Draws the scene with a setting; what clrt said."""
+    """Draws the scene with a setting. Returns the finished process."""
     return run_clrt([scene, "-q", "-o", picture, *options.clrt_words, *setting.words, *more],
                     may_miss=setting.kind == "error")
 
 
 def first_row(place, setting, scene, options, folder):
-    """Draws a setting's picture, with statistics, and judges it."""
+    """Draws a setting's picture with statistics, and compares it with the reference."""
     picture, report = folder / f"{place}.pfm", folder / f"{place}.json"
     draw(setting, scene, options, picture, f"--stats={report}")
-    if setting.kind == "time":  # counting slows, and so changes the picture
+    if setting.kind == "time":  # counting is slow, so a time goal would give another picture
         draw(setting, scene, options, picture)
     told = compare(picture, folder / "reference.pfm", folder / f"{place}-map.png")
     statistics_of = json.loads(report.read_text())
@@ -74,7 +75,7 @@ def first_row(place, setting, scene, options, folder):
 
 
 def holding_settings(rows, scene, options, folder):
-    """The uniform settings that hold the errors asked for, as far as the rows lack them."""
+    """Returns the uniform settings that meet the error goals and that rows do not contain."""
     tried = {int(row["setting"][len("aa="):]): row["rmse"] for row in rows
              if row["kind"] == "uniform"}
     known = set(tried)
@@ -112,7 +113,8 @@ def first_rows(scene, options, folder):
 
 
 def measure_scene(scene, name, options, folder):
-    """All figures of one scene.  Settings alternate, so that none has the quiet hours."""
+    """Returns all figures of one scene. Settings alternate, so that drift of the machine affects
+    all of them."""
     folder.mkdir(parents=True, exist_ok=True)
     report = draw_reference(scene, options, folder)
     rows = first_rows(scene, options, folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Everything on one page that needs no other file."""
+"""Writes all results as one HTML page that needs no other file."""
 
 import base64
 import datetime
@@ -77,8 +77,8 @@ def png_of_pfm(path):
 
 
 def shown_rows(rows):
-    """The fastest, the base, the least wrong that is as fast as the base, a goal, and the least
-    wrong."""
+    """Returns the rows whose pictures are shown: the fastest, the base, a goal, and the most
+    accurate row. The most accurate row as fast as the base is also shown."""
     best = front.front(rows)
     base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
     rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]
@@ -112,7 +112,7 @@ def price_cell(scene, error):
 
 
 def prices(scenes):
-    """Makes the table of the fastest setting within each error."""
+    """Returns a table of the fastest setting for each error."""
     head = "".join(f"<th>RMSE &le; {100 * error:g} %</th>" for error in ERRORS)
     body = "".join(f"<tr><td>{html.escape(scene['scene'])}</td>"
                    + "".join(price_cell(scene, error) for error in ERRORS) + "</tr>"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""SSIM and FLIP of PFM files: what an eye makes of a difference.  Both take the values as those of
-a display; FLIP's mean is at 67 pixels a degree, its own default."""
+"""Computes SSIM and FLIP of PFM files, which estimate visible differences. Both interpret the
+values as display values. FLIP assumes 67 pixels per degree, its default."""
 
 import flip_evaluator
 import numpy

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Rows -> an SVG: log error against log time.  Settings on the front are filled and joined, the
-others hollow; a line across shows how far the reference is to be trusted."""
+"""Rows -> an SVG of error against time, both logarithmic. Settings on the Pareto front have filled,
+connected markers; other settings have hollow markers. A horizontal line shows the reference's own
+error."""
 
 import io
 import math
@@ -39,13 +40,14 @@ def named(row):
 
 
 def on_page(axes, row):
-    """Where a row's marker is, in points of the page."""
+    """Returns the position of a row's marker in typographic points."""
     x, y = axes.transData.transform((row["milliseconds"], 100 * row["rmse"]))
     return x * 72 / axes.figure.dpi, y * 72 / axes.figure.dpi
 
 
 def name_rows(axes, rows):
-    """Names what is on the front, the base and the goals.  The axes must be where they stay."""
+    """Names the settings on the front, the base and the goals. The axes must have their final
+    position."""
     frame = [value * 72 / axes.figure.dpi for value in axes.bbox.extents]
     chosen = sorted(filter(named, rows), key=lambda row: row["milliseconds"])
     names = [(on_page(axes, row), row["setting"].replace("max-level", "level")) for row in chosen]
@@ -86,7 +88,7 @@ def draw_scene(axes, scene):
 
 
 def svg(scenes):
-    """All scenes in rows of three, as the text of an SVG."""
+    """Returns an SVG with a plot per scene, three in a row."""
     columns = min(len(scenes), COLUMNS)
     lines = math.ceil(len(scenes) / columns)
     with pyplot.rc_context({"svg.hashsalt": "clrt", "svg.fonttype": "none",

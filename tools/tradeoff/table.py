@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The figures as CSV and as lines of text."""
+"""Writes the figures as CSV and as lines of text."""
 
 import csv
 
@@ -20,7 +20,7 @@ def write_csv(path, scenes):
 
 
 def show(scene):
-    """Lines of what matters, the fastest setting first, with a star on the front."""
+    """Yields a line per setting, the fastest first, with a star for settings on the front."""
     reference = scene["reference"]
     yield (f"{scene['scene']}: reference of {reference['samples']} samples, "
            f"RMSE {reference['own_error']:.2g} by itself")
@@ -38,7 +38,7 @@ def rival_text(rival):
 
 
 def show_goals(scenes):
-    """Lines of what became of each error that was asked for, and of each time."""
+    """Yields a line for each error goal and each time goal."""
     for scene in scenes:
         for goal in scene["goals"]["errors"]:
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} "

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""The fewest samples along a pixel's side that hold an error: what goals are compared with.
-Between sides of the grid they are found by halves, as if more samples were never more wrong."""
+"""Finds the fewest N x N samples per pixel that meet an error. Bisects between the measured values
+of N, and assumes that more samples never increase the error."""
 
-# More samples than these along a side are not tried.
+# The largest N to try.
 LARGEST = 64
 
 
 def side_that_holds(error, tried, rmse_of):
-    """The side, None where none up to LARGEST holds.  `tried` maps sides to their RMSE and is added
-    to, by `rmse_of(side)`."""
+    """Returns the smallest N that meets the error, or None if even LARGEST does not. `tried` maps N
+    to its RMSE. Adds values from `rmse_of(N)` to `tried`."""
     def holds(side):
         if side not in tried:
             tried[side] = rmse_of(side)

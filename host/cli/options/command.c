@@ -23,15 +23,15 @@ const Command *command_of_action(Action action)
 
 const Command command_table[] = {
     {"check", ACTION_CHECK, FOR_CHECK, "SCENE",
-     "look for what is wrong in the scene's geometry, and draw nothing", NULL},
+     "report faults in the scene's geometry; draw nothing", NULL},
     {"compare", ACTION_COMPARE, FOR_COMPARE, "PICTURE PICTURE",
      "report how much two pictures differ; -o draws a map of the differences",
      "the names of two pictures"},
     {"merge", ACTION_MERGE, FOR_MERGE, "PART...",
-     "join the EXR files of all parts that --part drew into the whole picture, -o", NULL},
+     "join the EXR files of all parts (--part) into the whole picture (-o)", NULL},
     {"convert", ACTION_CONVERT, FOR_CONVERT, "SCENE FILE",
-     "write a scene or mesh in any format as FILE: .scn, with a binary .ply for each mesh beside "
-     "it, or .ply, all meshes in one",
+     "write a scene or mesh as FILE: a .scn with a binary .ply per mesh beside it, or one .ply "
+     "with all meshes",
      "the names of a scene or mesh and of the file to write"},
 };
 

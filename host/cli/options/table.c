@@ -22,71 +22,71 @@ const Option option_table[] = {
      "write the picture; the file's ending sets the format; - is standard output"},
     {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_COMPARE | FOR_MERGE,
-     "write this format for any ending (png for standard output)"},
+     "write this format regardless of the ending (default for standard output: png)"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
-     "8-bit files: raw values (default) or srgb"},
+     "values of 8-bit files: raw (default) or srgb"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
      "add channels to an EXR file; the names are below"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
     {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "print a hash of the pixels, as they are traced, on standard output"},
+     "print a hash of the traced pixels on standard output"},
     {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "exit 1 if the pixels have another hash"},
+     "exit with status 1 if the pixels have another hash"},
 
     {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
-     "size of the picture in pixels (the scene's, or 512x512)"},
+     "size of the picture in pixels (default: the scene's, or 512x512)"},
     {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_FILE,
-     "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); with a dot in a number, all four "
-     "are fractions of the sides; an EXR file records their position"},
+     "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); if a number has a dot, all four are "
+     "fractions of the sides; an EXR file records the position"},
     {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
-     "look through the scene's N-th camera (1); without any, the course's six"},
+     "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
-     "anti-alias with N x N samples a pixel (2)"},
+     "take N x N samples per pixel (default: 2)"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_FILE,
-     "anti-alias where neighbors differ, down to a contrast of T in a pixel (0.02)"},
+     "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
-     "rays of level N see the background (the scene's, or 3): off by at most R^N, R being the "
-     "scene's highest reflectivity; auto: the least N for which that shows in no file"},
+     "rays of level N see the background (default: the scene's N, or 3); the error is at most "
+     "R^N, where R is the highest reflectivity; auto: the smallest N whose error no file shows"},
     {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
-     "choose samples, levels and precision for a root mean square error of E, as 0.005 or 0.5%"},
+     "choose samples, levels and precision for a root mean square error of E, such as 0.5%"},
     {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
-     "choose the samples so that tracing takes S seconds"},
+     "choose the number of samples so that tracing takes S seconds"},
     {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_TRACING,
-     "arithmetic: fp32 (default), or fp64, the reference, with rays one by one and pairs"},
+     "arithmetic: fp32 (default), or fp64 as a reference, with single rays and pair nodes"},
 
     {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "build the tree by the surface area heuristic (default) or by midpoints; unless one is "
-     "named, up to 32 triangles get none"},
+     "build the tree by the surface area heuristic (default) or by midpoints; without this "
+     "option, up to 32 triangles get no tree"},
     {"no-bvh", NULL, 0, ODD(set_no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "build no tree, test every triangle instead"},
+     "build no tree and test every triangle"},
     {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
-     "size of the tiles that the picture is traced in (128x128)"},
+     "size of the tiles in which the picture is traced (default: 128x128)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
-     FOR_PICTURE, "size of the device's work-groups (8x8; 2x2 packets)"},
+     FOR_PICTURE, "size of the device's work-groups (default: 8x8; for packets 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN,
-     "compile kernels for the scene: where it pays (default), always or never"},
+     "compile kernels for this scene: if it pays (default), always or never"},
     {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "trace rays one by one or packets of 4x4 pixels; auto (default) chooses by the device"},
+     "trace single rays or packets; auto (default) chooses by the device"},
     {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "nodes of two children or of eight; auto (default) is what suits the kernel"},
+     "nodes with two or eight children; auto (default) chooses by the kernel"},
     {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
-     "width of the kernels' vectors; auto (default) is the device's"},
+     "width of the kernels' vectors; auto (default) chooses by the device"},
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw N pictures, each with the camera turned by one N-th further about what it looks at; "
-     "the file's name is numbered in place of its #### or before its ending"},
+     "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
+     "each; numbers replace #### in the file's name or precede its ending"},
     {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw the views A to B, or those pictures of the turntable, or every S-th of them"},
+     "draw views A to B, or pictures A to B of the turntable, or every S-th of them"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw every N-th tile alone, from the I-th on; clrt merge joins the N parts"},
+     "draw only every N-th tile, from the I-th on; clrt merge joins the N parts"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
      "incomplete EXR file"},
@@ -96,43 +96,45 @@ const Option option_table[] = {
     {"list-devices", "[=text|json]", 0, ODD(set_list_devices), GROUP_DEVICE, CLASS_NONE,
      FOR_PICTURE, "list the OpenCL devices"},
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
-     "threads of a CPU device (all that the process may use)"},
+     "threads of a CPU device (default: all that the process may use)"},
     {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE,
-     "compile the kernels ahead, and those for SCENE where one is named; draw nothing"},
+     "compile the kernels ahead, also those for SCENE if it is named; draw nothing"},
 
     {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE, FOR_PICTURE | FOR_EXPLAIN,
-     "count rays and tests; as JSON with a FILE (- is standard output); time the window's frames"},
+     "count rays and tests; write them as JSON to FILE (- is standard output); in the window, "
+     "time frames"},
     {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
-     "measure the picture against one in fp64 with many samples; write that to FILE"},
+     "measure the picture against a reference in fp64 with many samples; write the reference to "
+     "FILE"},
     {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
-     FOR_FILE, "samples a pixel of the reference, an even number (256)"},
+     FOR_FILE, "samples per pixel of the reference, an even number (default: 256)"},
     {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE,
      FOR_FILE | FOR_EXPLAIN,
-     "draw the picture N times, for timing: -v and --stats=FILE report each time (1)"},
+     "draw the picture N times, for timing; -v and --stats=FILE report each time (default: 1)"},
     {"explain", NULL, 0, ACTION(ACTION_EXPLAIN_SCENE), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN,
-     "explain which kernel features and buffers this scene uses, which it omits and why; draw "
-     "nothing"},
+     "explain which kernel features and buffers this scene uses, and why the others are left "
+     "out; draw nothing"},
     {"explain-pixel", "X,Y", 0, ODD(set_explain_pixel), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL,
-     "explain the color of a pixel, ray by ray; draw nothing; X counts from the "
-     "left and Y from the top, both from 0"},
+     "explain the color of a pixel, ray by ray; X counts from the left and Y from the top, both "
+     "from 0; draw nothing"},
 
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
      FOR_FILE | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
-     "triangles of no area: drop (default) or fail, naming the first"},
+     "triangles without area: drop them (default), or fail and name the first"},
 
     {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
-     "compare: exit 1 past rmse=V, max=V, share1=V, share4=V, hits=V or below psnr=V"},
+     "compare: exit with status 1 above rmse=V, max=V, share1=V, share4=V or hits=V, or below "
+     "psnr=V"},
     {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
      FOR_CHECK | FOR_COMPARE | FOR_PIXEL | FOR_EXPLAIN,
-     "write the report of check or compare, or an explanation, as JSON, to FILE or "
-     "instead of the text"},
+     "write the report or explanation as JSON, to FILE or instead of the text"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
      "play these keys in the window, one per displayed frame"},
     {"quit-after", "N", 0, COUNT(quit_after, QUIT_AFTER_MOST), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
-     "close the window after N frames, counted once the keys are played"},
+     "close the window after N more frames once all keys are played"},
 
     {"quiet", NULL, 'q', FLAG(quiet), GROUP_TALK, CLASS_NONE,
      FOR_TRACING | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "print only errors"},
@@ -158,7 +160,7 @@ const char *const option_group_names[OPTION_GROUPS] = {
     [GROUP_GEOMETRY] = "Geometry",
     [GROUP_REPORT] = "Reports of check and compare",
     [GROUP_WINDOW] = "Window",
-    [GROUP_TALK] = "Talk",
+    [GROUP_TALK] = "Messages",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {
@@ -170,7 +172,7 @@ const char *const option_class_names[OPTION_CLASSES] = {
 
 const char *const option_class_meanings[OPTION_CLASSES] = {
     [CLASS_NONE] = "",
-    [CLASS_EXACT] = "every value gives the same bits",
+    [CLASS_EXACT] = "all values give the same bits",
     [CLASS_BOUNDED] = "the error is at most the stated bound",
     [CLASS_STATISTICAL] = "the error can be measured, but has no bound",
 };
