@@ -2,23 +2,23 @@
 // The kernels of --aov write per-pixel data beside the color, found by the search that renders the
 // picture. They are compiled after render.cl, and only if requested.
 
-static inline Truth light_reaches(const SceneView *scene, const FrameData *frame, uint index,
-                                  const Surface *surface, Truth met)
+static inline Mask light_reaches(const SceneView *scene, const FrameData *frame, uint index,
+                                 const Surface *surface, Mask met)
 {
     Tally tally = {0};
-    const SeenLight light = see_light(scene, index, surface, met);
+    const LightSample light = sample_light(scene, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
     const Ray ray = ray_to_light(scene, surface, &light);
     return light.faces && !is_blocked(scene, frame, &ray, &tally);
 }
 
-static inline Count lights_reaching(const SceneView *scene, const FrameData *frame,
-                                    const Surface *surface, Truth met)
+static inline UInt lights_reaching(const SceneView *scene, const FrameData *frame,
+                                   const Surface *surface, Mask met)
 {
-    Count lights = 0;
+    UInt lights = 0;
     for (uint index = 0; index < frame->light_count; index++)
-        lights += light_reaches(scene, frame, index, surface, met) ? (Count)(1) : (Count)(0);
+        lights += light_reaches(scene, frame, index, surface, met) ? (UInt)(1) : (UInt)(0);
     return lights;
 }
 
@@ -26,18 +26,18 @@ static inline Count lights_reaching(const SceneView *scene, const FrameData *fra
 typedef struct {
     Real3 point, normal;
     Real depth;
-    Count primitive, material, lights, bounces;
+    UInt primitive, material, lights, bounces;
 } Path;
 
 static inline Path path_to(const SceneView *scene, const FrameData *frame, const Hit *hit,
-                           const Surface *surface, Truth met)
+                           const Surface *surface, Mask met)
 {
     const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
     return (Path){.point = choose3(met, surface->point, zero),
                   .normal = choose3(met, surface->normal, zero),
                   .depth = met ? hit->t : (Real)(INFINITY),
-                  .primitive = met ? hit->id : (Count)(NOTHING),
-                  .material = met ? surface->material : (Count)(NOTHING),
+                  .primitive = met ? hit->id : (UInt)(NOTHING),
+                  .material = met ? surface->material : (UInt)(NOTHING),
                   .lights = lights_reaching(scene, frame, surface, met)};
 }
 
@@ -48,9 +48,9 @@ static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ra
     Tally tally = {0};
     for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
         if (level > 0)
-            path.bounces += ray.active ? (Count)(1) : (Count)(0);
+            path.bounces += ray.active ? (UInt)(1) : (UInt)(0);
         const Hit hit = nearest_hit(scene, frame, &ray, &tally);
-        const Truth met = ray.active && hit.id != NOTHING;
+        const Mask met = ray.active && hit.id != NOTHING;
         if (!any_lane(met))
             break;
         const Surface surface = surface_at(scene, frame, &ray, &hit, met);
@@ -86,7 +86,7 @@ static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, s
 
 static inline Places places_at(const FrameData *frame, uint2 corner)
 {
-    const Count column = corner.x + LANE_X, row = corner.y + LANE_Y;
+    const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;
     return (Places){frame->tile_x + column, frame->tile_y + row,
                     column < frame->tile_width && row < frame->tile_height};
 }

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty decides each pixel's ray tree again with thick rays (thick.cl). A
-// pixel is certified if no rounding of the fp32 tracer could change a decision. It is repaired if
-// that holds only for the fp64 tracer, whose color it then gets. All other pixels are open. The
-// kernel is compiled after render.cl with CLRT_FP64, and only if requested.
-#include "sure_surface.cl"
+// The kernel of --aov certainty decides each pixel's ray tree again with thick rays
+// (certify_cone.cl). A pixel is certified if no rounding of the fp32 tracer could change a
+// decision. It is repaired if that holds only for the fp64 tracer, whose color it then gets. All
+// other pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if
+// requested.
+#include "certify_surface.cl"
 
 // The decisions so far, as a tracer in real arithmetic would make them.
 typedef struct {
     uint first_id, lit, signature; // as in CertaintyMark
 } Decisions;
 
-static inline void note_decision(Decisions *decisions, uint word)
+static inline void hash_decision(Decisions *decisions, uint word)
 {
     const uint mixed = (decisions->signature ^ word) * 0x9e3779b1u;
     decisions->signature = mixed ^ mixed >> 15;
 }
 
 // A point's relation to a light: turned away, lit, in shadow, or undecided.
-typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightSight;
+typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightVisibility;
 
-static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
-                                     const FatSurface *surface, const ThickRay *to_light)
+static inline LightVisibility certify_light(const SceneView *scene, const FrameData *frame,
+                                            const UncertainSurface *surface,
+                                            const RayCone *to_light)
 {
-    const Answer faces = surely_faces(surface, to_light);
+    const Answer faces = certify_facing(surface, to_light);
     if (faces == ANSWER_NO)
         return SIGHT_BEHIND;
     if (faces == ANSWER_UNKNOWN || !is_usable(to_light))
         return SIGHT_OPEN;
-    const Answer blocked = surely_blocked(scene, frame, to_light);
+    const Answer blocked = certify_occlusion(scene, frame, to_light);
     if (blocked == ANSWER_UNKNOWN)
         return SIGHT_OPEN;
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
@@ -35,17 +37,17 @@ static inline LightSight surely_seen(const SceneView *scene, const FrameData *fr
 
 // Sets the bits of lit for the first 32 lights.
 static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
-                                 const FatSurface *surface, Real u, Decisions *decisions)
+                                 const UncertainSurface *surface, Real u, Decisions *decisions)
 {
     uint lit = 0;
     for (uint index = 0; index < frame->light_count; index++) {
         const Real3 light = load3(scene->lights[index].position);
-        const ThickRay ray = thick_shadow_ray(surface, light, u);
-        const LightSight sight = surely_seen(scene, frame, surface, &ray);
-        if (sight == SIGHT_OPEN)
+        const RayCone ray = shadow_cone(surface, light, u);
+        const LightVisibility projected = certify_light(scene, frame, surface, &ray);
+        if (projected == SIGHT_OPEN)
             return false;
-        note_decision(decisions, sight);
-        if (index < 32 && sight == SIGHT_CLEAR)
+        hash_decision(decisions, projected);
+        if (index < 32 && projected == SIGHT_CLEAR)
             lit |= 1u << index;
     }
     decisions->lit = lit;
@@ -56,18 +58,18 @@ static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
 static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 sample, Real u,
                           Decisions *decisions)
 {
-    ThickRay ray = thick_camera_ray(frame, sample, u);
+    RayCone ray = camera_cone(frame, sample, u);
     *decisions = (Decisions){NOTHING, 0, 0};
     for (uint level = 0; level < frame->max_level; level++) {
         if (!is_usable(&ray))
             return false;
-        const Nearest nearest = surely_nearest(scene, frame, &ray);
-        if (!nearest_is_sure(&nearest))
+        const Nearest nearest = certify_nearest_hit(scene, frame, &ray);
+        if (!nearest_is_certain(&nearest))
             return false;
-        note_decision(decisions, nearest.id);
+        hash_decision(decisions, nearest.id);
         if (nearest.id == NOTHING)
             return true;
-        const FatSurface surface = fat_surface(scene, frame, &ray, &nearest);
+        const UncertainSurface surface = uncertain_surface(scene, frame, &ray, &nearest);
         const MaterialLanes material = fetch_material(scene, surface.material);
         Decisions here = {nearest.id, 0, decisions->signature};
         if (material.shader != SHADER_SILHOUETTE &&
@@ -77,7 +79,7 @@ static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 
             level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
         if (material.reflectivity == 0.0f)
             return true;
-        ray = thick_reflected_ray(&surface, &ray);
+        ray = reflected_cone(&surface, &ray);
     }
     return true;
 }

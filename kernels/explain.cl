@@ -33,13 +33,13 @@ static inline void note3(const Notes *notes, uint place, Real3 value)
     note(notes, place + 2, value.z);
 }
 
-static inline void note_count(const Notes *notes, uint place, Count value)
+static inline void note_count(const Notes *notes, uint place, UInt value)
 {
     notes->words[place] = ((const uint *)&value)[0];
 }
 
-// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.cl).
-static inline Real triangle_error(const SceneView *scene, const Ray *ray, Count index)
+// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.inc.cl).
+static inline Real triangle_error(const SceneView *scene, const Ray *ray, UInt index)
 {
     const Corners corners = fetch_corners(scene, index);
     const ShearAxes axes = shear_axes(ray->direction);
@@ -62,7 +62,7 @@ static inline Real size_of3(Real3 v)
 // the distances to them. The nearer root is therefore within the square root of |residual| /
 // |direction|^2. Where the ray does not graze, it is also within twice a Newton step. Evaluating
 // the residual is allowed 64 units of two-float rounding.
-static inline Real sphere_error(const SceneView *scene, const Ray *ray, Count index, Real t)
+static inline Real sphere_error(const SceneView *scene, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(scene, index);
     const Real3 d = ray->direction;
@@ -91,18 +91,18 @@ static inline void note_light(const Notes *notes, const SceneView *scene, const 
 {
     Tally tally = {0};
     Lighting received = *lighting;
-    const SeenLight light = see_light(scene, index, lighting->surface, lighting->wanted);
+    const LightSample light = sample_light(scene, index, lighting->surface, lighting->wanted);
     note(notes, LIGHT_COSINE, light.cosine);
     note_count(notes, LIGHT_STATE,
-               light.cosine > 0.0f ? (Count)(LIGHT_BEHIND_FACE) : (Count)(LIGHT_BEHIND));
-    note_count(notes, LIGHT_BLOCKER, (Count)(NOTHING));
+               light.cosine > 0.0f ? (UInt)(LIGHT_BEHIND_FACE) : (UInt)(LIGHT_BEHIND));
+    note_count(notes, LIGHT_BLOCKER, (UInt)(NOTHING));
     if (!any_lane(light.faces))
         return;
     const Ray ray = ray_to_light(scene, lighting->surface, &light);
     const Hit blocker = blocking_hit(scene, frame, &ray, &tally);
     receive_light(scene, frame, index, &received, &tally);
     note_count(notes, LIGHT_STATE,
-               blocker.id == NOTHING ? (Count)(LIGHT_SEEN) : (Count)(LIGHT_BLOCKED));
+               blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
     note(notes, LIGHT_BLOCKER_T, blocker.t);
     note(notes, LIGHT_DIFFUSE, received.diffuse);
@@ -116,7 +116,7 @@ static inline void note_hit(const Notes *notes, const SceneView *scene, const Fr
     note3(notes, LEVEL_DIRECTION, ray->direction);
     note(notes, LEVEL_T, hit->t);
     note_count(notes, LEVEL_PRIMITIVE, hit->id);
-    const Truth met = ray->active && hit->id != NOTHING;
+    const Mask met = ray->active && hit->id != NOTHING;
     if (!any_lane(met))
         return;
     const Hit hits = hit_everywhere(hit, met);
@@ -148,7 +148,7 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
     for (*end->words = 0; *end->words < frame->max_level;) {
         const Notes level = level_notes(notes, frame, (*end->words)++);
         const Hit hit = nearest_hit(scene, frame, &ray, &tally);
-        const Truth met = ray.active && hit.id != NOTHING;
+        const Mask met = ray.active && hit.id != NOTHING;
         note_hit(&level, scene, frame, &ray, &hit);
         note(&level, LEVEL_WEIGHT, weight);
         if (!any_lane(met))
@@ -157,7 +157,7 @@ static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame,
         const MaterialLanes material = fetch_material(scene, surface.material);
         const Lighting dark = lighting_of(&surface, &material, met);
         const Real3 shaded = shade(scene, frame, dark, &tally);
-        const Truth ends = met && material.reflectivity == 0.0f;
+        const Mask ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
         note_surface(&level, scene, frame, &dark);
         note3(&level, LEVEL_SHADED, shaded);
@@ -184,7 +184,7 @@ kernel void explain_sample(const FrameData frame, global const PointLight *light
 {
     const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const Notes notes = {values, words}, end = {result, count};
-    const Ray ray = camera_ray(&frame, (Count)(column), (Count)(row), lanes_of(1));
+    const Ray ray = camera_ray(&frame, (UInt)(column), (UInt)(row), lanes_of(1));
     const Real3 color = trace_noting(&scene, &frame, ray, &notes, &end);
     note3(&end, 0, real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z)));
 }

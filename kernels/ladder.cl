@@ -11,8 +11,8 @@
 
 // The samples of a packet: pixels, and positions within them in halves of a sub-pixel.
 typedef struct {
-    Count pixel_x, pixel_y, x, y;
-    Truth active;
+    UInt pixel_x, pixel_y, x, y;
+    Mask active;
 } PixelSamples;
 
 // The first REQUEST_SAMPLES points of Sobol's sequence (host/refine/pixel_requests.h).
@@ -23,15 +23,15 @@ constant uint point_y[REQUEST_SAMPLES] = {0,   512, 768, 256, 640, 128, 384, 896
 
 #if CLRT_LANES == 1
 #define LANE_NUMBER 0
-static inline Count lookup(constant const uint *words, Count place)
+static inline UInt lookup(constant const uint *words, UInt place)
 {
     return words[place];
 }
 #else
 #define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
-static inline Count lookup(constant const uint *words, Count place)
+static inline UInt lookup(constant const uint *words, UInt place)
 {
-    return (Count)(FOR_LANES(GATHER_)(place));
+    return (UInt)(FOR_LANES(GATHER_)(place));
 }
 #endif
 
@@ -39,16 +39,16 @@ static inline Count lookup(constant const uint *words, Count place)
 static inline PixelSamples samples_of(global const PixelRequest *requests, uint samples, uint start,
                                       uint end)
 {
-    const Count sample = start + LANE_NUMBER, present = min(sample, (Count)(end - 1));
-    const Count word = present / samples * (uint)(sizeof(PixelRequest) / sizeof(uint));
+    const UInt sample = start + LANE_NUMBER, present = min(sample, (UInt)(end - 1));
+    const UInt word = present / samples * (uint)(sizeof(PixelRequest) / sizeof(uint));
     global const uint *words = (global const uint *)requests;
-    const Count offset = gather(words, word + 2), point = present % samples;
+    const UInt offset = gather(words, word + 2), point = present % samples;
     const bool is_center = samples == 1;
-    const Count x = lookup(point_x, point) ^ offset % LADDER_GRID;
-    const Count y = lookup(point_y, point) ^ offset / LADDER_GRID;
+    const UInt x = lookup(point_x, point) ^ offset % LADDER_GRID;
+    const UInt y = lookup(point_y, point) ^ offset / LADDER_GRID;
     return (PixelSamples){gather(words, word), gather(words, word + 1),
-                          is_center ? (Count)(LADDER_GRID) : 2 * x + 1,
-                          is_center ? (Count)(LADDER_GRID) : 2 * y + 1, sample < end};
+                          is_center ? (UInt)(LADDER_GRID) : 2 * x + 1,
+                          is_center ? (UInt)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
 // Returns colors in steps of 2^-32.
@@ -64,18 +64,18 @@ static inline Real3 pixel_sample_color(const SceneView *scene, const FrameData *
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
-static inline LongCount square_of(Real steps)
+static inline ULong square_of(Real steps)
 {
-    const LongCount value = to_long(rint(steps * (1.0f / (1u << (32 - SQUARED_BITS)))));
+    const ULong value = to_long(rint(steps * (1.0f / (1u << (32 - SQUARED_BITS)))));
     return value * value;
 }
 
-static inline LongCount squares_of(Real3 color)
+static inline ULong squares_of(Real3 color)
 {
     return square_of(color.x) + square_of(color.y) + square_of(color.z);
 }
 
-static inline ulong sum_of_lanes(LongCount lanes)
+static inline ulong sum_of_lanes(ULong lanes)
 {
     ulong sum = 0;
     for (uint lane = 0; lane < CLRT_LANES; lane++)
@@ -94,8 +94,8 @@ static inline void add_samples(PixelSums *sums, Real3 color)
 // Stores the sums of all requests that lie entirely within a packet.
 static inline void store_sums(global PixelSums *sums, Real3 color, uint samples, uint count)
 {
-    const LongCount red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
-    const LongCount squares = squares_of(color);
+    const ULong red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
+    const ULong squares = squares_of(color);
     PixelSums sum = {{0, 0, 0}, 0};
     for (uint lane = 0; lane < min((uint)CLRT_LANES, count); lane++) {
         sum.colors[0] += ((const ulong *)&red)[lane];

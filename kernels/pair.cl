@@ -62,8 +62,8 @@ static inline Real2 plane_distances(global const BvhPair *node, uint2 plane, Rea
 
 // Computes the interval [entry, leave] of the ray inside each child's box. It is empty if the ray
 // misses.
-static inline void slabs_meet(global const BvhPair *node, const Query *query, Real reach,
-                              Real2 *entry, Real2 *leave)
+static inline void intersect_slabs(global const BvhPair *node, const Query *query, Real reach,
+                                   Real2 *entry, Real2 *leave)
 {
     const uint x = query->negative_x, y = query->negative_y, z = query->negative_z;
     const Real3 inverse = query->inverse, near = query->near_offset, far = query->far_offset;
@@ -92,7 +92,7 @@ static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
     if (ray->own_index == NOTHING)
         return false;
     const Corners own = fetch_corners(scene, ray->own_index);
-    return meets_neighbor(&own, corners, ray->direction, from_back);
+    return hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
 // Returns the distance t at which the ray hits the triangle, INFINITY if it misses.
@@ -117,7 +117,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     const Real error = triangle_depth_error(&sheared) * fabs(query->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
-    Truth in_doubt;
+    Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (in_doubt && stops_on_neighbor(query->scene, ray, &corners, !front))
         return max(t, (Real)(0.0f));
@@ -125,8 +125,8 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
 }
 
 // Tests triangles [first, first + count). A shadow ray stops at the first that blocks it.
-static inline void test_triangles(const SceneView *scene, const Ray *ray, const Query *query,
-                                  uint2 range, Hit *best)
+static inline void intersect_range(const SceneView *scene, const Ray *ray, const Query *query,
+                                   uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &scene->triangles[index];
@@ -144,53 +144,53 @@ typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];
     uint count;
-} Waiting;
+} PairStack;
 
-static inline void wait_for_child(Waiting *waiting, uint child, Real entry)
+static inline void push_child(PairStack *stack, uint child, Real entry)
 {
-    waiting->child[waiting->count] = child;
-    waiting->entry[waiting->count] = entry;
-    waiting->count++;
+    stack->child[stack->count] = child;
+    stack->entry[stack->count] = entry;
+    stack->count++;
 }
 
 // Pushes the children that the ray enters before `reach`, the nearer one last.
-static inline void wait_for_children(const SceneView *scene, uint node, const Query *query,
-                                     Real reach, Waiting *waiting)
+static inline void push_entered_children(const SceneView *scene, uint node, const Query *query,
+                                         Real reach, PairStack *stack)
 {
     Real2 entry, leave;
-    slabs_meet(&scene->nodes[node], query, reach, &entry, &leave);
+    intersect_slabs(&scene->nodes[node], query, reach, &entry, &leave);
     const bool meets_first = entry.x <= leave.x, meets_second = entry.y <= leave.y;
     const bool second_nearer = entry.y < entry.x;
     if (meets_second && !second_nearer)
-        wait_for_child(waiting, 2 * node + 1, entry.y);
+        push_child(stack, 2 * node + 1, entry.y);
     if (meets_first)
-        wait_for_child(waiting, 2 * node, entry.x);
+        push_child(stack, 2 * node, entry.x);
     if (meets_second && second_nearer)
-        wait_for_child(waiting, 2 * node + 1, entry.y);
+        push_child(stack, 2 * node + 1, entry.y);
 }
 
 static inline void traverse_tree(const SceneView *scene, const Ray *ray, const Query *query,
                                  Hit *best, Tally *tally)
 {
-    Waiting waiting;
-    waiting.count = 0;
-    wait_for_children(scene, 0, query, best->t, &waiting);
+    PairStack stack;
+    stack.count = 0;
+    push_entered_children(scene, 0, query, best->t, &stack);
     if (CLRT_STATISTICS)
         tally->box_tests += 2;
-    while (waiting.count > 0) {
-        waiting.count--;
-        if (waiting.entry[waiting.count] > best->t)
+    while (stack.count > 0) {
+        stack.count--;
+        if (stack.entry[stack.count] > best->t)
             continue;
-        const uint child = waiting.child[waiting.count];
+        const uint child = stack.child[stack.count];
         const uint first = scene->nodes[child >> 1].first[child & 1];
         const uint count = scene->nodes[child >> 1].count[child & 1];
         if (count == 0) {
-            wait_for_children(scene, first, query, best->t, &waiting);
+            push_entered_children(scene, first, query, best->t, &stack);
             if (CLRT_STATISTICS)
                 tally->box_tests += 2;
             continue;
         }
-        test_triangles(scene, ray, query, (uint2)(first, count), best);
+        intersect_range(scene, ray, query, (uint2)(first, count), best);
         if (CLRT_STATISTICS)
             tally->triangle_tests += count;
         if (ray->kind == RAY_SHADOW && best->id != NOTHING)
@@ -206,7 +206,7 @@ static void meet_triangles(const SceneView *scene, const FrameData *frame, const
         traverse_tree(scene, ray, &query, best, tally);
         return;
     }
-    test_triangles(scene, ray, &query, (uint2)(0, frame->triangle_count), best);
+    intersect_range(scene, ray, &query, (uint2)(0, frame->triangle_count), best);
     if (CLRT_STATISTICS)
         tally->triangle_tests += frame->triangle_count;
 }

@@ -9,10 +9,10 @@ typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 // origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    Count own;       // id of the primitive it starts on, which it cannot hit
-    Count own_index; // index of that primitive if it is a triangle, else NOTHING
+    UInt own;       // id of the primitive it starts on, which it cannot hit
+    UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
-    Truth active; // lanes that have a ray
+    Mask active; // lanes that have a ray
 } Ray;
 
 // Returns the uncertainty of the ray's origin, in units of rounding.
@@ -30,22 +30,22 @@ static inline float length_of_ray(const Ray *ray)
 // slots. Spheres have the ids below sphere_count.
 typedef struct {
     Real t; // along the ray; INFINITY without a hit
-    Count id, index;
+    UInt id, index;
 } Hit;
 
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_SIGNATURES
-    Count signature; // hash of what a sample saw: surfaces and the lights that reach them
+    UInt signature; // hash of what a sample saw: surfaces and the lights that reach them
 #endif
 } Tally;
 
 // Adds a word to the signatures of the given lanes.
-static inline void sign_lanes(Tally *tally, Truth lanes, Count word)
+static inline void sign_lanes(Tally *tally, Mask lanes, UInt word)
 {
 #if CLRT_SIGNATURES
-    const Count mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
+    const UInt mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
     tally->signature = lanes ? mixed ^ mixed >> 15 : tally->signature;
 #else
     (void)tally, (void)lanes, (void)word;
@@ -71,30 +71,30 @@ typedef struct {
     global const CornerNormals *normals;
 } SceneView;
 
-static inline uint lane_count(Truth truth)
+static inline uint lane_count(Mask mask)
 {
-    return popcount(lane_bits(truth));
+    return popcount(lane_bits(mask));
 }
 
 // Equal distances go to the lowest id, regardless of the order of the tests.
-static inline Truth hit_precedes(Real t, Count id, const Hit *best)
+static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);
 }
 
 // The ray's longest axis, which the shear maps it to, and the two axes that follow.
 typedef struct {
-    Count x, y, z;
+    UInt x, y, z;
 } ShearAxes;
 
 static inline ShearAxes shear_axes(Real3 direction)
 {
     const Real3 size = magnitudes(direction);
-    const Count second = size.y > size.x ? (Count)(1) : (Count)(0);
+    const UInt second = size.y > size.x ? (UInt)(1) : (UInt)(0);
     ShearAxes axes;
-    axes.z = size.z > max(size.x, size.y) ? (Count)(2) : second;
-    axes.x = axes.z == 2 ? (Count)(0) : axes.z + 1;
-    axes.y = axes.x == 2 ? (Count)(0) : axes.x + 1;
+    axes.z = size.z > max(size.x, size.y) ? (UInt)(2) : second;
+    axes.x = axes.z == 2 ? (UInt)(0) : axes.z + 1;
+    axes.y = axes.x == 2 ? (UInt)(0) : axes.x + 1;
     return axes;
 }
 

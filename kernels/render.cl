@@ -35,15 +35,15 @@ static inline Real in_steps(Real color)
     return rint(clamp_to_one(color) * 0x1p32f);
 }
 
-static inline Real mean_of(LongCount sum, ulong count)
+static inline Real mean_of(ULong sum, ulong count)
 {
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
 // Positions in the picture, in pixels or in samples.
 typedef struct {
-    Count x, y;
-    Truth active;
+    UInt x, y;
+    Mask active;
 } Places;
 
 static inline Real3 sample_color(const SceneView *scene, const FrameData *frame,
@@ -61,7 +61,7 @@ static inline Real3 sample_color(const SceneView *scene, const FrameData *frame,
 static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, const Places *pixels,
                                Tally *tally)
 {
-    LongCount red = 0, green = 0, blue = 0;
+    ULong red = 0, green = 0, blue = 0;
     const uint side = frame->samples;
     for (uint row = 0; row < side; row++)
         for (uint column = 0; column < side; column++) {
@@ -174,7 +174,7 @@ kernel void render_tile(const FrameData frame, global const PointLight *lights,
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
-            const Count column = x + LANE_X, row = y + LANE_Y;
+            const UInt column = x + LANE_X, row = y + LANE_Y;
             const Places places = {frame.tile_x + column, frame.tile_y + row,
                                    column < frame.tile_width && row < frame.tile_height};
             Tally tally = {0};

@@ -2,7 +2,7 @@
 // The kernel of adaptive anti-aliasing samples listed places instead of a tile. It is compiled
 // after render.cl, and only if requested.
 
-static inline void store_sample(global SampleData *sample, const Real3 *color, Count signature,
+static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,
                                 uint lane)
 {
     const Scalar *red = (const Scalar *)&color->x, *green = (const Scalar *)&color->y,
@@ -33,9 +33,9 @@ kernel void trace_samples(const FrameData frame, global const PointLight *lights
     const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint begin = first + ITEM_SAMPLES * (uint)get_global_id(0);
     for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += CLRT_LANES) {
-        const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
-        const Count word = 2 * min(number, (Count)(end - 1));
-        const Count x = gather(places, word), y = gather(places, word + 1);
+        const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;
+        const UInt word = 2 * min(number, (UInt)(end - 1));
+        const UInt x = gather(places, word), y = gather(places, word + 1);
         const Places asked = {x, y, number < end && x != NOTHING};
         Tally tally = {0};
         const Real3 color = scaled3(0x1p-32f, sample_color(&scene, &frame, &asked, &tally));

@@ -11,7 +11,7 @@ static inline Real3 load_private3(const float *components)
 }
 
 // x and y are positions in the whole picture, in halves of a sub-pixel.
-static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Truth active)
+static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
     const Real along = to_real(to_int(y) - (int)(frame->height * frame->samples));
@@ -26,12 +26,12 @@ static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Tr
 }
 
 // sample_x and sample_y count sub-pixels across the whole picture.
-static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sample_y, Truth active)
+static inline Ray camera_ray(const FrameData *frame, UInt sample_x, UInt sample_y, Mask active)
 {
     return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);
 }
 
-static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
+static inline void count_rays(Tally *tally, uint level, Mask active, Mask met)
 {
     tally->camera_hits += level == 0 ? lane_count(met) : 0;
     tally->reflected_rays += level > 0 ? lane_count(active) : 0;
@@ -40,9 +40,9 @@ static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
 
 // Returns the surface's word for signatures. Each sphere is its own surface; all triangles of one
 // material are one surface.
-static inline Count surface_word(const FrameData *frame, const Surface *surface)
+static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 {
-    const Count of_mesh = frame->sphere_count + surface->material;
+    const UInt of_mesh = frame->sphere_count + surface->material;
     return surface->id < frame->sphere_count ? surface->id : of_mesh;
 }
 
@@ -50,10 +50,10 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
 {
     Real3 color = real3_of(0.0f, 0.0f, 0.0f);
     Real weight = 1.0f;
-    Truth ended = 0; // at a surface that does not reflect
+    Mask ended = 0; // at a surface that does not reflect
     for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
         const Hit hit = nearest_hit(scene, frame, &ray, tally);
-        const Truth met = ray.active && hit.id != NOTHING;
+        const Mask met = ray.active && hit.id != NOTHING;
         if (CLRT_STATISTICS)
             count_rays(tally, level, ray.active, met);
         if (!any_lane(met))
@@ -63,7 +63,7 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
         sign_lanes(tally, met, surface_word(frame, &surface));
         const Lighting dark = lighting_of(&surface, &material, met);
         const Real3 shaded = shade(scene, frame, dark, tally);
-        Truth ends = met;
+        Mask ends = met;
         if (CLRT_MIRRORS)
             ends = met && material.reflectivity == 0.0f;
         const Real share = ends ? weight : weight * (1.0f - material.reflectivity);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grows boxes by the slack that makes the device's culling conservative (kernels/traverse.cl),
+// Grows boxes by the slack that makes the device's culling conservative (kernels/search.cl),
 // rounded outward.
 #pragma once
 

@@ -18,8 +18,8 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray passes its aim within these fractions of its length and of the aim's coordinates.
-// triangle.cl accepts hits within 22 units of rounding (2^-24) of the ray; directions and aims are
-// rounded as well.
+// triangle.inc.cl accepts hits within 22 units of rounding (2^-24) of the ray; directions and aims
+// are rounded as well.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
