@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Finds a ray's hit: the smallest (distance, id) of all primitives, or whether anything blocks a
-// shadow ray. The program's kernel family selects the search for triangles.
+// shadow ray.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
 #include "packet_search.cl"
 #include "pair.cl"
 #include "sphere.cl"
+
+// The search for triangles in the tree that the program is compiled for.
+#if CLRT_WIDE_NODES
+#define intersect_triangles search_packets
+#else
+#define intersect_triangles search_pairs
+#endif
 
 // A ray hits its own sphere only from inside, and only by reflection.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
@@ -55,7 +62,7 @@ static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, co
     Ray searching = *ray;
     searching.active = is_searchable(ray);
     if (any_lane(searching.active))
-        meet_triangles(scene, frame, &searching, &best, tally);
+        intersect_triangles(scene, frame, &searching, &best, tally);
     return best;
 }
 
@@ -72,7 +79,7 @@ static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, c
     rest.active = is_searchable(ray) && best.id == NOTHING;
     if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
         return best;
-    meet_triangles(scene, frame, &rest, &best, tally);
+    intersect_triangles(scene, frame, &rest, &best, tally);
     return best;
 }
 

@@ -71,6 +71,12 @@ static inline Real3 choose3(Mask first, Real3 a, Real3 b)
     return real3_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
+// Returns 1 for negative numbers. At each node of a tree this takes fewer instructions than v < 0.
+static inline UInt sign_bit(Real v)
+{
+    return (UInt)(as_bits(v) >> (int)(8 * sizeof(Scalar) - 1));
+}
+
 static inline Real clamp_to_one(Real v)
 {
     return clamp(v, (Real)(0.0f), (Real)(1.0f));

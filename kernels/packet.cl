@@ -15,7 +15,6 @@
 typedef struct {
     Search rays; // inactive lanes copy an active one
     Mask active;
-    Real3 ordered_origin; // in the order of the axes
     uint axes[3];
     uint negative[3]; // which plane of an axis the rays enter by
     // Bounds over all lanes: distance to a plane = fma(plane, inverse_low, near_low) ...
@@ -82,22 +81,22 @@ static inline void packet_prepare(Packet *packet, Real3 o, Real3 d, uint z)
 {
     Search *rays = &packet->rays;
     const uint x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
-    search_slabs(rays, o, d);
+    rays->slabs = slabs_of(o, d);
     rays->axes = (ShearAxes){x, y, z};
     rays->shear.direction_z = on_axis(&d, z);
-    rays->shear.inverse_z = on_axis(&rays->inverse, z);
+    rays->shear.inverse_z = on_axis(&rays->slabs.inverse, z);
     rays->shear.shear_x = on_axis(&d, x) * rays->shear.inverse_z;
     rays->shear.shear_y = on_axis(&d, y) * rays->shear.inverse_z;
-    packet->ordered_origin = real3_of(on_axis(&o, x), on_axis(&o, y), on_axis(&o, z));
+    packet->rays.origin = real3_of(on_axis(&o, x), on_axis(&o, y), on_axis(&o, z));
     packet->axes[0] = x;
     packet->axes[1] = y;
     packet->axes[2] = z;
     // The origin's own slack, plus the slack that nodes have and boxes of single triangles lack.
     // Triangle coordinates are at most 1.
     const Real slack = BVH_SLACK * (largest_component(o) + 1.0f);
-    packet_bounds(packet, 0, o.x, slack, rays->inverse.x);
-    packet_bounds(packet, 1, o.y, slack, rays->inverse.y);
-    packet_bounds(packet, 2, o.z, slack, rays->inverse.z);
+    packet_bounds(packet, 0, o.x, slack, rays->slabs.inverse.x);
+    packet_bounds(packet, 1, o.y, slack, rays->slabs.inverse.y);
+    packet_bounds(packet, 2, o.z, slack, rays->slabs.inverse.z);
 }
 
 static inline Real one_lane(Real v, uint lane)
@@ -236,7 +235,7 @@ typedef struct {
 static inline void relative_row(RelativeBlock *relative, global const TriangleBlock *block,
                                 uint corner, uint axis, const Packet *packet)
 {
-    const float origin = on_axis(&packet->ordered_origin, axis).s0;
+    const float origin = on_axis(&packet->rays.origin, axis).s0;
     vstore8(vload8(0, block->corners[corner][packet->axes[axis]]) - origin, 0,
             relative->rows[corner][axis]);
 }
@@ -259,7 +258,7 @@ static inline Real3 relative_corner(const RelativeBlock *relative, uint corner, 
 // Returns a corner relative to each ray's own origin.
 static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet *packet)
 {
-    const Real3 o = packet->ordered_origin;
+    const Real3 o = packet->rays.origin;
     return real3_of((Real)(at->block->corners[corner][packet->axes[0]][at->place]) - o.x,
                     (Real)(at->block->corners[corner][packet->axes[1]][at->place]) - o.y,
                     (Real)(at->block->corners[corner][packet->axes[2]][at->place]) - o.z);

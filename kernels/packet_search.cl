@@ -42,8 +42,8 @@ static inline Mask lanes_in_child(global const BvhWide *node, uint child, const 
                                   Real reach)
 {
     const uint x = packet->negative[0], y = packet->negative[1], z = packet->negative[2];
-    const Real3 i = packet->rays.inverse, near = packet->rays.near_offset,
-                far = packet->rays.far_offset;
+    const Real3 i = packet->rays.slabs.inverse;
+    const Real3 near = packet->rays.slabs.near_offset, far = packet->rays.slabs.far_offset;
     const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
     const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
     const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
@@ -131,9 +131,8 @@ static inline uint traverse_packet(const SceneView *scene, const Packet *packet,
 static inline UInt ray_classes(Real3 direction)
 {
     const ShearAxes axes = shear_axes(direction);
-    const UInt x = as_bits(direction.x) >> 31, y = as_bits(direction.y) >> 31;
-    const UInt z = as_bits(direction.z) >> 31;
-    return axes.z * 8 + x * 4 + y * 2 + z;
+    return axes.z * 8 + sign_bit(direction.x) * 4 + sign_bit(direction.y) * 2 +
+           sign_bit(direction.z);
 }
 
 // Returns the remaining lanes, whose rays have to search alone.
@@ -161,7 +160,7 @@ static NOT_INLINE uint intersect_packet(const SceneView *scene, const FrameData 
 
 // Rays that share signs and longest axis with enough others form a packet; the rest search alone.
 // Without a tree there is no traversal, and all rays form packets.
-static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
+static void search_packets(const SceneView *scene, const FrameData *frame, const Ray *ray,
                            Hit *best, Tally *tally)
 {
     const uint all = lane_bits(ray->active);
@@ -184,12 +183,7 @@ static void meet_triangles(const SceneView *scene, const FrameData *frame, const
     }
     if (alone == 0)
         return;
-    Search search;
-    search.scene = scene;
-    search.ray = ray;
-    search.axes = shear_axes(ray->direction);
-    search.shear = shear_along(ray->direction, &search.axes);
-    search_slabs(&search, ray->origin, ray->direction);
+    const Search search = search_along(scene, ray);
     intersect_lanes(scene, &search, alone, best, tally);
 }
 

@@ -82,35 +82,4 @@ static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);
 }
 
-// The ray's longest axis, which the shear maps it to, and the two axes that follow.
-typedef struct {
-    UInt x, y, z;
-} ShearAxes;
-
-static inline ShearAxes shear_axes(Real3 direction)
-{
-    const Real3 size = magnitudes(direction);
-    const UInt second = size.y > size.x ? (UInt)(1) : (UInt)(0);
-    ShearAxes axes;
-    axes.z = size.z > max(size.x, size.y) ? (UInt)(2) : second;
-    axes.x = axes.z == 2 ? (UInt)(0) : axes.z + 1;
-    axes.y = axes.x == 2 ? (UInt)(0) : axes.x + 1;
-    return axes;
-}
-
-static inline Shear shear_along(Real3 direction, const ShearAxes *axes)
-{
-    Shear shear;
-    shear.direction_z = component(direction, axes->z);
-    shear.inverse_z = 1.0f / shear.direction_z;
-    shear.shear_x = component(direction, axes->x) * shear.inverse_z;
-    shear.shear_y = component(direction, axes->y) * shear.inverse_z;
-    return shear;
-}
-
-static inline Real3 axes_ordered(Real3 v, const ShearAxes *axes)
-{
-    return real3_of(component(v, axes->x), component(v, axes->y), component(v, axes->z));
-}
-
 #endif

@@ -25,8 +25,8 @@ typedef uint64_t ulong;
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
 // Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding
-// (2^-24). A triangle that triangle.inc.cl accepts lies within 22 units of the ray, with 16 more if t
-// is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
+// (2^-24). A triangle that triangle.inc.cl accepts lies within 22 units of the ray, with 16 more if
+// t is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
 // 2.5 ulp, these become 34, 25 and 8. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-17f
 

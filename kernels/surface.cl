@@ -15,7 +15,6 @@
 //  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
-#include "fetch.cl"
 #include "intersect.cl"
 
 typedef struct {

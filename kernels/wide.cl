@@ -6,18 +6,10 @@
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "fetch.cl"
+#include "search.cl"
 #include "wide_stack.cl"
 
 #if CLRT_WIDE_NODES
-
-// The rays of all lanes, prepared for the searches.
-typedef struct {
-    const SceneView *scene;
-    const Ray *ray;
-    ShearAxes axes;
-    Shear shear;
-    Real3 inverse, near_offset, far_offset; // of the slabs, as in pair.cl
-} Search;
 
 static inline float lane_real(const Real *lanes, uint lane)
 {
@@ -27,29 +19,6 @@ static inline float lane_real(const Real *lanes, uint lane)
 static inline uint lane_uint(const UInt *lanes, uint lane)
 {
     return ((const uint *)lanes)[lane];
-}
-
-static inline Real slab_direction(Real direction, Real smallest)
-{
-    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
-}
-
-static inline void search_slab(Search *search, uint axis, Real direction, Real origin, Real slack)
-{
-    const Real widening = copysign(slack, direction), inverse = 1.0f / direction;
-    (&search->inverse.x)[axis] = inverse;
-    (&search->near_offset.x)[axis] = -(origin + widening) * inverse;
-    (&search->far_offset.x)[axis] = -(origin - widening) * inverse;
-}
-
-// Computes the slabs of rays with origins o and directions d.
-static inline void search_slabs(Search *search, Real3 o, Real3 d)
-{
-    const Real smallest = 0x1p-30f * largest_component(d);
-    const Real slack = BVH_SLACK * largest_component(o);
-    search_slab(search, 0, slab_direction(d.x, smallest), o.x, slack);
-    search_slab(search, 1, slab_direction(d.y, smallest), o.y, slack);
-    search_slab(search, 2, slab_direction(d.z, smallest), o.z, slack);
 }
 
 // Returns the distances to a plane of each child's box: the one the lane's ray enters by, or the
@@ -66,8 +35,8 @@ static inline float8 wide_planes(global const float planes[2][WIDE], const Real 
 static inline int8 children_hit(global const BvhWide *node, const Search *search, uint lane,
                                 float reach, float8 *entry)
 {
-    const Real3 *inverse = &search->inverse;
-    const Real3 *near = &search->near_offset, *far = &search->far_offset;
+    const Real3 *inverse = &search->slabs.inverse;
+    const Real3 *near = &search->slabs.near_offset, *far = &search->slabs.far_offset;
     const float8 near_x = wide_planes(node->planes[0], &inverse->x, &near->x, lane, 0);
     const float8 near_y = wide_planes(node->planes[1], &inverse->y, &near->y, lane, 0);
     const float8 near_z = wide_planes(node->planes[2], &inverse->z, &near->z, lane, 0);
@@ -98,12 +67,11 @@ typedef struct {
 
 static inline LaneRay lane_ray(const Search *search, uint lane)
 {
-    const Real *origin = &search->ray->origin.x;
-    const uint x = lane_uint(&search->axes.x, lane), y = lane_uint(&search->axes.y, lane);
-    const uint z = lane_uint(&search->axes.z, lane);
     return (LaneRay){
-        {x, y, z},
-        {lane_real(origin + x, lane), lane_real(origin + y, lane), lane_real(origin + z, lane)},
+        {lane_uint(&search->axes.x, lane), lane_uint(&search->axes.y, lane),
+         lane_uint(&search->axes.z, lane)},
+        {lane_real(&search->origin.x, lane), lane_real(&search->origin.y, lane),
+         lane_real(&search->origin.z, lane)},
         {lane_real(&search->shear.shear_x, lane), lane_real(&search->shear.shear_y, lane),
          lane_real(&search->shear.inverse_z, lane), lane_real(&search->shear.direction_z, lane)}};
 }

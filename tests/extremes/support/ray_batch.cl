@@ -297,8 +297,8 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, 1);
     const Ray ray = ray_of(&scene, &all, 1);
-    const Query query = query_of(&scene, &ray);
-    const Real t = triangle_distance(&triangles[place], &ray, &query);
+    const Search search = search_along(&scene, &ray);
+    const Real t = triangle_distance(&triangles[place], &search);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
 
@@ -313,9 +313,9 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
     const TestRays all = test_rays(rays, count);
     const Ray ray = ray_of(&scene, &all, 1);
-    const Query query = query_of(&scene, &ray);
+    const Search search = search_along(&scene, &ray);
     Real2 entry, leave;
-    intersect_slabs(&nodes[place], &query, INFINITY, &entry, &leave);
+    intersect_slabs(&nodes[place], &search, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
 #endif
