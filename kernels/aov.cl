@@ -2,23 +2,20 @@
 // The kernels of --aov write per-pixel data beside the color, found by the search that renders the
 // picture. They are compiled after render.cl, and only if requested.
 
-static inline Mask light_reaches(const SceneView *scene, const FrameData *frame, uint index,
-                                 const Surface *surface, Mask met)
+static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {
-    Tally tally = {0};
-    const LightSample light = sample_light(scene, index, surface, met);
+    const LightSample light = sample_light(tracer, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
-    const Ray ray = ray_to_light(scene, surface, &light);
-    return light.faces && !is_blocked(scene, frame, &ray, &tally);
+    const Ray ray = ray_to_light(tracer, surface, &light);
+    return light.faces && !is_blocked(tracer, &ray);
 }
 
-static inline UInt lights_reaching(const SceneView *scene, const FrameData *frame,
-                                   const Surface *surface, Mask met)
+static inline UInt lights_reaching(const Tracer *tracer, const Surface *surface, Mask met)
 {
     UInt lights = 0;
-    for (uint index = 0; index < frame->light_count; index++)
-        lights += light_reaches(scene, frame, index, surface, met) ? (UInt)(1) : (UInt)(0);
+    for (uint index = 0; index < tracer->frame->light_count; index++)
+        lights += light_reaches(tracer, index, surface, met) ? (UInt)(1) : (UInt)(0);
     return lights;
 }
 
@@ -29,8 +26,7 @@ typedef struct {
     UInt primitive, material, lights, bounces;
 } Path;
 
-static inline Path path_to(const SceneView *scene, const FrameData *frame, const Hit *hit,
-                           const Surface *surface, Mask met)
+static inline Path path_to(const Tracer *tracer, const Hit *hit, const Surface *surface, Mask met)
 {
     const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
     return (Path){.point = choose3(met, surface->point, zero),
@@ -38,26 +34,25 @@ static inline Path path_to(const SceneView *scene, const FrameData *frame, const
                   .depth = met ? hit->t : (Real)(INFINITY),
                   .primitive = met ? hit->id : (UInt)(NOTHING),
                   .material = met ? surface->material : (UInt)(NOTHING),
-                  .lights = lights_reaching(scene, frame, surface, met)};
+                  .lights = lights_reaching(tracer, surface, met)};
 }
 
 // Follows the ray as trace does, without computing colors.
-static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ray)
+static inline Path follow(const Tracer *tracer, Ray ray)
 {
     Path path = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
-    Tally tally = {0};
-    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
+    for (uint level = 0; level < tracer->frame->max_level && any_lane(ray.active); level++) {
         if (level > 0)
             path.bounces += ray.active ? (UInt)(1) : (UInt)(0);
-        const Hit hit = nearest_hit(scene, frame, &ray, &tally);
+        const Hit hit = nearest_hit(tracer, &ray);
         const Mask met = ray.active && hit.id != NOTHING;
         if (!any_lane(met))
             break;
-        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
+        const Surface surface = surface_at(tracer, &ray, &hit, met);
         if (level == 0)
-            path = path_to(scene, frame, &hit, &surface, met);
-        const MaterialLanes material = fetch_material(scene, surface.material);
-        ray = ray_reflected(scene, &surface, met && material.reflectivity != 0.0f);
+            path = path_to(tracer, &hit, &surface, met);
+        const MaterialLanes material = fetch_material(tracer, surface.material);
+        ray = ray_reflected(tracer, &surface, met && material.reflectivity != 0.0f);
     }
     return path;
 }
@@ -92,13 +87,10 @@ static inline Places places_at(const FrameData *frame, uint2 corner)
 }
 
 // Fills paths with one entry per pixel of the tile. The frame has one sample per pixel.
-kernel void trace_paths(const FrameData frame, global const PointLight *lights,
-                        global const Material *materials, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global PathData *paths)
+kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
@@ -106,7 +98,7 @@ kernel void trace_paths(const FrameData frame, global const PointLight *lights,
             const uint2 corner = (uint2)(x, y);
             const Places pixels = places_at(&frame, corner);
             const Path path =
-                follow(&scene, &frame, camera_ray(&frame, pixels.x, pixels.y, pixels.active));
+                follow(&tracer, camera_ray(&frame, pixels.x, pixels.y, pixels.active));
             for (uint lane = 0; lane < CLRT_LANES; lane++)
                 if (lane_place(&frame, corner, lane, &place))
                     store_path(&paths[place], &path, lane);
@@ -115,13 +107,8 @@ kernel void trace_paths(const FrameData frame, global const PointLight *lights,
 
 // Fills tallies with TALLY_KINDS counts per pixel of the tile: the cost of all its samples. Each
 // ray is traced alone, because the rays of a packet share tests that belong to no single pixel.
-kernel void count_tests(const FrameData frame, global const PointLight *lights,
-                        global const Material *materials, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global uint *tallies)
+kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH)
@@ -130,9 +117,10 @@ kernel void count_tests(const FrameData frame, global const PointLight *lights,
                 if (!lane_place(&frame, (uint2)(x, y), lane, &place))
                     continue;
                 Tally tally = {0};
+                const Tracer tracer = TRACER(&tally);
                 Places pixels = places_at(&frame, (uint2)(x, y));
                 pixels.active = lanes_of(1u << lane);
-                pixel_color(&scene, &frame, &pixels, &tally);
+                pixel_color(&tracer, &pixels);
                 store_tally(tallies + place * TALLY_KINDS, &tally);
             }
 }

@@ -118,12 +118,12 @@ static inline Real triangle_entry(const ConeSearch *search, global const Triangl
     return box_entry(search, &box, reach);
 }
 
-static inline void push_certified_children(const SceneView *scene, const ConeSearch *search,
+static inline void push_certified_children(const Tracer *tracer, const ConeSearch *search,
                                            uint node, PairStack *stack)
 {
     const Real reach = search_reach(search);
-    const Real first = child_entry(search, &scene->nodes[node], 0, reach);
-    const Real second = child_entry(search, &scene->nodes[node], 1, reach);
+    const Real first = child_entry(search, &tracer->nodes[node], 0, reach);
+    const Real second = child_entry(search, &tracer->nodes[node], 1, reach);
     const bool second_nearer = second < first;
     if (!second_nearer && second < INFINITY)
         push_child(stack, 2 * node + 1, second);
@@ -133,12 +133,12 @@ static inline void push_certified_children(const SceneView *scene, const ConeSea
         push_child(stack, 2 * node + 1, second);
 }
 
-static inline Candidate leaf_candidate(const SceneView *scene, const RayCone *ray, uint index)
+static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray, uint index)
 {
-    global const TriangleData *triangle = &scene->triangles[index];
+    global const TriangleData *triangle = &tracer->triangles[index];
     const Candidate candidate = triangle_candidate(ray, triangle);
     if (candidate.met == ANSWER_NO || ray->own_index == NOTHING ||
-        !are_coincident(scene, ray->own_index, index))
+        !are_coincident(tracer, ray->own_index, index))
         return candidate;
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
     return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
@@ -146,13 +146,13 @@ static inline Candidate leaf_candidate(const SceneView *scene, const RayCone *ra
 
 // A triangle that coincides with the nearest hit may win by its id but does not change the
 // distance.
-static inline void add_triangle(const SceneView *scene, ConeSearch *search, uint index,
+static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)
 {
     Nearest *nearest = &search->nearest;
-    const uint id = scene->triangles[index].id;
+    const uint id = tracer->triangles[index].id;
     const bool is_coincident = candidate->met == ANSWER_YES && search->triangle != NOTHING &&
-                               are_coincident(scene, search->triangle, index);
+                               are_coincident(tracer, search->triangle, index);
     if (!is_coincident)
         nearest_add(nearest, candidate, id, index);
     else if (id < nearest->id)
@@ -161,15 +161,15 @@ static inline void add_triangle(const SceneView *scene, ConeSearch *search, uint
         search->triangle = index;
 }
 
-static inline void search_leaf(const SceneView *scene, ConeSearch *search, uint2 range)
+static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 range)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
-        global const TriangleData *triangle = &scene->triangles[index];
+        global const TriangleData *triangle = &tracer->triangles[index];
         if (!(triangle_entry(search, triangle, search_reach(search)) < INFINITY))
             continue;
-        const Candidate candidate = leaf_candidate(scene, search->ray, index);
+        const Candidate candidate = leaf_candidate(tracer, search->ray, index);
         if (search->ray->kind != RAY_SHADOW)
-            add_triangle(scene, search, index, &candidate);
+            add_triangle(tracer, search, index, &candidate);
         search->blocked = max(search->blocked, candidate.met);
     }
 }
@@ -179,63 +179,60 @@ static inline bool search_is_over(const ConeSearch *search)
     return search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
 }
 
-static void search_triangles(const SceneView *scene, ConeSearch *search)
+static void search_triangles(const Tracer *tracer, ConeSearch *search)
 {
     PairStack stack;
     stack.count = 0;
-    push_certified_children(scene, search, 0, &stack);
+    push_certified_children(tracer, search, 0, &stack);
     while (stack.count > 0 && !search_is_over(search)) {
         stack.count--;
         if (stack.entry[stack.count] > search_reach(search))
             continue;
         const uint child = stack.child[stack.count];
-        const uint first = scene->nodes[child >> 1].first[child & 1];
-        const uint count = scene->nodes[child >> 1].count[child & 1];
+        const uint first = tracer->nodes[child >> 1].first[child & 1];
+        const uint count = tracer->nodes[child >> 1].count[child & 1];
         if (count == 0)
-            push_certified_children(scene, search, first, &stack);
+            push_certified_children(tracer, search, first, &stack);
         else
-            search_leaf(scene, search, (uint2)(first, count));
+            search_leaf(tracer, search, (uint2)(first, count));
     }
 }
 
-static inline Nearest certify_nearest_hit(const SceneView *scene, const FrameData *frame,
-                                          const RayCone *ray)
+static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_along(ray);
-    for (uint index = 0; index < frame->sphere_count; index++) {
-        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
+        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
         const Candidate candidate =
             index == ray->own ? own_sphere_candidate(ray, &sphere) : sphere_candidate(&chord);
         nearest_add(&search.nearest, &candidate, index, index);
     }
-    if (frame->triangle_count > 0)
-        search_triangles(scene, &search);
+    if (tracer->frame->triangle_count > 0)
+        search_triangles(tracer, &search);
     return search.nearest;
 }
 
-static inline Answer spheres_block(const SceneView *scene, const FrameData *frame,
-                                   const RayCone *ray)
+static inline Answer spheres_block(const Tracer *tracer, const RayCone *ray)
 {
     const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
     Answer blocked = ANSWER_NO;
-    for (uint index = 0; index < frame->sphere_count; index++) {
+    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
         if (index == ray->own)
             continue;
-        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
         blocked = max(blocked, sphere_blocks(&chord, ray->length - margin, ray->length + margin));
     }
     return blocked;
 }
 
-static inline Answer certify_occlusion(const SceneView *scene, const FrameData *frame,
-                                       const RayCone *ray)
+static inline Answer certify_occlusion(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_along(ray);
-    search.blocked = spheres_block(scene, frame, ray);
-    if (frame->triangle_count > 0 && search.blocked != ANSWER_YES)
-        search_triangles(scene, &search);
+    search.blocked = spheres_block(tracer, ray);
+    if (tracer->frame->triangle_count > 0 && search.blocked != ANSWER_YES)
+        search_triangles(tracer, &search);
     return search.blocked;
 }
 

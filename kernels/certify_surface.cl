@@ -81,11 +81,11 @@ static inline UncertainPoint uncertain_point(const RayCone *ray, const Corners *
     return end;
 }
 
-static inline UncertainSurface uncertain_triangle(const SceneView *scene, const FrameData *frame,
-                                                  const RayCone *ray, const Hit *hit)
+static inline UncertainSurface uncertain_triangle(const Tracer *tracer, const RayCone *ray,
+                                                  const Hit *hit)
 {
-    const Corners corners = fetch_corners(scene, hit->index);
-    const Look look = fetch_look(scene, hit, frame->sphere_count);
+    const Corners corners = fetch_corners(tracer, hit->index);
+    const Look look = fetch_look(tracer, hit);
     const ProjectedTriangle projected = project_triangle(ray, &corners);
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     const Real edges = largest_component(ab) * largest_component(ac);
@@ -101,7 +101,7 @@ static inline UncertainSurface uncertain_triangle(const SceneView *scene, const 
     surface.face_doubt = turn_of(8.0f * u * edges, length_of(cross_product(ab, ac))) + 8.0f * u;
     surface.normal_doubt = surface.face_doubt;
     if (look.normals != NOTHING) {
-        const Corners normals = fetch_normals(scene, look.normals);
+        const Corners normals = fetch_normals(tracer, look.normals);
         interpolate_normal(&surface, &normals, weights, &corners, ray->u);
     }
     note_room(&surface, &corners, weights);
@@ -111,16 +111,16 @@ static inline UncertainSurface uncertain_triangle(const SceneView *scene, const 
 
 // The point is projected onto the sphere, as in the tracer. A certain hit has a certain wall: the
 // near one for an origin outside, the far one for an origin inside (certify_sphere.cl).
-static inline UncertainSurface uncertain_sphere(const SceneView *scene, const RayCone *ray,
+static inline UncertainSurface uncertain_sphere(const Tracer *tracer, const RayCone *ray,
                                                 const Nearest *nearest)
 {
-    const PlainSphere sphere = plain_sphere(&scene->spheres[nearest->index]);
+    const PlainSphere sphere = plain_sphere(&tracer->spheres[nearest->index]);
     const Chord chord = chord_of(ray, &sphere);
     const Real depth = 0.5f * (nearest->low + nearest->high);
     const Real3 met = sum3(ray->origin, scaled3(depth, ray->along));
     UncertainSurface surface = {.id = nearest->id,
                                 .index = NOTHING,
-                                .material = fetch_sphere_material(scene, nearest->index),
+                                .material = fetch_sphere_material(tracer, nearest->index),
                                 .is_sphere = true,
                                 .from_behind = nearest->id == ray->own || chord.enter.high < 0.0f};
     surface.normal = surface.face = unit_vector(difference(met, sphere.center));
@@ -134,13 +134,13 @@ static inline UncertainSurface uncertain_sphere(const SceneView *scene, const Ra
     return surface;
 }
 
-static inline UncertainSurface uncertain_surface(const SceneView *scene, const FrameData *frame,
-                                                 const RayCone *ray, const Nearest *nearest)
+static inline UncertainSurface uncertain_surface(const Tracer *tracer, const RayCone *ray,
+                                                 const Nearest *nearest)
 {
     const Hit hit = {nearest->low, nearest->id, nearest->index};
-    UncertainSurface surface = nearest->id < frame->sphere_count
-                                   ? uncertain_sphere(scene, ray, nearest)
-                                   : uncertain_triangle(scene, frame, ray, &hit);
+    UncertainSurface surface = nearest->id < tracer->frame->sphere_count
+                                   ? uncertain_sphere(tracer, ray, nearest)
+                                   : uncertain_triangle(tracer, ray, &hit);
     surface.toward_viewer = negative3(ray->along);
     surface.viewer_doubt = ray->spread + 4.0f * (ray->u + OWN_ROUNDOFF);
     return surface;

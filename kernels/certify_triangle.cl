@@ -222,9 +222,9 @@ static inline bool is_same_corner(global const float *a, global const float *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-static inline bool are_coincident(const SceneView *scene, uint index, uint other)
+static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 {
-    global const TriangleData *one = &scene->triangles[index], *two = &scene->triangles[other];
+    global const TriangleData *one = &tracer->triangles[index], *two = &tracer->triangles[other];
     return is_same_corner(one->a, two->a) && is_same_corner(one->b, two->b) &&
            is_same_corner(one->c, two->c);
 }

@@ -77,7 +77,7 @@ static inline Real3 record_real3(const Record *record, uint offset, uint stride)
 #define WORDS(type) ((uint)(sizeof(type) / sizeof(uint)))
 
 // index counts triangles; in blocks it is block * WIDE + slot.
-static inline Corners fetch_corners(const SceneView *scene, UInt index)
+static inline Corners fetch_corners(const Tracer *tracer, UInt index)
 {
 #if CLRT_WIDE_NODES
     const UInt place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
@@ -86,44 +86,43 @@ static inline Corners fetch_corners(const SceneView *scene, UInt index)
     const UInt place = index * WORDS(TriangleData);
     const uint stride = 1, corner = 4;
 #endif
-    const Record record = record_at(scene->triangles, place);
+    const Record record = record_at(tracer->triangles, place);
     return (Corners){record_real3(&record, 0, stride), record_real3(&record, corner, stride),
                      record_real3(&record, 2 * corner, stride)};
 }
 
-static inline Look fetch_look(const SceneView *scene, const Hit *hit, uint sphere_count)
+static inline Look fetch_look(const Tracer *tracer, const Hit *hit)
 {
 #if CLRT_WIDE_NODES
-    const UInt number = hit->id - sphere_count;
-    const Record record = record_at(scene->looks, number * WORDS(TriangleLook));
+    const UInt number = hit->id - tracer->frame->sphere_count;
+    const Record record = record_at(tracer->looks, number * WORDS(TriangleLook));
     return (Look){record_word(&record, 0), record_word(&record, 1)};
 #else
-    (void)sphere_count;
-    const Record record = record_at(scene->triangles, hit->index * WORDS(TriangleData));
+    const Record record = record_at(tracer->triangles, hit->index * WORDS(TriangleData));
     return (Look){record_word(&record, 7) & ~TRIANGLE_MARKS, record_word(&record, 11)};
 #endif
 }
 
 // Returns the vertex normals as Corners.
-static inline Corners fetch_normals(const SceneView *scene, UInt normals)
+static inline Corners fetch_normals(const Tracer *tracer, UInt normals)
 {
-    const Record record = record_at(scene->normals, normals * WORDS(CornerNormals));
+    const Record record = record_at(tracer->normals, normals * WORDS(CornerNormals));
     return (Corners){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
                      record_real3(&record, 8, 1)};
 }
 
-static inline Sphere fetch_sphere(const SceneView *scene, UInt index)
+static inline Sphere fetch_sphere(const Tracer *tracer, UInt index)
 {
-    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    const Record record = record_at(tracer->spheres, index * WORDS(SphereData));
     const Real3 high = record_real3(&record, 0, 1), low = record_real3(&record, 4, 1);
     return (Sphere){
         {two_stored(high.x, low.x), two_stored(high.y, low.y), two_stored(high.z, low.z)},
         two_stored(record_real(&record, 3), record_real(&record, 7))};
 }
 
-static inline UInt fetch_sphere_material(const SceneView *scene, UInt index)
+static inline UInt fetch_sphere_material(const Tracer *tracer, UInt index)
 {
-    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    const Record record = record_at(tracer->spheres, index * WORDS(SphereData));
     return record_word(&record, 8);
 }
 
@@ -133,9 +132,9 @@ typedef struct {
     UInt shader, exponent;
 } MaterialLanes;
 
-static inline MaterialLanes fetch_material(const SceneView *scene, UInt material)
+static inline MaterialLanes fetch_material(const Tracer *tracer, UInt material)
 {
-    const Record record = record_at(scene->materials, material * WORDS(Material));
+    const Record record = record_at(tracer->materials, material * WORDS(Material));
     return (MaterialLanes){.diffuse = record_real3(&record, 0, 1),
                            .kd = record_real(&record, 3),
                            .specular = record_real3(&record, 4, 1),

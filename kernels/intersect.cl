@@ -22,11 +22,10 @@ static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mas
     return sphere_chord(sphere, ray->origin, ray->direction);
 }
 
-static inline void intersect_spheres(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                                     Hit *best, Tally *tally)
+static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
 {
-    for (uint index = 0; index < frame->sphere_count; index++) {
-        const Sphere sphere = sphere_at(&scene->spheres[index]);
+    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
+        const Sphere sphere = sphere_at(&tracer->spheres[index]);
         const Mask is_own = ray->active && ray->own == index;
         const Mask is_other = ray->active && ray->own != index;
         const Real other = sphere_distance(&sphere, ray->origin, ray->direction, is_other);
@@ -36,7 +35,7 @@ static inline void intersect_spheres(const SceneView *scene, const FrameData *fr
         best->id = precedes ? (UInt)(index) : best->id;
         best->index = precedes ? (UInt)(index) : best->index;
         if (CLRT_STATISTICS)
-            tally->sphere_tests += lane_count(ray->active);
+            tracer->tally->sphere_tests += lane_count(ray->active);
     }
 }
 
@@ -51,42 +50,39 @@ static inline Mask is_searchable(const Ray *ray)
     return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
 }
 
-static inline Hit nearest_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                              Tally *tally)
+static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)
 {
     Hit best = {INFINITY, NOTHING, NOTHING};
     if (CLRT_SPHERES)
-        intersect_spheres(scene, frame, ray, &best, tally);
-    if (!CLRT_TRIANGLES || frame->triangle_count == 0)
+        intersect_spheres(tracer, ray, &best);
+    if (!CLRT_TRIANGLES || tracer->frame->triangle_count == 0)
         return best;
     Ray searching = *ray;
     searching.active = is_searchable(ray);
     if (any_lane(searching.active))
-        intersect_triangles(scene, frame, &searching, &best, tally);
+        intersect_triangles(tracer, &searching, &best);
     return best;
 }
 
 // Returns anything between the shaded point and the light of a shadow ray. If nothing blocks it,
 // the hit has no id, and t is the limit of the search. A primitive that the light lies on, within
 // the error of a distance, does not block it.
-static inline Hit blocking_hit(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                               Tally *tally)
+static inline Hit blocking_hit(const Tracer *tracer, const Ray *ray)
 {
     Hit best = {1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
     if (CLRT_SPHERES)
-        intersect_spheres(scene, frame, ray, &best, tally);
+        intersect_spheres(tracer, ray, &best);
     Ray rest = *ray;
     rest.active = is_searchable(ray) && best.id == NOTHING;
-    if (!CLRT_TRIANGLES || frame->triangle_count == 0 || !any_lane(rest.active))
+    if (!CLRT_TRIANGLES || tracer->frame->triangle_count == 0 || !any_lane(rest.active))
         return best;
-    intersect_triangles(scene, frame, &rest, &best, tally);
+    intersect_triangles(tracer, &rest, &best);
     return best;
 }
 
-static inline Mask is_blocked(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                              Tally *tally)
+static inline Mask is_blocked(const Tracer *tracer, const Ray *ray)
 {
-    const Hit blocker = blocking_hit(scene, frame, ray, tally);
+    const Hit blocker = blocking_hit(tracer, ray);
     return blocker.id != NOTHING;
 }
 

@@ -52,15 +52,14 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
 }
 
 // Returns colors in steps of 2^-32.
-static inline Real3 pixel_sample_color(const SceneView *scene, const FrameData *frame,
-                                       const PixelSamples *samples, Tally *tally)
+static inline Real3 pixel_sample_color(const Tracer *tracer, const PixelSamples *samples)
 {
     const Ray ray =
-        camera_ray_toward(frame, 2 * LADDER_GRID * samples->pixel_x + samples->x,
+        camera_ray_toward(tracer->frame, 2 * LADDER_GRID * samples->pixel_x + samples->x,
                           2 * LADDER_GRID * samples->pixel_y + samples->y, samples->active);
-    const Real3 color = trace(scene, frame, ray, tally);
+    const Real3 color = trace(tracer, ray);
     if (CLRT_STATISTICS)
-        tally->camera_rays += lane_count(samples->active);
+        tracer->tally->camera_rays += lane_count(samples->active);
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
@@ -112,24 +111,20 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
 // Serves requests first to end - 1, all with the same sample count, into the same elements of
 // sums. A work-item serves ITEM_REQUESTS consecutive requests. Tallies are written at the first of
 // them, and only if statistics are compiled in.
-kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
-                         global const Material *materials, global const SphereData *spheres,
-                         global const Node *nodes, global const Triangles *triangles,
-                         global const TriangleLook *looks, global const CornerNormals *normals,
-                         global const PixelRequest *requests, uint first, uint end,
-                         global PixelSums *sums, global uint *tallies)
+kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
+                         uint end, global PixelSums *sums, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint begin = first + ITEM_REQUESTS * (uint)get_global_id(0);
     if (begin >= end)
         return;
     const uint samples = requests[begin].samples;
     const uint count = samples * min(end - begin, (uint)ITEM_REQUESTS);
     Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     PixelSums sum = {{0, 0, 0}, 0};
     for (uint start = 0; start < count; start += CLRT_LANES) {
         const PixelSamples packet = samples_of(requests + begin, samples, start, count);
-        const Real3 color = pixel_sample_color(&scene, &frame, &packet, &tally);
+        const Real3 color = pixel_sample_color(&tracer, &packet);
         global PixelSums *place = sums + begin + start / samples;
         if (samples < CLRT_LANES) {
             store_sums(place, color, samples, count - start);

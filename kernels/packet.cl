@@ -111,13 +111,13 @@ static inline Real3 filled(Real3 v, Mask lanes, uint lane)
 }
 
 // Gathers the lanes whose bits are set into a packet. They share signs and longest axis.
-static inline void packet_gather(Packet *packet, const SceneView *scene, const Ray *ray, uint bits,
+static inline void packet_gather(Packet *packet, const Tracer *tracer, const Ray *ray, uint bits,
                                  uint longest_axis)
 {
     const uint first = lowest_bit(bits);
     packet->active = lanes_of(bits);
     packet->common_origin = ray->kind == RAY_CAMERA;
-    packet->rays.scene = scene;
+    packet->rays.tracer = tracer;
     packet->rays.ray = ray;
     const Real3 direction = filled(ray->direction, packet->active, first);
     const Real3 origin =
@@ -188,7 +188,7 @@ static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *pa
 {
     const Ray *ray = packet->rays.ray;
     const Mask known = ray->own_index != NOTHING;
-    const Corners own = fetch_corners(packet->rays.scene, known ? ray->own_index : (UInt)(0));
+    const Corners own = fetch_corners(packet->rays.tracer, known ? ray->own_index : (UInt)(0));
     return known && hits_neighbor(&own, corners, ray->direction, from_back);
 }
 

@@ -56,6 +56,7 @@ static inline Mask lanes_in_child(global const BvhWide *node, uint child, const 
 
 // The state of a packet's search. The stack stores children as WIDE * node + slot.
 typedef struct {
+    const Packet *packet;
     WideStack stack;
     Mask searching; // lanes not yet ended by a shadow ray's hit
     float farthest; // largest hit distance of the searching lanes
@@ -63,24 +64,24 @@ typedef struct {
     Hit *best;
 } PacketSearch;
 
-static inline void expand_node(PacketSearch *search, const SceneView *scene, const Packet *packet,
-                               uint number)
+static inline void expand_node(PacketSearch *search, uint number)
 {
+    global const BvhWide *node = &search->packet->rays.tracer->nodes[number];
     float8 entry;
-    const int8 near = children_near(&scene->nodes[number], packet, search->farthest, &entry);
+    const int8 near = children_near(node, search->packet, search->farthest, &entry);
     push_children(&search->stack, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
 }
 
 // Returns the lanes that enter the child.
-static inline uint lanes_entering(PacketSearch *search, const SceneView *scene,
-                                  const Packet *packet, uint child, Tally *tally)
+static inline uint lanes_entering(PacketSearch *search, uint child)
 {
-    global const BvhWide *node = &scene->nodes[child / WIDE];
-    const Mask inside = lanes_in_child(node, child % WIDE, packet, search->best->t);
+    const Tracer *tracer = search->packet->rays.tracer;
+    global const BvhWide *node = &tracer->nodes[child / WIDE];
+    const Mask inside = lanes_in_child(node, child % WIDE, search->packet, search->best->t);
     const uint bits = lane_bits(search->searching && inside);
     search->credit += (int)popcount(bits) - LANES_PER_TEST;
     if (CLRT_STATISTICS)
-        tally->box_tests += lane_count(search->searching);
+        tracer->tally->box_tests += lane_count(search->searching);
     return bits;
 }
 
@@ -92,32 +93,33 @@ static inline void update_lanes(PacketSearch *search, bool is_shadow)
 }
 
 // Returns the remaining lanes if the packet is abandoned, else 0.
-static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
-                                   Tally *tally)
+static inline uint traverse_packet(const Packet *packet, Hit *best)
 {
+    const Tracer *tracer = packet->rays.tracer;
     const bool is_shadow = packet->rays.ray->kind == RAY_SHADOW;
     PacketSearch search;
+    search.packet = packet;
     search.stack.count = 0;
     search.searching = packet->active;
     search.farthest = highest(best->t);
     search.credit = PACKET_CREDIT;
     search.best = best;
-    expand_node(&search, scene, packet, 0);
+    expand_node(&search, 0);
     uint slot;
     while (pop_child(&search.stack, search.farthest, &slot)) {
-        const uint bits = lanes_entering(&search, scene, packet, slot, tally);
+        const uint bits = lanes_entering(&search, slot);
         if (search.credit < 0)
             return lane_bits(search.searching);
         if (bits == 0)
             continue;
-        const uint child = scene->nodes[slot / WIDE].child[slot % WIDE];
+        const uint child = tracer->nodes[slot / WIDE].child[slot % WIDE];
         if ((child & WIDE_LEAF) == 0) {
-            expand_node(&search, scene, packet, child);
+            expand_node(&search, child);
             continue;
         }
         if (CLRT_STATISTICS)
-            tally->triangle_tests += WIDE * popcount(bits);
-        const BlockPlace start = block_start(scene, child & ~WIDE_LEAF);
+            tracer->tally->triangle_tests += WIDE * popcount(bits);
+        const BlockPlace start = block_start(tracer, child & ~WIDE_LEAF);
         if (!intersect_packet_leaf(&start, packet, bits, search.farthest, best))
             continue;
         update_lanes(&search, is_shadow);
@@ -136,21 +138,21 @@ static inline UInt ray_classes(Real3 direction)
 }
 
 // Returns the remaining lanes, whose rays have to search alone.
-static NOT_INLINE uint intersect_packet(const SceneView *scene, const FrameData *frame,
-                                        const Packet *packet, Hit *best, Tally *tally)
+static NOT_INLINE uint intersect_packet(const Packet *packet, Hit *best)
 {
+    const Tracer *tracer = packet->rays.tracer;
     const Mask lanes = packet->active;
     Hit hit = *best;
     uint left = 0;
-    if (CLRT_BVH && frame->uses_bvh) {
-        left = traverse_packet(scene, packet, &hit, tally);
+    if (CLRT_BVH && tracer->frame->uses_bvh) {
+        left = traverse_packet(packet, &hit);
     } else {
-        for (uint block = 0; block * WIDE < frame->triangle_count; block++) {
-            const BlockPlace start = block_start(scene, block);
+        for (uint block = 0; block * WIDE < tracer->frame->triangle_count; block++) {
+            const BlockPlace start = block_start(tracer, block);
             intersect_packet_block(&start, packet, lanes, INFINITY, &hit);
         }
         if (CLRT_STATISTICS)
-            tally->triangle_tests += frame->triangle_count * lane_count(lanes);
+            tracer->tally->triangle_tests += tracer->frame->triangle_count * lane_count(lanes);
     }
     best->t = lanes ? hit.t : best->t;
     best->id = lanes ? hit.id : best->id;
@@ -160,11 +162,10 @@ static NOT_INLINE uint intersect_packet(const SceneView *scene, const FrameData 
 
 // Rays that share signs and longest axis with enough others form a packet; the rest search alone.
 // Without a tree there is no traversal, and all rays form packets.
-static void search_packets(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                           Hit *best, Tally *tally)
+static void search_packets(const Tracer *tracer, const Ray *ray, Hit *best)
 {
     const uint all = lane_bits(ray->active);
-    const bool has_tree = CLRT_BVH && frame->uses_bvh;
+    const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
     const uint smallest = has_tree ? SMALLEST_PACKET : 1;
     uint alone = has_tree && !CLRT_PACKET ? all : 0;
     uint left = all & ~alone;
@@ -178,13 +179,13 @@ static void search_packets(const SceneView *scene, const FrameData *frame, const
             continue;
         }
         Packet packet;
-        packet_gather(&packet, scene, ray, part, wanted / 8);
-        alone |= intersect_packet(scene, frame, &packet, best, tally);
+        packet_gather(&packet, tracer, ray, part, wanted / 8);
+        alone |= intersect_packet(&packet, best);
     }
     if (alone == 0)
         return;
-    const Search search = search_along(scene, ray);
-    intersect_lanes(scene, &search, alone, best, tally);
+    const Search search = search_along(tracer, ray);
+    intersect_lanes(&search, alone, best);
 }
 
 #endif

@@ -41,12 +41,12 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
 }
 
 // Returns whether the ray stops on a triangle that its line hits within rounding of the ray's own.
-static NOT_INLINE bool stops_on_neighbor(const SceneView *scene, const Ray *ray,
+static NOT_INLINE bool stops_on_neighbor(const Tracer *tracer, const Ray *ray,
                                          const Corners *corners, bool from_back)
 {
     if (ray->own_index == NOTHING)
         return false;
-    const Corners own = fetch_corners(scene, ray->own_index);
+    const Corners own = fetch_corners(tracer, ray->own_index);
     return hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
@@ -74,7 +74,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
     Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
-    if (in_doubt && stops_on_neighbor(search->scene, ray, &corners, !front))
+    if (in_doubt && stops_on_neighbor(search->tracer, ray, &corners, !front))
         return max(t, (Real)(0.0f));
     return distance;
 }
@@ -83,7 +83,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
-        global const TriangleData *triangle = &search->scene->triangles[index];
+        global const TriangleData *triangle = &search->tracer->triangles[index];
         const Real t = triangle_distance(triangle, search);
         if (hit_precedes(t, triangle->id, best)) {
             *best = (Hit){t, triangle->id, index};
@@ -111,7 +111,7 @@ static inline void push_child(PairStack *stack, uint child, Real entry)
 static inline void push_children(PairStack *stack, const Search *search, uint node, Real reach)
 {
     Real2 entry, leave;
-    intersect_slabs(&search->scene->nodes[node], search, reach, &entry, &leave);
+    intersect_slabs(&search->tracer->nodes[node], search, reach, &entry, &leave);
     const bool hits_first = entry.x <= leave.x, hits_second = entry.y <= leave.y;
     const bool second_nearer = entry.y < entry.x;
     if (hits_second && !second_nearer)
@@ -122,45 +122,45 @@ static inline void push_children(PairStack *stack, const Search *search, uint no
         push_child(stack, 2 * node + 1, entry.y);
 }
 
-static inline void traverse_pairs(const Search *search, Hit *best, Tally *tally)
+static inline void traverse_pairs(const Search *search, Hit *best)
 {
+    const Tracer *tracer = search->tracer;
     PairStack stack;
     stack.count = 0;
     push_children(&stack, search, 0, best->t);
     if (CLRT_STATISTICS)
-        tally->box_tests += 2;
+        tracer->tally->box_tests += 2;
     while (stack.count > 0) {
         stack.count--;
         if (stack.entry[stack.count] > best->t)
             continue;
         const uint child = stack.child[stack.count];
-        const uint first = search->scene->nodes[child >> 1].first[child & 1];
-        const uint count = search->scene->nodes[child >> 1].count[child & 1];
+        const uint first = tracer->nodes[child >> 1].first[child & 1];
+        const uint count = tracer->nodes[child >> 1].count[child & 1];
         if (count == 0) {
             push_children(&stack, search, first, best->t);
             if (CLRT_STATISTICS)
-                tally->box_tests += 2;
+                tracer->tally->box_tests += 2;
             continue;
         }
         intersect_range(search, (uint2)(first, count), best);
         if (CLRT_STATISTICS)
-            tally->triangle_tests += count;
+            tracer->tally->triangle_tests += count;
         if (search->ray->kind == RAY_SHADOW && best->id != NOTHING)
             return;
     }
 }
 
-static void search_pairs(const SceneView *scene, const FrameData *frame, const Ray *ray, Hit *best,
-                         Tally *tally)
+static void search_pairs(const Tracer *tracer, const Ray *ray, Hit *best)
 {
-    const Search search = search_along(scene, ray);
-    if (CLRT_BVH && frame->uses_bvh) {
-        traverse_pairs(&search, best, tally);
+    const Search search = search_along(tracer, ray);
+    if (CLRT_BVH && tracer->frame->uses_bvh) {
+        traverse_pairs(&search, best);
         return;
     }
-    intersect_range(&search, (uint2)(0, frame->triangle_count), best);
+    intersect_range(&search, (uint2)(0, tracer->frame->triangle_count), best);
     if (CLRT_STATISTICS)
-        tally->triangle_tests += frame->triangle_count;
+        tracer->tally->triangle_tests += tracer->frame->triangle_count;
 }
 
 #endif

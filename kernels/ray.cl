@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data that the tracer's steps share: the scene, a ray, its hit and its cost.
+// The data that the tracer's steps share: a ray, its hit, its cost and the scene.
 #ifndef CLRT_RAY_CL
 #define CLRT_RAY_CL
 #include "numeric.cl"
@@ -60,7 +60,8 @@ typedef BvhPair Node;
 typedef TriangleData Triangles;
 #endif
 
-// The arrays of the flattened scene, bundled as one parameter.
+// The data of all rays: the arrays of the flattened scene, the picture's parameters and the
+// counters.
 typedef struct {
     global const PointLight *lights;
     global const Material *materials;
@@ -69,7 +70,20 @@ typedef struct {
     global const Triangles *triangles;
     global const TriangleLook *looks;
     global const CornerNormals *normals;
-} SceneView;
+    const FrameData *frame;
+    Tally *tally;
+} Tracer;
+
+// The first arguments of kernels, in the order in which the host sets them, and their Tracer.
+#define TRACER_ARGUMENTS                                                                           \
+    const FrameData frame, global const PointLight *lights, global const Material *materials,      \
+        global const SphereData *spheres, global const Node *nodes,                                \
+        global const Triangles *triangles, global const TriangleLook *looks,                       \
+        global const CornerNormals *normals
+#define TRACER(tally)                                                                              \
+    {                                                                                              \
+        lights, materials, spheres, nodes, triangles, looks, normals, &frame, tally                \
+    }
 
 static inline uint lane_count(Mask mask)
 {

@@ -39,7 +39,8 @@ kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
     const uint start = CLRT_LANES * (uint)get_global_id(0);
     if (start >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const UInt place = start + LANE_Y * PACKET_WIDTH + LANE_X;
     const Record record = record_at(rays, min(place, (UInt)(count - 1)) * 8);
     const Real3 origin = record_real3(&record, 0, 1), direction = record_real3(&record, 4, 1);
@@ -47,8 +48,7 @@ kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
     while (any_lane(left)) {
         const Mask lanes = share_origin(origin, left);
         const Ray ray = shared_ray(origin, direction, lanes);
-        Tally tally = {0};
-        const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
+        const Hit hit = nearest_hit(&tracer, &ray);
         store_distances(distances + start, lanes, hit.t);
         left = left && !lanes;
     }

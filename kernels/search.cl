@@ -69,7 +69,7 @@ static inline Slabs slabs_of(Real3 origin, Real3 direction)
 
 // A search for triangles, with the prepared rays of all lanes.
 typedef struct {
-    const SceneView *scene;
+    const Tracer *tracer;
     const Ray *ray;
     ShearAxes axes;
     Shear shear;
@@ -77,10 +77,10 @@ typedef struct {
     Slabs slabs;
 } Search;
 
-static inline Search search_along(const SceneView *scene, const Ray *ray)
+static inline Search search_along(const Tracer *tracer, const Ray *ray)
 {
     Search search;
-    search.scene = scene;
+    search.tracer = tracer;
     search.ray = ray;
     search.axes = shear_axes(ray->direction);
     search.shear = shear_along(ray->direction, &search.axes);

@@ -47,12 +47,12 @@ static inline Mask is_before_face(const Surface *surface, Real3 light)
     return dot_product(surface->face, difference(light, surface->on_face)) > 0.0f;
 }
 
-static inline LightSample sample_light(const SceneView *scene, uint index, const Surface *surface,
+static inline LightSample sample_light(const Tracer *tracer, uint index, const Surface *surface,
                                        Mask wanted)
 {
     LightSample light;
-    light.position = load3(scene->lights[index].position);
-    light.intensity = scene->lights[index].intensity;
+    light.position = load3(tracer->lights[index].position);
+    light.intensity = tracer->lights[index].intensity;
     light.toward = unit_vector(difference(light.position, surface->point));
     light.cosine = dot_product(surface->normal, light.toward);
     light.faces = wanted && light.cosine > 0.0f && is_before_face(surface, light.position);
@@ -62,12 +62,12 @@ static inline LightSample sample_light(const SceneView *scene, uint index, const
 // The ray starts at the surface, whose position is known best there. Light then passes no edge of
 // a closed shape, at any distance. Starting at the light, the common origin of all rays, would
 // make packets 2 % faster in small scenes and slower in large ones.
-static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
+static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                                const LightSample *light)
 {
     const Heading heading = {light->position, true};
     const Real sine = fabs(dot_product(surface->face, light->toward));
-    const Real3 point = point_left(scene, surface, &heading, sine, light->faces);
+    const Real3 point = point_left(tracer, surface, &heading, sine, light->faces);
     return (Ray){point,       difference(light->position, point),
                  surface->id, surface->index,
                  RAY_SHADOW,  light->faces};
@@ -83,18 +83,17 @@ typedef struct {
 
 // Adds a light's contribution. Surfaces turned away from the light get nothing and need no shadow
 // ray.
-static inline void receive_light(const SceneView *scene, const FrameData *frame, uint index,
-                                 Lighting *lighting, Tally *tally)
+static inline void receive_light(const Tracer *tracer, uint index, Lighting *lighting)
 {
     const Surface *surface = lighting->surface;
-    const LightSample light = sample_light(scene, index, surface, lighting->wanted);
+    const LightSample light = sample_light(tracer, index, surface, lighting->wanted);
     if (!any_lane(light.faces))
         return;
     if (CLRT_STATISTICS)
-        tally->shadow_rays += lane_count(light.faces);
-    const Ray ray = ray_to_light(scene, surface, &light);
-    const Mask is_lit = light.faces && !is_blocked(scene, frame, &ray, tally);
-    sign_lanes(tally, is_lit, (UInt)(index));
+        tracer->tally->shadow_rays += lane_count(light.faces);
+    const Ray ray = ray_to_light(tracer, surface, &light);
+    const Mask is_lit = light.faces && !is_blocked(tracer, &ray);
+    sign_lanes(tracer->tally, is_lit, (UInt)(index));
     const Real diffuse = lighting->diffuse + light.intensity * light.cosine;
     lighting->diffuse = is_lit ? diffuse : lighting->diffuse;
     const Mask shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
@@ -115,16 +114,15 @@ static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *
 
 // Returns the color of the surfaces given to lighting_of. The values of other lanes are
 // unspecified.
-static inline Real3 shade(const SceneView *scene, const FrameData *frame, Lighting lighting,
-                          Tally *tally)
+static inline Real3 shade(const Tracer *tracer, Lighting lighting)
 {
     const MaterialLanes *material = lighting.material;
     const Mask is_flat = material->shader == SHADER_SILHOUETTE;
     if (!CLRT_SHADED || !any_lane(lighting.wanted))
         return material->diffuse;
-    for (uint index = 0; index < frame->light_count; index++)
-        receive_light(scene, frame, index, &lighting, tally);
-    const Real diffuse = frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
+    for (uint index = 0; index < tracer->frame->light_count; index++)
+        receive_light(tracer, index, &lighting);
+    const Real diffuse = tracer->frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
     Real3 color = scaled3(diffuse, material->diffuse);
     const Real3 shine =
         scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);

@@ -46,23 +46,23 @@ static inline UInt surface_word(const FrameData *frame, const Surface *surface)
     return surface->id < frame->sphere_count ? surface->id : of_mesh;
 }
 
-static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)
+static inline Real3 trace(const Tracer *tracer, Ray ray)
 {
     Real3 color = real3_of(0.0f, 0.0f, 0.0f);
     Real weight = 1.0f;
     Mask ended = 0; // at a surface that does not reflect
-    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
-        const Hit hit = nearest_hit(scene, frame, &ray, tally);
+    for (uint level = 0; level < tracer->frame->max_level && any_lane(ray.active); level++) {
+        const Hit hit = nearest_hit(tracer, &ray);
         const Mask met = ray.active && hit.id != NOTHING;
         if (CLRT_STATISTICS)
-            count_rays(tally, level, ray.active, met);
+            count_rays(tracer->tally, level, ray.active, met);
         if (!any_lane(met))
             break;
-        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
-        const MaterialLanes material = fetch_material(scene, surface.material);
-        sign_lanes(tally, met, surface_word(frame, &surface));
+        const Surface surface = surface_at(tracer, &ray, &hit, met);
+        const MaterialLanes material = fetch_material(tracer, surface.material);
+        sign_lanes(tracer->tally, met, surface_word(tracer->frame, &surface));
         const Lighting dark = lighting_of(&surface, &material, met);
-        const Real3 shaded = shade(scene, frame, dark, tally);
+        const Real3 shaded = shade(tracer, dark);
         Mask ends = met;
         if (CLRT_MIRRORS)
             ends = met && material.reflectivity == 0.0f;
@@ -72,9 +72,9 @@ static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ra
         ended = ended || ends;
         if (!CLRT_MIRRORS)
             break;
-        ray = ray_reflected(scene, &surface, met && !ends);
+        ray = ray_reflected(tracer, &surface, met && !ends);
     }
-    const Real3 background = load_private3(frame->background);
+    const Real3 background = load_private3(tracer->frame->background);
     return choose3(ended, color, sum3(color, scaled3(weight, background)));
 }
 

@@ -98,9 +98,9 @@ typedef struct {
     uint place, index;
 } BlockPlace;
 
-static inline BlockPlace block_start(const SceneView *scene, uint number)
+static inline BlockPlace block_start(const Tracer *tracer, uint number)
 {
-    return (BlockPlace){scene->triangles + number, 0, number * WIDE};
+    return (BlockPlace){tracer->triangles + number, 0, number * WIDE};
 }
 
 static inline Wide3 splat3(const Real3 *v, uint lane)
@@ -116,7 +116,7 @@ static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search 
     const Ray *ray = search->ray;
     if (lane_uint(&ray->own_index, lane) == NOTHING)
         return 0;
-    const Corners owns = fetch_corners(search->scene, (UInt)(lane_uint(&ray->own_index, lane)));
+    const Corners owns = fetch_corners(search->tracer, (UInt)(lane_uint(&ray->own_index, lane)));
     const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
     return hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
@@ -204,18 +204,18 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
 }
 
 // Prefetches a node, or most of a block: four cache lines. OpenCL's prefetch does nothing on PoCL.
-static inline void prefetch_child(const SceneView *scene, uint child)
+static inline void prefetch_child(const Tracer *tracer, uint child)
 {
 #if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
-    const ulong node = (ulong)(scene->nodes + child);
-    const ulong block = (ulong)(scene->triangles + (child & ~WIDE_LEAF));
+    const ulong node = (ulong)(tracer->nodes + child);
+    const ulong block = (ulong)(tracer->triangles + (child & ~WIDE_LEAF));
     const ulong start = (child & WIDE_LEAF) != 0 ? block : node;
     __builtin_prefetch((const void *)start);
     __builtin_prefetch((const void *)(start + 64));
     __builtin_prefetch((const void *)(start + 128));
     __builtin_prefetch((const void *)(start + 192));
 #else
-    (void)scene, (void)child;
+    (void)tracer, (void)child;
 #endif
 }
 
@@ -228,7 +228,7 @@ typedef struct {
     WideStack stack[CLRT_LANES];
 } LaneSearches;
 
-static inline void advance_lane(LaneSearches *searches, const SceneView *scene, uint lane)
+static inline void advance_lane(LaneSearches *searches, uint lane)
 {
     uint child;
     const uint bit = 1u << lane;
@@ -236,44 +236,46 @@ static inline void advance_lane(LaneSearches *searches, const SceneView *scene, 
         searches->ended |= bit;
         return;
     }
-    prefetch_child(scene, child);
+    prefetch_child(searches->search->tracer, child);
     searches->child[lane] = child;
     searches->leaves |= (child & WIDE_LEAF) != 0 ? bit : 0;
 }
 
 // Advances each lane that is at a node by one step.
-static inline void visit_nodes(LaneSearches *searches, const SceneView *scene, Tally *tally)
+static inline void visit_nodes(LaneSearches *searches)
 {
+    const Tracer *tracer = searches->search->tracer;
     uint bits = ALL_LANES & ~(searches->leaves | searches->ended);
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        global const BvhWide *node = &scene->nodes[searches->child[lane]];
+        global const BvhWide *node = &tracer->nodes[searches->child[lane]];
         // Read early, while the other cache lines of the node are loading.
         const uint8 children = vload8(0, node->child);
         const float reach = lane_real(&searches->hits->t, lane);
         float8 entry;
         const int8 met = children_hit(node, searches->search, lane, reach, &entry);
         if (CLRT_STATISTICS)
-            tally->box_tests += node->child_count;
+            tracer->tally->box_tests += node->child_count;
         push_children(&searches->stack[lane], entry, met, children);
-        advance_lane(searches, scene, lane);
+        advance_lane(searches, lane);
     }
 }
 
 // Advances each lane that is at a block by one step. A shadow ray stops at its first hit.
-static inline void visit_leaves(LaneSearches *searches, const SceneView *scene, Tally *tally)
+static inline void visit_leaves(LaneSearches *searches)
 {
+    const Tracer *tracer = searches->search->tracer;
     const bool is_shadow = searches->search->ray->kind == RAY_SHADOW;
     uint bits = searches->leaves;
     searches->leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        const BlockPlace start = block_start(scene, searches->child[lane] & ~WIDE_LEAF);
+        const BlockPlace start = block_start(tracer, searches->child[lane] & ~WIDE_LEAF);
         const bool changed = intersect_block(&start, searches->search, lane, searches->hits);
         if (CLRT_STATISTICS)
-            tally->triangle_tests += WIDE;
+            tracer->tally->triangle_tests += WIDE;
         if (!is_shadow || !changed)
-            advance_lane(searches, scene, lane);
+            advance_lane(searches, lane);
         else
             searches->ended |= 1u << lane;
     }
@@ -281,8 +283,7 @@ static inline void visit_leaves(LaneSearches *searches, const SceneView *scene, 
 
 // Searches for the rays of the lanes whose bits are set. While one ray waits for memory or for its
 // last step's result, the others advance. This is a fifth faster than one ray after another.
-static NOT_INLINE void intersect_lanes(const SceneView *scene, const Search *search, uint bits,
-                                       Hit *best, Tally *tally)
+static NOT_INLINE void intersect_lanes(const Search *search, uint bits, Hit *best)
 {
     LaneSearches searches;
     searches.search = search;
@@ -295,8 +296,8 @@ static NOT_INLINE void intersect_lanes(const SceneView *scene, const Search *sea
     }
     while (searches.ended != ALL_LANES) {
         while ((searches.leaves | searches.ended) != ALL_LANES)
-            visit_nodes(&searches, scene, tally);
-        visit_leaves(&searches, scene, tally);
+            visit_nodes(&searches);
+        visit_leaves(&searches);
     }
 }
 

@@ -73,7 +73,7 @@ static inline uint first_kind(const TestRays *rays, Mask lanes)
 
 // Reflected rays are made by the tracer's own function, from a face they look straight away from;
 // a shadow ray ends where t is 1.  The other lanes copy the first.
-static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Mask lanes)
+static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
@@ -88,7 +88,7 @@ static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Mask lane
     surface.face = direction;
     surface.toward_viewer = negative3(direction);
     if (kind == RAY_REFLECTED)
-        return ray_reflected(scene, &surface, lanes);
+        return ray_reflected(tracer, &surface, lanes);
     return (Ray){origin, direction, rays->own, NOTHING, (RayKind)kind, lanes};
 }
 
@@ -103,19 +103,18 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask l
 }
 
 // Finds the rays' hits or, for shadow rays, whether they are blocked, as 1 in place of the id.
-static inline void trace_rays(const SceneView *scene, const FrameData *frame, const TestRays *rays,
-                              bool are_shadows, global TestHit *hits)
+static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool are_shadows,
+                              global TestHit *hits)
 {
     Mask left = rays->exist;
     while (any_lane(left)) {
         const Mask lanes = companions(rays, left);
-        const Ray ray = ray_of(scene, rays, lanes);
-        Tally tally = {0};
+        const Ray ray = ray_of(tracer, rays, lanes);
         Hit hit = {0.0f, NOTHING, NOTHING};
         if (are_shadows)
-            hit.id = is_blocked(scene, frame, &ray, &tally) ? (UInt)(1) : (UInt)(0);
+            hit.id = is_blocked(tracer, &ray) ? (UInt)(1) : (UInt)(0);
         else
-            hit = nearest_hit(scene, frame, &ray, &tally);
+            hit = nearest_hit(tracer, &ray);
         store_hits(hits, rays, lanes, hit.t, hit.id);
         left = left && !lanes;
     }
@@ -127,9 +126,10 @@ kernel void batch_nearest(const FrameData frame, global const SphereData *sphere
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    trace_rays(&scene, &frame, &all, false, hits);
+    trace_rays(&tracer, &all, false, hits);
 }
 
 // id becomes 1 where the ray, a shadow ray, is blocked.
@@ -139,9 +139,10 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    trace_rays(&scene, &frame, &all, true, hits);
+    trace_rays(&tracer, &all, true, hits);
 }
 
 // Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or
@@ -157,30 +158,30 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, looks, normals, &frame, &tally};
     const TestRays all = test_rays(rays, count);
     const UInt place = all.first + LANE_Y * PACKET_WIDTH + LANE_X, last = count - 1;
     const Record record = record_at(outward, min(place, last) * 3);
     const Real3 chosen = record_real3(&record, 0, 1);
     Mask left = all.exist;
     while (any_lane(left)) {
-        Tally tally = {0};
         const Mask lanes = companions(&all, left);
-        const Ray ray = ray_of(&scene, &all, lanes);
-        const Hit first = nearest_hit(&scene, &frame, &ray, &tally);
+        const Ray ray = ray_of(&tracer, &all, lanes);
+        const Hit first = nearest_hit(&tracer, &ray);
         const Mask met = lanes && first.id != NOTHING;
         Hit second = {0.0f, NOTHING, NOTHING};
         if (any_lane(met)) {
-            const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
+            const Surface surface = surface_at(&tracer, &ray, &first, met);
             const Mask inward = dot_product(chosen, surface.face) < 0.0f;
             const Real3 direction = choose3(inward, negative3(chosen), chosen);
             const Ray next = {surface.point, direction,     surface.id,
                               surface.index, RAY_REFLECTED, met};
-            second = nearest_hit(&scene, &frame, &next, &tally);
+            second = nearest_hit(&tracer, &next);
             const LightSample light = {
                 .position = sum3(surface.point, direction), .toward = direction, .faces = met};
-            const Ray shadow = ray_to_light(&scene, &surface, &light);
-            const Mask dark = is_blocked(&scene, &frame, &shadow, &tally);
+            const Ray shadow = ray_to_light(&tracer, &surface, &light);
+            const Mask dark = is_blocked(&tracer, &shadow);
             second.id = second.id == NOTHING && dark ? (UInt)(LEAVE_SHADOWED) : second.id;
         }
         store_hits(hits, &all, lanes, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
@@ -190,10 +191,10 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
 
 #if CLRT_WIDE_NODES
 // The first lane's ray, as the searches want it, in every lane of which only that one counts.
-static inline void prepare_first(Packet *packet, const SceneView *scene, const Ray *ray)
+static inline void prepare_first(Packet *packet, const Tracer *tracer, const Ray *ray)
 {
     const UInt classes = ray_classes(ray->direction);
-    packet_gather(packet, scene, ray, 1, lane_uint(&classes, 0) / 8);
+    packet_gather(packet, tracer, ray, 1, lane_uint(&classes, 0) / 8);
 }
 
 // Where the ray alone meets a triangle, by the test of packets or by that of blocks.
@@ -229,11 +230,12 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint block = get_global_id(0);
     if (block >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&scene, &all, lanes_of(1));
+    const Ray ray = ray_of(&tracer, &all, lanes_of(1));
     Packet packet;
-    prepare_first(&packet, &scene, &ray);
+    prepare_first(&packet, &tracer, &ray);
     for (uint place = 0; place < WIDE; place++) {
         const uint id = triangles[block].id[place] & ~TRIANGLE_MARKS;
         if (triangles[block].id[place] != NOTHING)
@@ -268,7 +270,8 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     TestRays all = test_rays(rays, count);
     all.kind = (UInt)((uint)RAY_REFLECTED);
     const UInt classes = ray_classes(all.direction);
@@ -276,10 +279,10 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     while (any_lane(left)) {
         const Mask lanes = left && same_in_first(classes, left);
         const UInt wanted = first_lane(classes, left);
-        Ray ray = ray_of(&scene, &all, lanes);
+        Ray ray = ray_of(&tracer, &all, lanes);
         ray.direction = filled_lanes(all.direction, lanes);
         Packet packet;
-        packet_gather(&packet, &scene, &ray, lane_bits(lanes), lane_uint(&wanted, 0) / 8);
+        packet_gather(&packet, &tracer, &ray, lane_bits(lanes), lane_uint(&wanted, 0) / 8);
         store_hits(hits, &all, lanes, 0.0f,
                    boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
         left = left && !lanes;
@@ -294,10 +297,11 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&scene, &all, 1);
-    const Search search = search_along(&scene, &ray);
+    const Ray ray = ray_of(&tracer, &all, 1);
+    const Search search = search_along(&tracer, &ray);
     const Real t = triangle_distance(&triangles[place], &search);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
@@ -310,10 +314,11 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    const Ray ray = ray_of(&scene, &all, 1);
-    const Search search = search_along(&scene, &ray);
+    const Ray ray = ray_of(&tracer, &all, 1);
+    const Search search = search_along(&tracer, &ray);
     Real2 entry, leave;
     intersect_slabs(&nodes[place], &search, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
