@@ -24,42 +24,36 @@ typedef struct {
     Real3 point, normal;
     Real depth;
     UInt primitive, material, lights, bounces;
-} Path;
+} PathLanes;
 
-static inline Path path_to(const Tracer *tracer, const Hit *hit, const Surface *surface, Mask met)
+static inline PathLanes first_hit(const Tracer *tracer, const Path *path)
 {
+    const Mask met = path->met;
     const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
-    return (Path){.point = choose3(met, surface->point, zero),
-                  .normal = choose3(met, surface->normal, zero),
-                  .depth = met ? hit->t : (Real)(INFINITY),
-                  .primitive = met ? hit->id : (UInt)(NOTHING),
-                  .material = met ? surface->material : (UInt)(NOTHING),
-                  .lights = lights_reaching(tracer, surface, met)};
+    return (PathLanes){.point = choose3(met, path->surface.point, zero),
+                       .normal = choose3(met, path->surface.normal, zero),
+                       .depth = met ? path->hit.t : (Real)(INFINITY),
+                       .primitive = met ? path->hit.id : (UInt)(NOTHING),
+                       .material = met ? path->surface.material : (UInt)(NOTHING),
+                       .lights = lights_reaching(tracer, &path->surface, met)};
 }
 
-// Follows the ray as trace does, without computing colors.
-static inline Path follow(const Tracer *tracer, Ray ray)
+static inline PathLanes describe_path(const Tracer *tracer, Ray ray)
 {
-    Path path = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
-    for (uint level = 0; level < tracer->frame->max_level && any_lane(ray.active); level++) {
-        if (level > 0)
-            path.bounces += ray.active ? (UInt)(1) : (UInt)(0);
-        const Hit hit = nearest_hit(tracer, &ray);
-        const Mask met = ray.active && hit.id != NOTHING;
-        if (!any_lane(met))
-            break;
-        const Surface surface = surface_at(tracer, &ray, &hit, met);
-        if (level == 0)
-            path = path_to(tracer, &hit, &surface, met);
-        const MaterialLanes material = fetch_material(tracer, surface.material);
-        ray = ray_reflected(tracer, &surface, met && material.reflectivity != 0.0f);
+    PathLanes data = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
+    Path path = path_along(ray);
+    while (path_step(tracer, &path)) {
+        if (path.level > 1)
+            data.bounces += path.ray.active ? (UInt)(1) : (UInt)(0);
+        else if (any_lane(path.met))
+            data = first_hit(tracer, &path);
     }
-    return path;
+    return data;
 }
 
 #define LANE_OF(type, value, lane) (((const type *)&(value))[lane])
 
-static inline void store_path(global PathData *data, const Path *path, uint lane)
+static inline void store_path(global PathData *data, const PathLanes *path, uint lane)
 {
     store_lane(data->point, &path->point, lane);
     store_lane(data->normal, &path->normal, lane);
@@ -97,8 +91,8 @@ kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
             size_t place;
             const uint2 corner = (uint2)(x, y);
             const Places pixels = places_at(&frame, corner);
-            const Path path =
-                follow(&tracer, camera_ray(&frame, pixels.x, pixels.y, pixels.active));
+            const Ray ray = camera_ray(&frame, pixels.x, pixels.y, pixels.active);
+            const PathLanes path = describe_path(&tracer, ray);
             for (uint lane = 0; lane < CLRT_LANES; lane++)
                 if (lane_place(&frame, corner, lane, &place))
                     store_path(&paths[place], &path, lane);

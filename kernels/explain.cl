@@ -107,30 +107,31 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     note(notes, LIGHT_SPECULAR, received.specular);
 }
 
-static inline void note_hit(const Notes *notes, const Tracer *tracer, const Ray *ray,
-                            const Hit *hit)
+// Records the last ray of the path and its hit.
+static inline void note_ray(const Notes *notes, const Tracer *tracer, const Path *path)
 {
-    note3(notes, LEVEL_ORIGIN, ray->origin);
-    note3(notes, LEVEL_DIRECTION, ray->direction);
-    note(notes, LEVEL_T, hit->t);
-    note_count(notes, LEVEL_PRIMITIVE, hit->id);
-    const Mask met = ray->active && hit->id != NOTHING;
-    if (!any_lane(met))
+    note3(notes, LEVEL_ORIGIN, path->ray.origin);
+    note3(notes, LEVEL_DIRECTION, path->ray.direction);
+    note(notes, LEVEL_T, path->hit.t);
+    note(notes, LEVEL_WEIGHT, path->weight);
+    note_count(notes, LEVEL_PRIMITIVE, path->hit.id);
+    if (!any_lane(path->met))
         return;
-    const Hit hits = hit_everywhere(hit, met);
-    note(notes, LEVEL_ERROR, hit_error(tracer, ray, &hits));
+    const Hit hits = hit_everywhere(&path->hit, path->met);
+    note(notes, LEVEL_ERROR, hit_error(tracer, &path->ray, &hits));
 }
 
-// Records the surface and each light's contribution to it.
-static inline void note_surface(const Notes *notes, const Tracer *tracer, const Lighting *lighting)
+// Records the last surface of the path and each light's contribution to it.
+static inline void note_surface(const Notes *notes, const Tracer *tracer, const Path *path)
 {
-    note3(notes, LEVEL_POINT, lighting->surface->point);
-    note3(notes, LEVEL_NORMAL, lighting->surface->normal);
-    note_count(notes, LEVEL_MATERIAL, lighting->surface->material);
-    for (uint index = 0; any_lane(lighting->wanted) && index < tracer->frame->light_count;
-         index++) {
+    const Lighting dark = lighting_of(&path->surface, &path->material, path->met);
+    note3(notes, LEVEL_POINT, path->surface.point);
+    note3(notes, LEVEL_NORMAL, path->surface.normal);
+    note(notes, LEVEL_SHARE, path_share(path));
+    note_count(notes, LEVEL_MATERIAL, path->surface.material);
+    for (uint index = 0; any_lane(dark.wanted) && index < tracer->frame->light_count; index++) {
         const Notes light = light_notes(notes, index);
-        note_light(&light, tracer, index, lighting);
+        note_light(&light, tracer, index, &dark);
     }
 }
 
@@ -139,34 +140,18 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
 static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
                                  const Notes *end)
 {
-    Real3 color = real3_of(0.0f, 0.0f, 0.0f);
-    Real weight = 1.0f;
-    note(end, 3, 0.0f);
-    for (*end->words = 0; *end->words < tracer->frame->max_level;) {
-        const Notes level = level_notes(notes, tracer->frame, (*end->words)++);
-        const Hit hit = nearest_hit(tracer, &ray);
-        const Mask met = ray.active && hit.id != NOTHING;
-        note_hit(&level, tracer, &ray, &hit);
-        note(&level, LEVEL_WEIGHT, weight);
-        if (!any_lane(met))
+    Path path = path_along(ray);
+    while (path_step(tracer, &path)) {
+        const Notes level = level_notes(notes, tracer->frame, path.level - 1);
+        note_ray(&level, tracer, &path);
+        if (!any_lane(path.met))
             break;
-        const Surface surface = surface_at(tracer, &ray, &hit, met);
-        const MaterialLanes material = fetch_material(tracer, surface.material);
-        const Lighting dark = lighting_of(&surface, &material, met);
-        const Real3 shaded = shade(tracer, dark);
-        const Mask ends = met && material.reflectivity == 0.0f;
-        const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
-        note_surface(&level, tracer, &dark);
-        note3(&level, LEVEL_SHADED, shaded);
-        note(&level, LEVEL_SHARE, share);
-        color = sum3(color, scaled3(share, shaded));
-        if (any_lane(ends))
-            return color;
-        weight = weight * material.reflectivity;
-        ray = ray_reflected(tracer, &surface, met);
+        note_surface(&level, tracer, &path);
+        note3(&level, LEVEL_SHADED, path_shade(tracer, &path));
     }
-    note(end, 3, weight);
-    return sum3(color, scaled3(weight, load_private3(tracer->frame->background)));
+    *end->words = path.level;
+    note(end, 3, path.weight);
+    return path_color(tracer, &path);
 }
 
 // Traces the sample at a column and row of the picture's sample grid. values and words hold
