@@ -2,23 +2,20 @@
 // The kernels of --aov write per-pixel data beside the color, found by the search that renders the
 // picture. They are compiled after render.cl, and only if requested.
 
-static inline Truth light_reaches(const SceneView *scene, const FrameData *frame, uint index,
-                                  const Surface *surface, Truth met)
+static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {
-    Tally tally = {0};
-    const SeenLight light = see_light(scene, index, surface, met);
+    const LightSample light = sample_light(tracer, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
-    const Ray ray = ray_to_light(scene, surface, &light);
-    return light.faces && !is_blocked(scene, frame, &ray, &tally);
+    const Ray ray = ray_to_light(tracer, surface, &light);
+    return light.faces && !is_blocked(tracer, &ray);
 }
 
-static inline Count lights_reaching(const SceneView *scene, const FrameData *frame,
-                                    const Surface *surface, Truth met)
+static inline UInt lights_reaching(const Tracer *tracer, const Surface *surface, Mask met)
 {
-    Count lights = 0;
-    for (uint index = 0; index < frame->light_count; index++)
-        lights += light_reaches(scene, frame, index, surface, met) ? (Count)(1) : (Count)(0);
+    UInt lights = 0;
+    for (uint index = 0; index < tracer->frame->light_count; index++)
+        lights += light_reaches(tracer, index, surface, met) ? (UInt)(1) : (UInt)(0);
     return lights;
 }
 
@@ -26,45 +23,37 @@ static inline Count lights_reaching(const SceneView *scene, const FrameData *fra
 typedef struct {
     Real3 point, normal;
     Real depth;
-    Count primitive, material, lights, bounces;
-} Path;
+    UInt primitive, material, lights, bounces;
+} PathLanes;
 
-static inline Path path_to(const SceneView *scene, const FrameData *frame, const Hit *hit,
-                           const Surface *surface, Truth met)
+static inline PathLanes first_hit(const Tracer *tracer, const Path *path)
 {
+    const Mask met = path->met;
     const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
-    return (Path){.point = choose3(met, surface->point, zero),
-                  .normal = choose3(met, surface->normal, zero),
-                  .depth = met ? hit->t : (Real)(INFINITY),
-                  .primitive = met ? hit->id : (Count)(NOTHING),
-                  .material = met ? surface->material : (Count)(NOTHING),
-                  .lights = lights_reaching(scene, frame, surface, met)};
+    return (PathLanes){.point = choose3(met, path->surface.point, zero),
+                       .normal = choose3(met, path->surface.normal, zero),
+                       .depth = met ? path->hit.t : (Real)(INFINITY),
+                       .primitive = met ? path->hit.id : (UInt)(NOTHING),
+                       .material = met ? path->surface.material : (UInt)(NOTHING),
+                       .lights = lights_reaching(tracer, &path->surface, met)};
 }
 
-// Follows the ray as trace does, without computing colors.
-static inline Path follow(const SceneView *scene, const FrameData *frame, Ray ray)
+static inline PathLanes describe_path(const Tracer *tracer, Ray ray)
 {
-    Path path = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
-    Tally tally = {0};
-    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
-        if (level > 0)
-            path.bounces += ray.active ? (Count)(1) : (Count)(0);
-        const Hit hit = nearest_hit(scene, frame, &ray, &tally);
-        const Truth met = ray.active && hit.id != NOTHING;
-        if (!any_lane(met))
-            break;
-        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
-        if (level == 0)
-            path = path_to(scene, frame, &hit, &surface, met);
-        const MaterialLanes material = fetch_material(scene, surface.material);
-        ray = ray_reflected(scene, &surface, met && material.reflectivity != 0.0f);
+    PathLanes data = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
+    Path path = path_along(ray);
+    while (path_step(tracer, &path)) {
+        if (path.level > 1)
+            data.bounces += path.ray.active ? (UInt)(1) : (UInt)(0);
+        else if (any_lane(path.met))
+            data = first_hit(tracer, &path);
     }
-    return path;
+    return data;
 }
 
 #define LANE_OF(type, value, lane) (((const type *)&(value))[lane])
 
-static inline void store_path(global PathData *data, const Path *path, uint lane)
+static inline void store_path(global PathData *data, const PathLanes *path, uint lane)
 {
     store_lane(data->point, &path->point, lane);
     store_lane(data->normal, &path->normal, lane);
@@ -86,27 +75,24 @@ static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, s
 
 static inline Places places_at(const FrameData *frame, uint2 corner)
 {
-    const Count column = corner.x + LANE_X, row = corner.y + LANE_Y;
+    const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;
     return (Places){frame->tile_x + column, frame->tile_y + row,
                     column < frame->tile_width && row < frame->tile_height};
 }
 
 // Fills paths with one entry per pixel of the tile. The frame has one sample per pixel.
-kernel void trace_paths(const FrameData frame, global const PointLight *lights,
-                        global const Material *materials, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global PathData *paths)
+kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
             size_t place;
             const uint2 corner = (uint2)(x, y);
             const Places pixels = places_at(&frame, corner);
-            const Path path =
-                follow(&scene, &frame, camera_ray(&frame, pixels.x, pixels.y, pixels.active));
+            const Ray ray = camera_ray(&frame, pixels.x, pixels.y, pixels.active);
+            const PathLanes path = describe_path(&tracer, ray);
             for (uint lane = 0; lane < CLRT_LANES; lane++)
                 if (lane_place(&frame, corner, lane, &place))
                     store_path(&paths[place], &path, lane);
@@ -115,13 +101,8 @@ kernel void trace_paths(const FrameData frame, global const PointLight *lights,
 
 // Fills tallies with TALLY_KINDS counts per pixel of the tile: the cost of all its samples. Each
 // ray is traced alone, because the rays of a packet share tests that belong to no single pixel.
-kernel void count_tests(const FrameData frame, global const PointLight *lights,
-                        global const Material *materials, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global uint *tallies)
+kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH)
@@ -130,9 +111,10 @@ kernel void count_tests(const FrameData frame, global const PointLight *lights,
                 if (!lane_place(&frame, (uint2)(x, y), lane, &place))
                     continue;
                 Tally tally = {0};
+                const Tracer tracer = TRACER(&tally);
                 Places pixels = places_at(&frame, (uint2)(x, y));
                 pixels.active = lanes_of(1u << lane);
-                pixel_color(&scene, &frame, &pixels, &tally);
+                pixel_color(&tracer, &pixels);
                 store_tally(tallies + place * TALLY_KINDS, &tally);
             }
 }

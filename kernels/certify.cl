@@ -1,51 +1,52 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty decides each pixel's ray tree again with thick rays (thick.cl). A
-// pixel is certified if no rounding of the fp32 tracer could change a decision. It is repaired if
-// that holds only for the fp64 tracer, whose color it then gets. All other pixels are open. The
-// kernel is compiled after render.cl with CLRT_FP64, and only if requested.
-#include "sure_surface.cl"
+// The kernel of --aov certainty decides each pixel's ray tree again with ray cones
+// (certify_cone.cl). A pixel is certified if no rounding of the fp32 tracer could change a
+// decision. It is repaired if that holds only for the fp64 tracer, whose color it then gets. All
+// other pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if
+// requested.
+#include "certify_surface.cl"
 
 // The decisions so far, as a tracer in real arithmetic would make them.
 typedef struct {
     uint first_id, lit, signature; // as in CertaintyMark
 } Decisions;
 
-static inline void note_decision(Decisions *decisions, uint word)
+static inline void hash_decision(Decisions *decisions, uint word)
 {
     const uint mixed = (decisions->signature ^ word) * 0x9e3779b1u;
     decisions->signature = mixed ^ mixed >> 15;
 }
 
 // A point's relation to a light: turned away, lit, in shadow, or undecided.
-typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightSight;
+typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightVisibility;
 
-static inline LightSight surely_seen(const SceneView *scene, const FrameData *frame,
-                                     const FatSurface *surface, const ThickRay *to_light)
+static inline LightVisibility certify_light(const Tracer *tracer, const UncertainSurface *surface,
+                                            const RayCone *to_light)
 {
-    const Answer faces = surely_faces(surface, to_light);
+    const Answer faces = certify_facing(surface, to_light);
     if (faces == ANSWER_NO)
         return SIGHT_BEHIND;
     if (faces == ANSWER_UNKNOWN || !is_usable(to_light))
         return SIGHT_OPEN;
-    const Answer blocked = surely_blocked(scene, frame, to_light);
+    const Answer blocked = certify_occlusion(tracer, to_light);
     if (blocked == ANSWER_UNKNOWN)
         return SIGHT_OPEN;
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
 }
 
 // Sets the bits of lit for the first 32 lights.
-static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
-                                 const FatSurface *surface, Real u, Decisions *decisions)
+static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *surface, Real u,
+                                 Decisions *decisions)
 {
     uint lit = 0;
-    for (uint index = 0; index < frame->light_count; index++) {
-        const Real3 light = load3(scene->lights[index].position);
-        const ThickRay ray = thick_shadow_ray(surface, light, u);
-        const LightSight sight = surely_seen(scene, frame, surface, &ray);
-        if (sight == SIGHT_OPEN)
+    for (uint index = 0; index < tracer->frame->light_count; index++) {
+        const Real3 light = load3(tracer->lights[index].position);
+        const RayCone ray = shadow_cone(surface, light, u);
+        const LightVisibility visibility = certify_light(tracer, surface, &ray);
+        if (visibility == SIGHT_OPEN)
             return false;
-        note_decision(decisions, sight);
-        if (index < 32 && sight == SIGHT_CLEAR)
+        hash_decision(decisions, visibility);
+        if (index < 32 && visibility == SIGHT_CLEAR)
             lit |= 1u << index;
     }
     decisions->lit = lit;
@@ -53,48 +54,45 @@ static inline bool decide_lights(const SceneView *scene, const FrameData *frame,
 }
 
 // Makes the decisions of a sample's ray tree. Returns false if one of them is not certain.
-static inline bool decide(const SceneView *scene, const FrameData *frame, uint2 sample, Real u,
-                          Decisions *decisions)
+static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions *decisions)
 {
-    ThickRay ray = thick_camera_ray(frame, sample, u);
+    RayCone ray = camera_cone(tracer->frame, sample, u);
     *decisions = (Decisions){NOTHING, 0, 0};
-    for (uint level = 0; level < frame->max_level; level++) {
+    for (uint level = 0; level < tracer->frame->max_level; level++) {
         if (!is_usable(&ray))
             return false;
-        const Nearest nearest = surely_nearest(scene, frame, &ray);
-        if (!nearest_is_sure(&nearest))
+        const Nearest nearest = certify_nearest_hit(tracer, &ray);
+        if (!nearest_is_certain(&nearest))
             return false;
-        note_decision(decisions, nearest.id);
+        hash_decision(decisions, nearest.id);
         if (nearest.id == NOTHING)
             return true;
-        const FatSurface surface = fat_surface(scene, frame, &ray, &nearest);
-        const MaterialLanes material = fetch_material(scene, surface.material);
+        const UncertainSurface surface = uncertain_surface(tracer, &ray, &nearest);
+        const MaterialLanes material = fetch_material(tracer, surface.material);
         Decisions here = {nearest.id, 0, decisions->signature};
-        if (material.shader != SHADER_SILHOUETTE &&
-            !decide_lights(scene, frame, &surface, u, &here))
+        if (material.shader != SHADER_SILHOUETTE && !decide_lights(tracer, &surface, u, &here))
             return false;
         *decisions =
             level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
         if (material.reflectivity == 0.0f)
             return true;
-        ray = thick_reflected_ray(&surface, &ray);
+        ray = reflected_cone(&surface, &ray);
     }
     return true;
 }
 
 // Returns the certainty of the pixel's least certain sample. decisions receives the decisions of
 // its last sample.
-static inline Certainty decide_pixel(const SceneView *scene, const FrameData *frame, uint2 pixel,
-                                     Decisions *decisions)
+static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decisions *decisions)
 {
-    const uint side = frame->samples;
+    const uint side = tracer->frame->samples;
     Certainty certainty = CERTAINTY_CERTIFIED;
     for (uint sample = 0; sample < side * side; sample++) {
         const uint2 place = pixel * side + (uint2)(sample % side, sample / side);
-        if (decide(scene, frame, place, 0x1p-24f, decisions))
+        if (decide(tracer, place, 0x1p-24f, decisions))
             continue;
         certainty = CERTAINTY_REPAIRED;
-        if (!decide(scene, frame, place, 0x1p-53f, decisions))
+        if (!decide(tracer, place, 0x1p-53f, decisions))
             return CERTAINTY_OPEN;
     }
     return certainty;
@@ -102,26 +100,22 @@ static inline Certainty decide_pixel(const SceneView *scene, const FrameData *fr
 
 // marks holds one mark per pixel of the tile. pixels holds one color per pixel; only those of
 // repaired pixels are written. The range is padded to whole work-groups.
-kernel void certify_tile(const FrameData frame, global const PointLight *lights,
-                         global const Material *materials, global const SphereData *spheres,
-                         global const Node *nodes, global const Triangles *triangles,
-                         global const TriangleLook *looks, global const CornerNormals *normals,
-                         global float *pixels, global CertaintyMark *marks)
+kernel void certify_tile(TRACER_ARGUMENTS, global float *pixels, global CertaintyMark *marks)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     const uint column = (uint)get_global_id(0), row = (uint)get_global_id(1);
     if (column >= frame.tile_width || row >= frame.tile_height)
         return;
     const size_t place = (size_t)row * frame.tile_width + column;
     const uint2 pixel = (uint2)(frame.tile_x + column, frame.tile_y + row);
     Decisions decisions;
-    const Certainty certainty = decide_pixel(&scene, &frame, pixel, &decisions);
+    const Certainty certainty = decide_pixel(&tracer, pixel, &decisions);
     marks[place] =
         (CertaintyMark){certainty, decisions.first_id, decisions.lit, decisions.signature};
     if (certainty != CERTAINTY_REPAIRED)
         return;
     const Places places = {pixel.x, pixel.y, true};
-    Tally tally = {0};
-    const Real3 color = pixel_color(&scene, &frame, &places, &tally);
+    const Real3 color = pixel_color(&tracer, &places);
     store_lane(pixels + 3 * place, &color, 0);
 }

@@ -33,15 +33,15 @@ static inline void note3(const Notes *notes, uint place, Real3 value)
     note(notes, place + 2, value.z);
 }
 
-static inline void note_count(const Notes *notes, uint place, Count value)
+static inline void note_count(const Notes *notes, uint place, UInt value)
 {
     notes->words[place] = ((const uint *)&value)[0];
 }
 
-// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.cl).
-static inline Real triangle_error(const SceneView *scene, const Ray *ray, Count index)
+// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.inc.cl).
+static inline Real triangle_error(const Tracer *tracer, const Ray *ray, UInt index)
 {
-    const Corners corners = fetch_corners(scene, index);
+    const Corners corners = fetch_corners(tracer, index);
     const ShearAxes axes = shear_axes(ray->direction);
     const Shear shear = shear_along(ray->direction, &axes);
     const Corners relative = {corner_seen(corners.a, ray->origin, &axes),
@@ -62,9 +62,9 @@ static inline Real size_of3(Real3 v)
 // the distances to them. The nearer root is therefore within the square root of |residual| /
 // |direction|^2. Where the ray does not graze, it is also within twice a Newton step. Evaluating
 // the residual is allowed 64 units of two-float rounding.
-static inline Real sphere_error(const SceneView *scene, const Ray *ray, Count index, Real t)
+static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
-    const Sphere sphere = fetch_sphere(scene, index);
+    const Sphere sphere = fetch_sphere(tracer, index);
     const Real3 d = ray->direction;
     const TwoFloat3 on = two_stepped(sphere_to_origin(&sphere, ray->origin), t, d);
     const Real left = two_add(two_length_squared(on), two_negate(two_square(sphere.radius))).high;
@@ -77,114 +77,93 @@ static inline Real sphere_error(const SceneView *scene, const Ray *ray, Count in
     return min(steep, sqrt(residue / dot_product(d, d)));
 }
 
-static inline Real hit_error(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                             const Hit *hit)
+static inline Real hit_error(const Tracer *tracer, const Ray *ray, const Hit *hit)
 {
-    if (any_lane(ray->active && hit->id < frame->sphere_count))
-        return sphere_error(scene, ray, hit->index, hit->t);
-    return triangle_error(scene, ray, hit->index);
+    if (any_lane(ray->active && hit->id < tracer->frame->sphere_count))
+        return sphere_error(tracer, ray, hit->index, hit->t);
+    return triangle_error(tracer, ray, hit->index);
 }
 
 // Records a light's contribution to the surface, as receive_light computes it.
-static inline void note_light(const Notes *notes, const SceneView *scene, const FrameData *frame,
-                              uint index, const Lighting *lighting)
+static inline void note_light(const Notes *notes, const Tracer *tracer, uint index,
+                              const Lighting *lighting)
 {
-    Tally tally = {0};
     Lighting received = *lighting;
-    const SeenLight light = see_light(scene, index, lighting->surface, lighting->wanted);
+    const LightSample light = sample_light(tracer, index, lighting->surface, lighting->wanted);
     note(notes, LIGHT_COSINE, light.cosine);
     note_count(notes, LIGHT_STATE,
-               light.cosine > 0.0f ? (Count)(LIGHT_BEHIND_FACE) : (Count)(LIGHT_BEHIND));
-    note_count(notes, LIGHT_BLOCKER, (Count)(NOTHING));
+               light.cosine > 0.0f ? (UInt)(LIGHT_BEHIND_FACE) : (UInt)(LIGHT_BEHIND));
+    note_count(notes, LIGHT_BLOCKER, (UInt)(NOTHING));
     if (!any_lane(light.faces))
         return;
-    const Ray ray = ray_to_light(scene, lighting->surface, &light);
-    const Hit blocker = blocking_hit(scene, frame, &ray, &tally);
-    receive_light(scene, frame, index, &received, &tally);
+    const Ray ray = ray_to_light(tracer, lighting->surface, &light);
+    const Hit blocker = blocking_hit(tracer, &ray);
+    receive_light(tracer, index, &received);
     note_count(notes, LIGHT_STATE,
-               blocker.id == NOTHING ? (Count)(LIGHT_SEEN) : (Count)(LIGHT_BLOCKED));
+               blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
     note(notes, LIGHT_BLOCKER_T, blocker.t);
     note(notes, LIGHT_DIFFUSE, received.diffuse);
     note(notes, LIGHT_SPECULAR, received.specular);
 }
 
-static inline void note_hit(const Notes *notes, const SceneView *scene, const FrameData *frame,
-                            const Ray *ray, const Hit *hit)
+// Records the last ray of the path and its hit.
+static inline void note_ray(const Notes *notes, const Tracer *tracer, const Path *path)
 {
-    note3(notes, LEVEL_ORIGIN, ray->origin);
-    note3(notes, LEVEL_DIRECTION, ray->direction);
-    note(notes, LEVEL_T, hit->t);
-    note_count(notes, LEVEL_PRIMITIVE, hit->id);
-    const Truth met = ray->active && hit->id != NOTHING;
-    if (!any_lane(met))
+    note3(notes, LEVEL_ORIGIN, path->ray.origin);
+    note3(notes, LEVEL_DIRECTION, path->ray.direction);
+    note(notes, LEVEL_T, path->hit.t);
+    note(notes, LEVEL_WEIGHT, path->weight);
+    note_count(notes, LEVEL_PRIMITIVE, path->hit.id);
+    if (!any_lane(path->met))
         return;
-    const Hit hits = hit_everywhere(hit, met);
-    note(notes, LEVEL_ERROR, hit_error(scene, frame, ray, &hits));
+    const Hit hits = hit_everywhere(&path->hit, path->met);
+    note(notes, LEVEL_ERROR, hit_error(tracer, &path->ray, &hits));
 }
 
-// Records the surface and each light's contribution to it.
-static inline void note_surface(const Notes *notes, const SceneView *scene, const FrameData *frame,
-                                const Lighting *lighting)
+// Records the last surface of the path and each light's contribution to it.
+static inline void note_surface(const Notes *notes, const Tracer *tracer, const Path *path)
 {
-    note3(notes, LEVEL_POINT, lighting->surface->point);
-    note3(notes, LEVEL_NORMAL, lighting->surface->normal);
-    note_count(notes, LEVEL_MATERIAL, lighting->surface->material);
-    for (uint index = 0; any_lane(lighting->wanted) && index < frame->light_count; index++) {
+    const Lighting dark = lighting_of(&path->surface, &path->material, path->met);
+    note3(notes, LEVEL_POINT, path->surface.point);
+    note3(notes, LEVEL_NORMAL, path->surface.normal);
+    note(notes, LEVEL_SHARE, path_share(path));
+    note_count(notes, LEVEL_MATERIAL, path->surface.material);
+    for (uint index = 0; any_lane(dark.wanted) && index < tracer->frame->light_count; index++) {
         const Notes light = light_notes(notes, index);
-        note_light(&light, scene, frame, index, lighting);
+        note_light(&light, tracer, index, &dark);
     }
 }
 
 // Traces like trace and records the path. end receives the number of rays and, at index 3, the
 // background's weight in the color.
-static inline Real3 trace_noting(const SceneView *scene, const FrameData *frame, Ray ray,
-                                 const Notes *notes, const Notes *end)
+static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
+                                 const Notes *end)
 {
-    Tally tally = {0};
-    Real3 color = real3_of(0.0f, 0.0f, 0.0f);
-    Real weight = 1.0f;
-    note(end, 3, 0.0f);
-    for (*end->words = 0; *end->words < frame->max_level;) {
-        const Notes level = level_notes(notes, frame, (*end->words)++);
-        const Hit hit = nearest_hit(scene, frame, &ray, &tally);
-        const Truth met = ray.active && hit.id != NOTHING;
-        note_hit(&level, scene, frame, &ray, &hit);
-        note(&level, LEVEL_WEIGHT, weight);
-        if (!any_lane(met))
+    Path path = path_along(ray);
+    while (path_step(tracer, &path)) {
+        const Notes level = level_notes(notes, tracer->frame, path.level - 1);
+        note_ray(&level, tracer, &path);
+        if (!any_lane(path.met))
             break;
-        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
-        const MaterialLanes material = fetch_material(scene, surface.material);
-        const Lighting dark = lighting_of(&surface, &material, met);
-        const Real3 shaded = shade(scene, frame, dark, &tally);
-        const Truth ends = met && material.reflectivity == 0.0f;
-        const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
-        note_surface(&level, scene, frame, &dark);
-        note3(&level, LEVEL_SHADED, shaded);
-        note(&level, LEVEL_SHARE, share);
-        color = sum3(color, scaled3(share, shaded));
-        if (any_lane(ends))
-            return color;
-        weight = weight * material.reflectivity;
-        ray = ray_reflected(scene, &surface, met);
+        note_surface(&level, tracer, &path);
+        note3(&level, LEVEL_SHADED, path_shade(tracer, &path));
     }
-    note(end, 3, weight);
-    return sum3(color, scaled3(weight, load_private3(frame->background)));
+    *end->words = path.level;
+    note(end, 3, path.weight);
+    return path_color(tracer, &path);
 }
 
 // Traces the sample at a column and row of the picture's sample grid. values and words hold
 // max_level levels. result receives the color in steps of 2^-32 and the background's weight in it;
 // count receives the number of levels.
-kernel void explain_sample(const FrameData frame, global const PointLight *lights,
-                           global const Material *materials, global const SphereData *spheres,
-                           global const Node *nodes, global const Triangles *triangles,
-                           global const TriangleLook *looks, global const CornerNormals *normals,
-                           uint column, uint row, global Scalar *values, global uint *words,
-                           global Scalar *result, global uint *count)
+kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, global Scalar *values,
+                           global uint *words, global Scalar *result, global uint *count)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     const Notes notes = {values, words}, end = {result, count};
-    const Ray ray = camera_ray(&frame, (Count)(column), (Count)(row), lanes_of(1));
-    const Real3 color = trace_noting(&scene, &frame, ray, &notes, &end);
+    const Ray ray = camera_ray(&frame, (UInt)(column), (UInt)(row), lanes_of(1));
+    const Real3 color = trace_noting(&tracer, ray, &notes, &end);
     note3(&end, 0, real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z)));
 }

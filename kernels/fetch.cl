@@ -7,59 +7,59 @@
 #include "sphere.cl"
 
 typedef struct {
-    Count material; // index
-    Count normals;  // index of the vertex normals, NOTHING for flat triangles
+    UInt material; // index
+    UInt normals;  // index of the vertex normals, NOTHING for flat triangles
 } Look;
 
 // The address of a record of words, for each lane.
 typedef struct {
     global const uint *words;
-    Count place;
+    UInt place;
     bool shared; // all lanes have the same address
 } Record;
 
 #if CLRT_LANES == 1
-static inline Count first_lane(Count value, Truth among)
+static inline UInt first_lane(UInt value, Mask among)
 {
     (void)among;
     return value;
 }
 
-static inline Real first_real(Real value, Truth among)
+static inline Real first_real(Real value, Mask among)
 {
     (void)among;
     return value;
 }
 
-static inline Record record_at(global const void *words, Count place)
+static inline Record record_at(global const void *words, UInt place)
 {
     return (Record){(global const uint *)words + place, 0, true};
 }
 #else
-static inline Count first_lane(Count value, Truth among)
+static inline UInt first_lane(UInt value, Mask among)
 {
     const uint bits = lane_bits(among);
-    return (Count)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
+    return (UInt)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
 }
 
-static inline Real first_real(Real value, Truth among)
+static inline Real first_real(Real value, Mask among)
 {
     return as_real(first_lane(as_bits(value), among));
 }
 
-static inline Record record_at(global const void *words, Count place)
+static inline Record record_at(global const void *words, UInt place)
 {
     global const uint *start = (global const uint *)words;
-    if (any_lane(place != (Count)(place.s0)))
+    if (any_lane(place != (UInt)(place.s0)))
         return (Record){start, place, false};
     return (Record){start + place.s0, place, true};
 }
 #endif
 
-static inline Count record_word(const Record *record, uint offset)
+static inline UInt record_word(const Record *record, uint offset)
 {
     if (record->shared)
-        return (Count)(record->words[offset]);
+        return (UInt)(record->words[offset]);
     return gather(record->words + offset, record->place);
 }
 
@@ -77,65 +77,64 @@ static inline Real3 record_real3(const Record *record, uint offset, uint stride)
 #define WORDS(type) ((uint)(sizeof(type) / sizeof(uint)))
 
 // index counts triangles; in blocks it is block * WIDE + slot.
-static inline Corners fetch_corners(const SceneView *scene, Count index)
+static inline Corners fetch_corners(const Tracer *tracer, UInt index)
 {
 #if CLRT_WIDE_NODES
-    const Count place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
+    const UInt place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
     const uint stride = WIDE, corner = 3 * WIDE;
 #else
-    const Count place = index * WORDS(TriangleData);
+    const UInt place = index * WORDS(TriangleData);
     const uint stride = 1, corner = 4;
 #endif
-    const Record record = record_at(scene->triangles, place);
+    const Record record = record_at(tracer->triangles, place);
     return (Corners){record_real3(&record, 0, stride), record_real3(&record, corner, stride),
                      record_real3(&record, 2 * corner, stride)};
 }
 
-static inline Look fetch_look(const SceneView *scene, const Hit *hit, uint sphere_count)
+static inline Look fetch_look(const Tracer *tracer, const Hit *hit)
 {
 #if CLRT_WIDE_NODES
-    const Count number = hit->id - sphere_count;
-    const Record record = record_at(scene->looks, number * WORDS(TriangleLook));
+    const UInt number = hit->id - tracer->frame->sphere_count;
+    const Record record = record_at(tracer->looks, number * WORDS(TriangleLook));
     return (Look){record_word(&record, 0), record_word(&record, 1)};
 #else
-    (void)sphere_count;
-    const Record record = record_at(scene->triangles, hit->index * WORDS(TriangleData));
+    const Record record = record_at(tracer->triangles, hit->index * WORDS(TriangleData));
     return (Look){record_word(&record, 7) & ~TRIANGLE_MARKS, record_word(&record, 11)};
 #endif
 }
 
 // Returns the vertex normals as Corners.
-static inline Corners fetch_normals(const SceneView *scene, Count normals)
+static inline Corners fetch_normals(const Tracer *tracer, UInt normals)
 {
-    const Record record = record_at(scene->normals, normals * WORDS(CornerNormals));
+    const Record record = record_at(tracer->normals, normals * WORDS(CornerNormals));
     return (Corners){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
                      record_real3(&record, 8, 1)};
 }
 
-static inline Sphere fetch_sphere(const SceneView *scene, Count index)
+static inline Sphere fetch_sphere(const Tracer *tracer, UInt index)
 {
-    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    const Record record = record_at(tracer->spheres, index * WORDS(SphereData));
     const Real3 high = record_real3(&record, 0, 1), low = record_real3(&record, 4, 1);
     return (Sphere){
         {two_stored(high.x, low.x), two_stored(high.y, low.y), two_stored(high.z, low.z)},
         two_stored(record_real(&record, 3), record_real(&record, 7))};
 }
 
-static inline Count fetch_sphere_material(const SceneView *scene, Count index)
+static inline UInt fetch_sphere_material(const Tracer *tracer, UInt index)
 {
-    const Record record = record_at(scene->spheres, index * WORDS(SphereData));
+    const Record record = record_at(tracer->spheres, index * WORDS(SphereData));
     return record_word(&record, 8);
 }
 
 typedef struct {
     Real3 diffuse, specular;
     Real kd, ks, shininess, reflectivity;
-    Count shader, exponent;
+    UInt shader, exponent;
 } MaterialLanes;
 
-static inline MaterialLanes fetch_material(const SceneView *scene, Count material)
+static inline MaterialLanes fetch_material(const Tracer *tracer, UInt material)
 {
-    const Record record = record_at(scene->materials, material * WORDS(Material));
+    const Record record = record_at(tracer->materials, material * WORDS(Material));
     return (MaterialLanes){.diffuse = record_real3(&record, 0, 1),
                            .kd = record_real(&record, 3),
                            .specular = record_real3(&record, 4, 1),

@@ -11,8 +11,8 @@
 
 // The samples of a packet: pixels, and positions within them in halves of a sub-pixel.
 typedef struct {
-    Count pixel_x, pixel_y, x, y;
-    Truth active;
+    UInt pixel_x, pixel_y, x, y;
+    Mask active;
 } PixelSamples;
 
 // The first REQUEST_SAMPLES points of Sobol's sequence (host/refine/pixel_requests.h).
@@ -23,15 +23,15 @@ constant uint point_y[REQUEST_SAMPLES] = {0,   512, 768, 256, 640, 128, 384, 896
 
 #if CLRT_LANES == 1
 #define LANE_NUMBER 0
-static inline Count lookup(constant const uint *words, Count place)
+static inline UInt lookup(constant const uint *words, UInt place)
 {
     return words[place];
 }
 #else
 #define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
-static inline Count lookup(constant const uint *words, Count place)
+static inline UInt lookup(constant const uint *words, UInt place)
 {
-    return (Count)(FOR_LANES(GATHER_)(place));
+    return (UInt)(FOR_LANES(GATHER_)(place));
 }
 #endif
 
@@ -39,43 +39,42 @@ static inline Count lookup(constant const uint *words, Count place)
 static inline PixelSamples samples_of(global const PixelRequest *requests, uint samples, uint start,
                                       uint end)
 {
-    const Count sample = start + LANE_NUMBER, present = min(sample, (Count)(end - 1));
-    const Count word = present / samples * (uint)(sizeof(PixelRequest) / sizeof(uint));
+    const UInt sample = start + LANE_NUMBER, present = min(sample, (UInt)(end - 1));
+    const UInt word = present / samples * (uint)(sizeof(PixelRequest) / sizeof(uint));
     global const uint *words = (global const uint *)requests;
-    const Count offset = gather(words, word + 2), point = present % samples;
+    const UInt offset = gather(words, word + 2), point = present % samples;
     const bool is_center = samples == 1;
-    const Count x = lookup(point_x, point) ^ offset % LADDER_GRID;
-    const Count y = lookup(point_y, point) ^ offset / LADDER_GRID;
+    const UInt x = lookup(point_x, point) ^ offset % LADDER_GRID;
+    const UInt y = lookup(point_y, point) ^ offset / LADDER_GRID;
     return (PixelSamples){gather(words, word), gather(words, word + 1),
-                          is_center ? (Count)(LADDER_GRID) : 2 * x + 1,
-                          is_center ? (Count)(LADDER_GRID) : 2 * y + 1, sample < end};
+                          is_center ? (UInt)(LADDER_GRID) : 2 * x + 1,
+                          is_center ? (UInt)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
 // Returns colors in steps of 2^-32.
-static inline Real3 pixel_sample_color(const SceneView *scene, const FrameData *frame,
-                                       const PixelSamples *samples, Tally *tally)
+static inline Real3 pixel_sample_color(const Tracer *tracer, const PixelSamples *samples)
 {
     const Ray ray =
-        camera_ray_toward(frame, 2 * LADDER_GRID * samples->pixel_x + samples->x,
+        camera_ray_toward(tracer->frame, 2 * LADDER_GRID * samples->pixel_x + samples->x,
                           2 * LADDER_GRID * samples->pixel_y + samples->y, samples->active);
-    const Real3 color = trace(scene, frame, ray, tally);
+    const Real3 color = trace(tracer, ray);
     if (CLRT_STATISTICS)
-        tally->camera_rays += lane_count(samples->active);
+        tracer->tally->camera_rays += lane_count(samples->active);
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
-static inline LongCount square_of(Real steps)
+static inline ULong square_of(Real steps)
 {
-    const LongCount value = to_long(rint(steps * (1.0f / (1u << (32 - SQUARED_BITS)))));
+    const ULong value = to_long(rint(steps * (1.0f / (1u << (32 - SQUARED_BITS)))));
     return value * value;
 }
 
-static inline LongCount squares_of(Real3 color)
+static inline ULong squares_of(Real3 color)
 {
     return square_of(color.x) + square_of(color.y) + square_of(color.z);
 }
 
-static inline ulong sum_of_lanes(LongCount lanes)
+static inline ulong sum_of_lanes(ULong lanes)
 {
     ulong sum = 0;
     for (uint lane = 0; lane < CLRT_LANES; lane++)
@@ -94,8 +93,8 @@ static inline void add_samples(PixelSums *sums, Real3 color)
 // Stores the sums of all requests that lie entirely within a packet.
 static inline void store_sums(global PixelSums *sums, Real3 color, uint samples, uint count)
 {
-    const LongCount red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
-    const LongCount squares = squares_of(color);
+    const ULong red = to_long(color.x), green = to_long(color.y), blue = to_long(color.z);
+    const ULong squares = squares_of(color);
     PixelSums sum = {{0, 0, 0}, 0};
     for (uint lane = 0; lane < min((uint)CLRT_LANES, count); lane++) {
         sum.colors[0] += ((const ulong *)&red)[lane];
@@ -112,24 +111,20 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
 // Serves requests first to end - 1, all with the same sample count, into the same elements of
 // sums. A work-item serves ITEM_REQUESTS consecutive requests. Tallies are written at the first of
 // them, and only if statistics are compiled in.
-kernel void trace_pixels(const FrameData frame, global const PointLight *lights,
-                         global const Material *materials, global const SphereData *spheres,
-                         global const Node *nodes, global const Triangles *triangles,
-                         global const TriangleLook *looks, global const CornerNormals *normals,
-                         global const PixelRequest *requests, uint first, uint end,
-                         global PixelSums *sums, global uint *tallies)
+kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
+                         uint end, global PixelSums *sums, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint begin = first + ITEM_REQUESTS * (uint)get_global_id(0);
     if (begin >= end)
         return;
     const uint samples = requests[begin].samples;
     const uint count = samples * min(end - begin, (uint)ITEM_REQUESTS);
     Tally tally = {0};
+    const Tracer tracer = TRACER(&tally);
     PixelSums sum = {{0, 0, 0}, 0};
     for (uint start = 0; start < count; start += CLRT_LANES) {
         const PixelSamples packet = samples_of(requests + begin, samples, start, count);
-        const Real3 color = pixel_sample_color(&scene, &frame, &packet, &tally);
+        const Real3 color = pixel_sample_color(&tracer, &packet);
         global PixelSums *place = sums + begin + start / samples;
         if (samples < CLRT_LANES) {
             store_sums(place, color, samples, count - start);

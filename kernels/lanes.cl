@@ -1,14 +1,43 @@
 // SPDX-License-Identifier: MIT
-// The tracer's number types: Real, Truth and Count. In the ray family they are a Scalar, an int
-// and a uint: a work-item traces one ray, and every function reads as scalar code. In the packet
-// family they are vectors with one ray per lane: comparisons return -1 or 0 per lane, and && || !
-// and ?: select per lane. Both families compile the same source, so they compute the same bits.
+// The tracer's number types: Real, Mask and UInt. In the ray family they are a Scalar, an int and a
+// uint: a work-item traces one ray, and every function reads as scalar code. In the packet family
+// they are vectors with one ray per lane. Comparisons then return -1 or 0 per lane, and && || ! and
+// ?: select per lane. Both families compile the same source, so they compute the same bits.
+//
+// For vectors, && || and ?: evaluate both sides in all lanes. Code must not rely on a condition to
+// keep a lane from the other side: every lane needs valid indices there, and neither side may have
+// side effects. A scalar branch on any_lane() skips work that no lane needs.
 #ifndef CLRT_LANES_CL
 #define CLRT_LANES_CL
-#include "precision.h"
+#include "config.h"
 #include "shared.h"
 
 #pragma OPENCL FP_CONTRACT OFF
+
+// Scalar is float, or double in the reference mode. Both modes compile the same source for the same
+// scene, which is stored in float. Their difference is therefore the error of float arithmetic
+// alone.
+#if CLRT_FP64
+typedef double Scalar;
+#define UNIT_ROUNDOFF    0x1p-53
+#define SIGNIFICAND_BITS 52
+#define EXPONENT_BIAS    1023
+#define EXPONENT_MASK    0x7ff0000000000000ul
+#define BITS_OF_ONE      0x3ff0000000000000ul
+#define INVERSE_LN2      0x1.71547652b82fep+0
+#define LN2_HIGH         0x1.62e42fefa39efp-1
+#define LN2_LOW          0x1.abc9e3b39803fp-56
+#else
+typedef float Scalar;
+#define UNIT_ROUNDOFF    0x1p-24f
+#define SIGNIFICAND_BITS 23
+#define EXPONENT_BIAS    127
+#define EXPONENT_MASK    0x7f800000u
+#define BITS_OF_ONE      0x3f800000u
+#define INVERSE_LN2      0x1.715476p+0f
+#define LN2_HIGH         0x1.62e430p-1f
+#define LN2_LOW          (-0x1.05c610p-29f)
+#endif
 
 // As many lanes as the target's registers hold. Drivers report one native width for all types.
 #if !CLRT_WIDE_NODES
@@ -24,7 +53,7 @@
 #endif
 #endif
 
-// Source that is compiled for several types (vector.cl) overloads functions by their arguments.
+// Files that are included for several types (*.inc.cl) overload functions by their arguments.
 // Overloading needs a clang attribute, which the plain ray family does without.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
@@ -42,9 +71,9 @@
 
 #if CLRT_LANES == 1
 typedef Scalar Real;
-typedef int Truth;
-typedef uint Count;
-typedef ulong LongCount;
+typedef int Mask;
+typedef uint UInt;
+typedef ulong ULong;
 #if CLRT_FP64
 typedef ulong Bits;
 typedef double2 Real2;
@@ -64,10 +93,10 @@ typedef float2 Real2;
 #define to_long convert_ulong
 #else
 typedef FOR_LANES(float) Real;
-typedef FOR_LANES(int) Truth;
-typedef FOR_LANES(uint) Count;
-typedef FOR_LANES(ulong) LongCount;
-typedef Count Bits;
+typedef FOR_LANES(int) Mask;
+typedef FOR_LANES(uint) UInt;
+typedef FOR_LANES(ulong) ULong;
+typedef UInt Bits;
 #define as_bits FOR_LANES(as_uint)
 #define as_real FOR_LANES(as_float)
 #define to_real FOR_LANES(convert_float)
@@ -79,87 +108,87 @@ typedef Count Bits;
 // Returns one bit for each true lane. x86 has an instruction for this. The fallback masks each
 // lane with its bit and combines them by a tree of ORs, which makes a whole picture a fifth
 // slower.
-static inline uint OVERLOAD lane_bits(int truth)
+static inline uint OVERLOAD lane_bits(int mask)
 {
-    return truth != 0;
+    return mask != 0;
 }
 
 #if CLRT_WIDE_NODES
-static inline uint OVERLOAD lane_bits(int4 truth)
+static inline uint OVERLOAD lane_bits(int4 mask)
 {
 #if defined(__SSE2__) && __has_builtin(__builtin_ia32_movmskps)
     typedef float Register __attribute__((vector_size(16)));
-    return (uint)__builtin_ia32_movmskps((Register)as_float4(truth));
+    return (uint)__builtin_ia32_movmskps((Register)as_float4(mask));
 #else
-    const int4 bits = truth & (int4)(1, 2, 4, 8);
+    const int4 bits = mask & (int4)(1, 2, 4, 8);
     const int2 halves = bits.lo | bits.hi;
     return (uint)(halves.x | halves.y);
 #endif
 }
 
-static inline uint OVERLOAD lane_bits(int8 truth)
+static inline uint OVERLOAD lane_bits(int8 mask)
 {
 #if defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
     typedef float Register __attribute__((vector_size(32)));
-    return (uint)__builtin_ia32_movmskps256((Register)as_float8(truth));
+    return (uint)__builtin_ia32_movmskps256((Register)as_float8(mask));
 #else
-    return lane_bits(truth.lo) | lane_bits(truth.hi) << 4;
+    return lane_bits(mask.lo) | lane_bits(mask.hi) << 4;
 #endif
 }
 
-static inline uint OVERLOAD lane_bits(int16 truth)
+static inline uint OVERLOAD lane_bits(int16 mask)
 {
 #if defined(__AVX512DQ__) && __has_builtin(__builtin_ia32_cvtd2mask512)
     typedef int Register __attribute__((vector_size(64)));
-    return (uint)__builtin_ia32_cvtd2mask512((Register)truth);
+    return (uint)__builtin_ia32_cvtd2mask512((Register)mask);
 #else
-    return lane_bits(truth.lo) | lane_bits(truth.hi) << 8;
+    return lane_bits(mask.lo) | lane_bits(mask.hi) << 8;
 #endif
 }
 #endif
 
 #if CLRT_LANES == 1
 #define ALL_LANES 1u
-static inline Truth lanes_of(uint bits)
+static inline Mask lanes_of(uint bits)
 {
     return (int)bits;
 }
 
-static inline Count gather(global const uint *words, Count place)
+static inline UInt gather(global const uint *words, UInt place)
 {
     return words[place];
 }
 
 // Returns a float of the scene that is given as a word.
-static inline Real stored_real(Count word)
+static inline Real stored_real(UInt word)
 {
     return as_float(word);
 }
 #else
 #define ALL_LANES ((1u << CLRT_LANES) - 1)
-static inline Truth lanes_of(uint bits)
+static inline Mask lanes_of(uint bits)
 {
 #if CLRT_LANES == 4
-    const Count lane = (uint4)(1, 2, 4, 8);
+    const UInt lane = (uint4)(1, 2, 4, 8);
 #elif CLRT_LANES == 8
-    const Count lane = (uint8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const UInt lane = (uint8)(1, 2, 4, 8, 16, 32, 64, 128);
 #else
-    const Count lane =
+    const UInt lane =
         (uint16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
 #endif
-    return ((Count)(bits)&lane) != 0;
+    return ((UInt)(bits)&lane) != 0;
 }
 
 // Returns words[place], lane by lane.
-static inline Count gather(global const uint *words, Count place)
+static inline UInt gather(global const uint *words, UInt place)
 {
 #define GATHER_4(p)  words[p.s0], words[p.s1], words[p.s2], words[p.s3]
 #define GATHER_8(p)  GATHER_4(p.lo), GATHER_4(p.hi)
 #define GATHER_16(p) GATHER_8(p.lo), GATHER_8(p.hi)
-    return (Count)(FOR_LANES(GATHER_)(place));
+    return (UInt)(FOR_LANES(GATHER_)(place));
 }
 
-static inline Real stored_real(Count word)
+static inline Real stored_real(UInt word)
 {
     return as_real(word);
 }

@@ -4,7 +4,41 @@
 // these correctly computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
-#include "types.cl"
+#include "lanes.cl"
+
+// The exact arithmetic for Real, and for eight triangles of a block against one ray. All types
+// compile the same files, so their results are equal.
+#include "triangle.inc.cl"
+
+// Wide: a Real for each of the WIDE triangles of a block, or for each child of a wide node.
+#if CLRT_WIDE_NODES && CLRT_LANES == WIDE
+typedef Real3 Wide3;
+typedef Shear WideShear;
+typedef Corners WideCorners;
+typedef Edges WideEdges;
+typedef SurfaceRay WideSurfaceRay;
+typedef Sides WideSides;
+#elif CLRT_WIDE_NODES
+#define Real       float8
+#define Mask       int8
+#define UInt       uint8
+#define Real3      Wide3
+#define Shear      WideShear
+#define Corners    WideCorners
+#define Edges      WideEdges
+#define SurfaceRay WideSurfaceRay
+#define Sides      WideSides
+#include "triangle.inc.cl"
+#undef Real
+#undef Mask
+#undef UInt
+#undef Real3
+#undef Shear
+#undef Corners
+#undef Edges
+#undef SurfaceRay
+#undef Sides
+#endif
 
 static inline Real3 real3_of(Real x, Real y, Real z)
 {
@@ -32,9 +66,15 @@ static inline Real3 negative3(Real3 v)
     return real3_of(-v.x, -v.y, -v.z);
 }
 
-static inline Real3 choose3(Truth first, Real3 a, Real3 b)
+static inline Real3 choose3(Mask first, Real3 a, Real3 b)
 {
     return real3_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+
+// Returns 1 for negative numbers. At each node of a tree this takes fewer instructions than v < 0.
+static inline UInt sign_bit(Real v)
+{
+    return (UInt)(as_bits(v) >> (int)(8 * sizeof(Scalar) - 1));
 }
 
 static inline Real clamp_to_one(Real v)
@@ -42,9 +82,9 @@ static inline Real clamp_to_one(Real v)
     return clamp(v, (Real)(0.0f), (Real)(1.0f));
 }
 
-static inline bool any_lane(Truth truth)
+static inline bool any_lane(Mask mask)
 {
-    return lane_bits(truth) != 0;
+    return lane_bits(mask) != 0;
 }
 
 // Returns v scaled to length 1; zero stays zero. A power of two is divided out first, which is
@@ -65,7 +105,7 @@ static inline Real unless_tiny(Real power)
 
 // Returns base^exponent by squaring: bit-reproducible, at a twentieth of the cost of pow. base
 // lies in [0, 1]. Powers below 2^-100 become zero, so devices that flush denormals agree.
-static inline Real integer_power(Real base, Count exponent)
+static inline Real integer_power(Real base, UInt exponent)
 {
     Real result = 1.0f;
     while (any_lane(exponent != 0)) {
@@ -100,7 +140,7 @@ static inline Real log_series(Real s)
 // leaves a remainder in [3/4, 3/2), for which the series is short.
 static inline Real log_one_plus(Real x)
 {
-    const Truth is_far = x < -0.25f;
+    const Mask is_far = x < -0.25f;
     const Bits bits = as_bits(1.0f + x) + ((Bits)(1) << (SIGNIFICAND_BITS - 1));
     const Bits exponent = bits & EXPONENT_MASK;
     const Real power =
@@ -136,7 +176,7 @@ static inline Real exponential_series(Real r)
 // Returns exp(x) for x <= 0. Results below 2^-100 are zero, as in integer_power.
 static inline Real exponential(Real x)
 {
-    const Truth is_tiny = !(x > -69.0f);
+    const Mask is_tiny = !(x > -69.0f);
     x = is_tiny ? 0.0f : x;
     const Real power = rint(x * INVERSE_LN2);
     const Real r = fma(power, (Real)(-LN2_LOW), fma(power, (Real)(-LN2_HIGH), x));

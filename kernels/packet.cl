@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packets of rays that share their signs and longest axis, with bounds over all rays, and their
 // test against a block of triangles. The bounds cull eight triangles at a time. Each remaining
-// triangle is tested against all lanes at once with triangle.cl's operations.
+// triangle is tested against all lanes at once with triangle.inc.cl's operations.
 #ifndef CLRT_PACKET_CL
 #define CLRT_PACKET_CL
 #include "wide.cl"
@@ -14,8 +14,7 @@
 // Rays that share their signs and longest axis, with bounds over all of them.
 typedef struct {
     Search rays; // inactive lanes copy an active one
-    Truth active;
-    Real3 ordered_origin; // in the order of the axes
+    Mask active;
     uint axes[3];
     uint negative[3]; // which plane of an axis the rays enter by
     // Bounds over all lanes: distance to a plane = fma(plane, inverse_low, near_low) ...
@@ -82,43 +81,43 @@ static inline void packet_prepare(Packet *packet, Real3 o, Real3 d, uint z)
 {
     Search *rays = &packet->rays;
     const uint x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
-    search_slabs(rays, o, d);
+    rays->slabs = slabs_of(o, d);
     rays->axes = (ShearAxes){x, y, z};
     rays->shear.direction_z = on_axis(&d, z);
-    rays->shear.inverse_z = on_axis(&rays->inverse, z);
+    rays->shear.inverse_z = on_axis(&rays->slabs.inverse, z);
     rays->shear.shear_x = on_axis(&d, x) * rays->shear.inverse_z;
     rays->shear.shear_y = on_axis(&d, y) * rays->shear.inverse_z;
-    packet->ordered_origin = real3_of(on_axis(&o, x), on_axis(&o, y), on_axis(&o, z));
+    packet->rays.origin = real3_of(on_axis(&o, x), on_axis(&o, y), on_axis(&o, z));
     packet->axes[0] = x;
     packet->axes[1] = y;
     packet->axes[2] = z;
     // The origin's own slack, plus the slack that nodes have and boxes of single triangles lack.
     // Triangle coordinates are at most 1.
     const Real slack = BVH_SLACK * (largest_component(o) + 1.0f);
-    packet_bounds(packet, 0, o.x, slack, rays->inverse.x);
-    packet_bounds(packet, 1, o.y, slack, rays->inverse.y);
-    packet_bounds(packet, 2, o.z, slack, rays->inverse.z);
+    packet_bounds(packet, 0, o.x, slack, rays->slabs.inverse.x);
+    packet_bounds(packet, 1, o.y, slack, rays->slabs.inverse.y);
+    packet_bounds(packet, 2, o.z, slack, rays->slabs.inverse.z);
 }
 
 static inline Real one_lane(Real v, uint lane)
 {
-    return (Real)(real_of(&v, lane));
+    return (Real)(lane_real(&v, lane));
 }
 
-static inline Real3 filled(Real3 v, Truth lanes, uint lane)
+static inline Real3 filled(Real3 v, Mask lanes, uint lane)
 {
     return real3_of(lanes ? v.x : one_lane(v.x, lane), lanes ? v.y : one_lane(v.y, lane),
                     lanes ? v.z : one_lane(v.z, lane));
 }
 
 // Gathers the lanes whose bits are set into a packet. They share signs and longest axis.
-static inline void packet_gather(Packet *packet, const SceneView *scene, const Ray *ray, uint bits,
+static inline void packet_gather(Packet *packet, const Tracer *tracer, const Ray *ray, uint bits,
                                  uint longest_axis)
 {
     const uint first = lowest_bit(bits);
     packet->active = lanes_of(bits);
     packet->common_origin = ray->kind == RAY_CAMERA;
-    packet->rays.scene = scene;
+    packet->rays.tracer = tracer;
     packet->rays.ray = ray;
     const Real3 direction = filled(ray->direction, packet->active, first);
     const Real3 origin =
@@ -180,16 +179,17 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
 typedef struct {
     Corners sheared;
     Edges edges;
-    Truth inside;
+    Mask inside;
 } PacketTest;
 
 // Returns which rays stop on a triangle that their lines hit within rounding of the ray's own.
-static NOT_INLINE Truth packet_stops(const Corners *corners, const Packet *packet, Truth from_back)
+static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *packet,
+                                        Mask from_back)
 {
     const Ray *ray = packet->rays.ray;
-    const Truth known = ray->own_index != NOTHING;
-    const Corners own = fetch_corners(packet->rays.scene, known ? ray->own_index : (Count)(0));
-    return known && meets_neighbor(&own, corners, ray->direction, from_back);
+    const Mask known = ray->own_index != NOTHING;
+    const Corners own = fetch_corners(packet->rays.tracer, known ? ray->own_index : (UInt)(0));
+    return known && hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
 // Returns the distances of those hits, INFINITY for rays that do not stop before `reach`.
@@ -199,14 +199,14 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     const Ray *ray = packet->rays.ray;
     const Shear *shear = &packet->rays.shear;
     const uint id = at->block->id[at->place];
-    const Truth front = edges_face(&test->edges, shear);
-    const Truth inner = (id & TRIANGLE_REVERSED) != 0 ? front : !front;
-    Truth closed = test->inside && ray->own != (Count)(id & ~TRIANGLE_MARKS);
+    const Mask front = edges_face(&test->edges, shear);
+    const Mask inner = (id & TRIANGLE_REVERSED) != 0 ? front : !front;
+    Mask closed = test->inside && ray->own != (UInt)(id & ~TRIANGLE_MARKS);
     if ((id & TRIANGLE_TWO_SIDED) == 0)
         closed = closed && !inner;
     const Real t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const Real clear = closed && t > 0.0f ? t : INFINITY;
-    Truth near = closed && t <= reach;
+    Mask near = closed && t <= reach;
     if (ray->kind == RAY_CAMERA)
         near = near && triangle_is_at_origin(t, shear);
     else
@@ -216,14 +216,14 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
     const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
-    Truth in_doubt;
+    Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
         return near ? distance : clear;
     in_doubt = in_doubt && near;
     if (!any_lane(in_doubt))
         return near ? distance : INFINITY;
-    const Truth stops = packet_stops(&corners, packet, !front);
+    const Mask stops = packet_neighbors(&corners, packet, !front);
     return near ? (in_doubt && stops ? max(t, (Real)(0.0f)) : distance) : INFINITY;
 }
 
@@ -235,7 +235,7 @@ typedef struct {
 static inline void relative_row(RelativeBlock *relative, global const TriangleBlock *block,
                                 uint corner, uint axis, const Packet *packet)
 {
-    const float origin = on_axis(&packet->ordered_origin, axis).s0;
+    const float origin = on_axis(&packet->rays.origin, axis).s0;
     vstore8(vload8(0, block->corners[corner][packet->axes[axis]]) - origin, 0,
             relative->rows[corner][axis]);
 }
@@ -258,14 +258,14 @@ static inline Real3 relative_corner(const RelativeBlock *relative, uint corner, 
 // Returns a corner relative to each ray's own origin.
 static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet *packet)
 {
-    const Real3 o = packet->ordered_origin;
+    const Real3 o = packet->rays.origin;
     return real3_of((Real)(at->block->corners[corner][packet->axes[0]][at->place]) - o.x,
                     (Real)(at->block->corners[corner][packet->axes[1]][at->place]) - o.y,
                     (Real)(at->block->corners[corner][packet->axes[2]][at->place]) - o.z);
 }
 
-static ALWAYS_INLINE bool test_triangle(const BlockPlace *at, const Packet *packet,
-                                        const Corners *relative, Truth lanes, Hit *best)
+static ALWAYS_INLINE bool intersect_packet_triangle(const BlockPlace *at, const Packet *packet,
+                                                    const Corners *relative, Mask lanes, Hit *best)
 {
     PacketTest test;
     test.sheared = corners_sheared(relative, &packet->rays.shear);
@@ -274,11 +274,11 @@ static ALWAYS_INLINE bool test_triangle(const BlockPlace *at, const Packet *pack
     if (!any_lane(test.inside))
         return false;
     const Real t = packet_distances(at, packet, &test, best->t);
-    const Count id = at->block->id[at->place] & ~TRIANGLE_MARKS;
-    const Truth precedes = hit_precedes(t, id, best);
+    const UInt id = at->block->id[at->place] & ~TRIANGLE_MARKS;
+    const Mask precedes = hit_precedes(t, id, best);
     best->t = precedes ? t : best->t;
     best->id = precedes ? id : best->id;
-    best->index = precedes ? (Count)(at->index) : best->index;
+    best->index = precedes ? (UInt)(at->index) : best->index;
     return any_lane(precedes);
 }
 
@@ -289,8 +289,8 @@ static inline BlockPlace place_of(const BlockPlace *start, uint place)
 
 // Tests a block's triangles against the packet's rays in `lanes`, whose hits all lie within
 // `reach`. Returns whether a hit changed.
-static ALWAYS_INLINE bool test_packet_block(const BlockPlace *start, const Packet *packet,
-                                            Truth lanes, float reach, Hit *best)
+static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const Packet *packet,
+                                                 Mask lanes, float reach, Hit *best)
 {
     uint near = triangles_near(start->block, packet, reach);
     bool changed = false;
@@ -303,7 +303,7 @@ static ALWAYS_INLINE bool test_packet_block(const BlockPlace *start, const Packe
             const Corners corners = {relative_corner(&relative, 0, at.place),
                                      relative_corner(&relative, 1, at.place),
                                      relative_corner(&relative, 2, at.place)};
-            changed |= test_triangle(&at, packet, &corners, lanes, best);
+            changed |= intersect_packet_triangle(&at, packet, &corners, lanes, best);
         }
         return changed;
     }
@@ -311,20 +311,20 @@ static ALWAYS_INLINE bool test_packet_block(const BlockPlace *start, const Packe
         const BlockPlace at = place_of(start, lowest_bit(near));
         const Corners corners = {corner_from(&at, 0, packet), corner_from(&at, 1, packet),
                                  corner_from(&at, 2, packet)};
-        changed |= test_triangle(&at, packet, &corners, lanes, best);
+        changed |= intersect_packet_triangle(&at, packet, &corners, lanes, best);
     }
     return changed;
 }
 
-// Like test_packet_block, for lanes given as bits. If they are few, each is tested alone.
-static ALWAYS_INLINE bool test_packet_leaf(const BlockPlace *start, const Packet *packet, uint bits,
-                                           float reach, Hit *best)
+// Like intersect_packet_block, for lanes given as bits. If they are few, each is tested alone.
+static ALWAYS_INLINE bool intersect_packet_leaf(const BlockPlace *start, const Packet *packet,
+                                                uint bits, float reach, Hit *best)
 {
     if (popcount(bits) > MOST_LANES_ALONE)
-        return test_packet_block(start, packet, lanes_of(bits), reach, best);
+        return intersect_packet_block(start, packet, lanes_of(bits), reach, best);
     bool changed = false;
     for (; bits != 0; bits &= bits - 1)
-        changed |= test_block(start, &packet->rays, lowest_bit(bits), best);
+        changed |= intersect_block(start, &packet->rays, lowest_bit(bits), best);
     return changed;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data that the tracer's steps share: the scene, a ray, its hit and its cost.
+// The data that the tracer's steps share: a ray, its hit, its cost and the scene.
 #ifndef CLRT_RAY_CL
 #define CLRT_RAY_CL
 #include "numeric.cl"
@@ -9,10 +9,10 @@ typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 // origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    Count own;       // id of the primitive it starts on, which it cannot hit
-    Count own_index; // index of that primitive if it is a triangle, else NOTHING
+    UInt own;       // id of the primitive it starts on, which it cannot hit
+    UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
-    Truth active; // lanes that have a ray
+    Mask active; // lanes that have a ray
 } Ray;
 
 // Returns the uncertainty of the ray's origin, in units of rounding.
@@ -30,22 +30,22 @@ static inline float length_of_ray(const Ray *ray)
 // slots. Spheres have the ids below sphere_count.
 typedef struct {
     Real t; // along the ray; INFINITY without a hit
-    Count id, index;
+    UInt id, index;
 } Hit;
 
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_SIGNATURES
-    Count signature; // hash of what a sample saw: surfaces and the lights that reach them
+    UInt signature; // hash of what a sample saw: surfaces and the lights that reach them
 #endif
 } Tally;
 
 // Adds a word to the signatures of the given lanes.
-static inline void sign_lanes(Tally *tally, Truth lanes, Count word)
+static inline void sign_lanes(Tally *tally, Mask lanes, UInt word)
 {
 #if CLRT_SIGNATURES
-    const Count mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
+    const UInt mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
     tally->signature = lanes ? mixed ^ mixed >> 15 : tally->signature;
 #else
     (void)tally, (void)lanes, (void)word;
@@ -60,7 +60,8 @@ typedef BvhPair Node;
 typedef TriangleData Triangles;
 #endif
 
-// The arrays of the flattened scene, bundled as one parameter.
+// The data of all rays: the arrays of the flattened scene, the picture's parameters and the
+// counters.
 typedef struct {
     global const PointLight *lights;
     global const Material *materials;
@@ -69,48 +70,30 @@ typedef struct {
     global const Triangles *triangles;
     global const TriangleLook *looks;
     global const CornerNormals *normals;
-} SceneView;
+    const FrameData *frame;
+    Tally *tally;
+} Tracer;
 
-static inline uint lane_count(Truth truth)
+// The first arguments of kernels, in the order in which the host sets them, and their Tracer.
+#define TRACER_ARGUMENTS                                                                           \
+    const FrameData frame, global const PointLight *lights, global const Material *materials,      \
+        global const SphereData *spheres, global const Node *nodes,                                \
+        global const Triangles *triangles, global const TriangleLook *looks,                       \
+        global const CornerNormals *normals
+#define TRACER(tally)                                                                              \
+    {                                                                                              \
+        lights, materials, spheres, nodes, triangles, looks, normals, &frame, tally                \
+    }
+
+static inline uint lane_count(Mask mask)
 {
-    return popcount(lane_bits(truth));
+    return popcount(lane_bits(mask));
 }
 
 // Equal distances go to the lowest id, regardless of the order of the tests.
-static inline Truth hit_precedes(Real t, Count id, const Hit *best)
+static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);
-}
-
-// The ray's longest axis, which the shear maps it to, and the two axes that follow.
-typedef struct {
-    Count x, y, z;
-} ShearAxes;
-
-static inline ShearAxes shear_axes(Real3 direction)
-{
-    const Real3 size = magnitudes(direction);
-    const Count second = size.y > size.x ? (Count)(1) : (Count)(0);
-    ShearAxes axes;
-    axes.z = size.z > max(size.x, size.y) ? (Count)(2) : second;
-    axes.x = axes.z == 2 ? (Count)(0) : axes.z + 1;
-    axes.y = axes.x == 2 ? (Count)(0) : axes.x + 1;
-    return axes;
-}
-
-static inline Shear shear_along(Real3 direction, const ShearAxes *axes)
-{
-    Shear shear;
-    shear.direction_z = component(direction, axes->z);
-    shear.inverse_z = 1.0f / shear.direction_z;
-    shear.shear_x = component(direction, axes->x) * shear.inverse_z;
-    shear.shear_y = component(direction, axes->y) * shear.inverse_z;
-    return shear;
-}
-
-static inline Real3 axes_ordered(Real3 v, const ShearAxes *axes)
-{
-    return real3_of(component(v, axes->x), component(v, axes->y), component(v, axes->z));
 }
 
 #endif

@@ -4,7 +4,7 @@
 
 // Returns the lanes that share an origin and can form one packet, as camera rays do. The others
 // are traced later.
-static inline Truth share_origin(Real3 origin, Truth left)
+static inline Mask share_origin(Real3 origin, Mask left)
 {
     return left && as_bits(origin.x) == as_bits(first_real(origin.x, left)) &&
            as_bits(origin.y) == as_bits(first_real(origin.y, left)) &&
@@ -12,7 +12,7 @@ static inline Truth share_origin(Real3 origin, Truth left)
 }
 
 // Returns the camera rays of those lanes; the other lanes copy the first.
-static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
+static inline Ray shared_ray(Real3 origin, Real3 direction, Mask lanes)
 {
     const Real3 start = real3_of(first_real(origin.x, lanes), first_real(origin.y, lanes),
                                  first_real(origin.z, lanes));
@@ -21,7 +21,7 @@ static inline Ray shared_ray(Real3 origin, Real3 direction, Truth lanes)
     return (Ray){start, choose3(lanes, direction, first), NOTHING, NOTHING, RAY_CAMERA, lanes};
 }
 
-static inline void store_distances(global float *distances, Truth lanes, Real t)
+static inline void store_distances(global float *distances, Mask lanes, Real t)
 {
     const uint bits = lane_bits(lanes);
     for (uint lane = 0; lane < CLRT_LANES; lane++)
@@ -39,16 +39,16 @@ kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
     const uint start = CLRT_LANES * (uint)get_global_id(0);
     if (start >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
-    const Count place = start + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Record record = record_at(rays, min(place, (Count)(count - 1)) * 8);
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    const UInt place = start + LANE_Y * PACKET_WIDTH + LANE_X;
+    const Record record = record_at(rays, min(place, (UInt)(count - 1)) * 8);
     const Real3 origin = record_real3(&record, 0, 1), direction = record_real3(&record, 4, 1);
-    Truth left = place < count;
+    Mask left = place < count;
     while (any_lane(left)) {
-        const Truth lanes = share_origin(origin, left);
+        const Mask lanes = share_origin(origin, left);
         const Ray ray = shared_ray(origin, direction, lanes);
-        Tally tally = {0};
-        const Hit hit = nearest_hit(&scene, &frame, &ray, &tally);
+        const Hit hit = nearest_hit(&tracer, &ray);
         store_distances(distances + start, lanes, hit.t);
         left = left && !lanes;
     }

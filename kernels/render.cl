@@ -35,39 +35,37 @@ static inline Real in_steps(Real color)
     return rint(clamp_to_one(color) * 0x1p32f);
 }
 
-static inline Real mean_of(LongCount sum, ulong count)
+static inline Real mean_of(ULong sum, ulong count)
 {
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
 // Positions in the picture, in pixels or in samples.
 typedef struct {
-    Count x, y;
-    Truth active;
+    UInt x, y;
+    Mask active;
 } Places;
 
-static inline Real3 sample_color(const SceneView *scene, const FrameData *frame,
-                                 const Places *samples, Tally *tally)
+static inline Real3 sample_color(const Tracer *tracer, const Places *samples)
 {
-    const Ray ray = camera_ray(frame, samples->x, samples->y, samples->active);
-    const Real3 color = trace(scene, frame, ray, tally);
+    const Ray ray = camera_ray(tracer->frame, samples->x, samples->y, samples->active);
+    const Real3 color = trace(tracer, ray);
     if (CLRT_STATISTICS)
-        tally->camera_rays += lane_count(samples->active);
+        tracer->tally->camera_rays += lane_count(samples->active);
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
 // Samples are summed as integers, which is exact in any order. A constant color therefore stays
 // unchanged for any number of samples.
-static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, const Places *pixels,
-                               Tally *tally)
+static inline Real3 mean_color(const Tracer *tracer, const Places *pixels)
 {
-    LongCount red = 0, green = 0, blue = 0;
-    const uint side = frame->samples;
+    ULong red = 0, green = 0, blue = 0;
+    const uint side = tracer->frame->samples;
     for (uint row = 0; row < side; row++)
         for (uint column = 0; column < side; column++) {
             const Places samples = {pixels->x * side + column, pixels->y * side + row,
                                     pixels->active};
-            const Real3 color = sample_color(scene, frame, &samples, tally);
+            const Real3 color = sample_color(tracer, &samples);
             red += to_long(color.x);
             green += to_long(color.y);
             blue += to_long(color.z);
@@ -77,12 +75,11 @@ static inline Real3 mean_color(const SceneView *scene, const FrameData *frame, c
 }
 
 // A single sample needs no sum, whose division costs more than tracing a simple scene.
-static inline Real3 pixel_color(const SceneView *scene, const FrameData *frame,
-                                const Places *pixels, Tally *tally)
+static inline Real3 pixel_color(const Tracer *tracer, const Places *pixels)
 {
-    if (frame->samples > 1)
-        return mean_color(scene, frame, pixels, tally);
-    return scaled3(0x1p-32f, sample_color(scene, frame, pixels, tally));
+    if (tracer->frame->samples > 1)
+        return mean_color(tracer, pixels);
+    return scaled3(0x1p-32f, sample_color(tracer, pixels));
 }
 
 static inline void store_tally(global uint *counts, const Tally *tally)
@@ -163,22 +160,18 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
 // pixels holds tile_width * tile_height colors of three floats, rows from the top. tallies holds
 // TALLY_KINDS counts per pixel, written only if statistics are compiled in. The range is padded to
 // whole work-groups.
-kernel void render_tile(const FrameData frame, global const PointLight *lights,
-                        global const Material *materials, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global float *pixels, global uint *tallies)
+kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const Output output = {pixels, tallies};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
-            const Count column = x + LANE_X, row = y + LANE_Y;
+            const UInt column = x + LANE_X, row = y + LANE_Y;
             const Places places = {frame.tile_x + column, frame.tile_y + row,
                                    column < frame.tile_width && row < frame.tile_height};
             Tally tally = {0};
-            const Real3 color = pixel_color(&scene, &frame, &places, &tally);
+            const Tracer tracer = TRACER(&tally);
+            const Real3 color = pixel_color(&tracer, &places);
             store_packet(&frame, (uint2)(x, y), &color, &tally, &output);
         }
 }

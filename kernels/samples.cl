@@ -2,7 +2,7 @@
 // The kernel of adaptive anti-aliasing samples listed places instead of a tile. It is compiled
 // after render.cl, and only if requested.
 
-static inline void store_sample(global SampleData *sample, const Real3 *color, Count signature,
+static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,
                                 uint lane)
 {
     const Scalar *red = (const Scalar *)&color->x, *green = (const Scalar *)&color->y,
@@ -23,22 +23,18 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, C
 // Samples places first to end - 1 into the same elements of samples. A place is two coordinates in
 // sub-pixels; the coordinate NOTHING skips it. A work-item takes ITEM_SAMPLES consecutive places.
 // Tallies are written at the first place of each packet, and only if statistics are compiled in.
-kernel void trace_samples(const FrameData frame, global const PointLight *lights,
-                          global const Material *materials, global const SphereData *spheres,
-                          global const Node *nodes, global const Triangles *triangles,
-                          global const TriangleLook *looks, global const CornerNormals *normals,
-                          global const uint *places, uint first, uint end,
+kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {
-    const SceneView scene = {lights, materials, spheres, nodes, triangles, looks, normals};
     const uint begin = first + ITEM_SAMPLES * (uint)get_global_id(0);
     for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += CLRT_LANES) {
-        const Count number = start + LANE_Y * PACKET_WIDTH + LANE_X;
-        const Count word = 2 * min(number, (Count)(end - 1));
-        const Count x = gather(places, word), y = gather(places, word + 1);
+        const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;
+        const UInt word = 2 * min(number, (UInt)(end - 1));
+        const UInt x = gather(places, word), y = gather(places, word + 1);
         const Places asked = {x, y, number < end && x != NOTHING};
         Tally tally = {0};
-        const Real3 color = scaled3(0x1p-32f, sample_color(&scene, &frame, &asked, &tally));
+        const Tracer tracer = TRACER(&tally);
+        const Real3 color = scaled3(0x1p-32f, sample_color(&tracer, &asked));
         for (uint lane = 0; lane < min((uint)CLRT_LANES, end - start); lane++)
             store_sample(samples + start + lane, &color, tally.signature, lane);
         if (CLRT_STATISTICS)

@@ -13,9 +13,9 @@
 // dot product is off by 0.14, this by 5e-5.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
-    const Truth is_integer = material->exponent != 0xffffffffu;
+    const Mask is_integer = material->exponent != 0xffffffffu;
     const Real cosine = dot_product(normal, half_vector);
-    const Count exponent = is_integer ? material->exponent : (Count)(0);
+    const UInt exponent = is_integer ? material->exponent : (UInt)(0);
     const Real power = integer_power(clamp_to_one(cosine), exponent);
     if (!any_lane(!is_integer))
         return power;
@@ -37,22 +37,22 @@ typedef struct {
     Real3 position, toward; // toward the light: unit
     float intensity;
     Real cosine;
-    Truth faces; // the shading normal and the face both face the light
-} SeenLight;
+    Mask faces; // the shading normal and the face both face the light
+} LightSample;
 
 // Returns whether the light is in front of the face. The height is measured from a corner, which
 // is exact. All points of a triangle therefore agree about a light that is nearly in its plane.
-static inline Truth is_before_face(const Surface *surface, Real3 light)
+static inline Mask is_before_face(const Surface *surface, Real3 light)
 {
     return dot_product(surface->face, difference(light, surface->on_face)) > 0.0f;
 }
 
-static inline SeenLight see_light(const SceneView *scene, uint index, const Surface *surface,
-                                  Truth wanted)
+static inline LightSample sample_light(const Tracer *tracer, uint index, const Surface *surface,
+                                       Mask wanted)
 {
-    SeenLight light;
-    light.position = load3(scene->lights[index].position);
-    light.intensity = scene->lights[index].intensity;
+    LightSample light;
+    light.position = load3(tracer->lights[index].position);
+    light.intensity = tracer->lights[index].intensity;
     light.toward = unit_vector(difference(light.position, surface->point));
     light.cosine = dot_product(surface->normal, light.toward);
     light.faces = wanted && light.cosine > 0.0f && is_before_face(surface, light.position);
@@ -62,12 +62,12 @@ static inline SeenLight see_light(const SceneView *scene, uint index, const Surf
 // The ray starts at the surface, whose position is known best there. Light then passes no edge of
 // a closed shape, at any distance. Starting at the light, the common origin of all rays, would
 // make packets 2 % faster in small scenes and slower in large ones.
-static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
-                               const SeenLight *light)
+static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
+                               const LightSample *light)
 {
     const Heading heading = {light->position, true};
     const Real sine = fabs(dot_product(surface->face, light->toward));
-    const Real3 point = point_left(scene, surface, &heading, sine, light->faces);
+    const Real3 point = point_left(tracer, surface, &heading, sine, light->faces);
     return (Ray){point,       difference(light->position, point),
                  surface->id, surface->index,
                  RAY_SHADOW,  light->faces};
@@ -77,27 +77,26 @@ static inline Ray ray_to_light(const SceneView *scene, const Surface *surface,
 typedef struct {
     const Surface *surface;
     const MaterialLanes *material;
-    Truth wanted;
+    Mask wanted;
     Real diffuse, specular;
 } Lighting;
 
 // Adds a light's contribution. Surfaces turned away from the light get nothing and need no shadow
 // ray.
-static inline void receive_light(const SceneView *scene, const FrameData *frame, uint index,
-                                 Lighting *lighting, Tally *tally)
+static inline void receive_light(const Tracer *tracer, uint index, Lighting *lighting)
 {
     const Surface *surface = lighting->surface;
-    const SeenLight light = see_light(scene, index, surface, lighting->wanted);
+    const LightSample light = sample_light(tracer, index, surface, lighting->wanted);
     if (!any_lane(light.faces))
         return;
     if (CLRT_STATISTICS)
-        tally->shadow_rays += lane_count(light.faces);
-    const Ray ray = ray_to_light(scene, surface, &light);
-    const Truth is_lit = light.faces && !is_blocked(scene, frame, &ray, tally);
-    sign_lanes(tally, is_lit, (Count)(index));
+        tracer->tally->shadow_rays += lane_count(light.faces);
+    const Ray ray = ray_to_light(tracer, surface, &light);
+    const Mask is_lit = light.faces && !is_blocked(tracer, &ray);
+    sign_lanes(tracer->tally, is_lit, (UInt)(index));
     const Real diffuse = lighting->diffuse + light.intensity * light.cosine;
     lighting->diffuse = is_lit ? diffuse : lighting->diffuse;
-    const Truth shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
+    const Mask shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!any_lane(shines))
         return;
     const Real3 half_vector = half_vector_of(surface, light.toward);
@@ -107,24 +106,23 @@ static inline void receive_light(const SceneView *scene, const FrameData *frame,
 }
 
 // Returns the state before any light is added, for the surfaces in lanes `met`.
-static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Truth met)
+static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
 {
-    const Truth wanted = met && material->shader != SHADER_SILHOUETTE;
+    const Mask wanted = met && material->shader != SHADER_SILHOUETTE;
     return (Lighting){surface, material, wanted, 0.0f, 0.0f};
 }
 
 // Returns the color of the surfaces given to lighting_of. The values of other lanes are
 // unspecified.
-static inline Real3 shade(const SceneView *scene, const FrameData *frame, Lighting lighting,
-                          Tally *tally)
+static inline Real3 shade(const Tracer *tracer, Lighting lighting)
 {
     const MaterialLanes *material = lighting.material;
-    const Truth is_flat = material->shader == SHADER_SILHOUETTE;
+    const Mask is_flat = material->shader == SHADER_SILHOUETTE;
     if (!CLRT_SHADED || !any_lane(lighting.wanted))
         return material->diffuse;
-    for (uint index = 0; index < frame->light_count; index++)
-        receive_light(scene, frame, index, &lighting, tally);
-    const Real diffuse = frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
+    for (uint index = 0; index < tracer->frame->light_count; index++)
+        receive_light(tracer, index, &lighting);
+    const Real diffuse = tracer->frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
     Real3 color = scaled3(diffuse, material->diffuse);
     const Real3 shine =
         scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);

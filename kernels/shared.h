@@ -25,8 +25,8 @@ typedef uint64_t ulong;
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
 // Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding
-// (2^-24). A triangle that triangle.cl accepts lies within 22 units of the ray, with 16 more if t
-// is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
+// (2^-24). A triangle that triangle.inc.cl accepts lies within 22 units of the ray, with 16 more if
+// t is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
 // 2.5 ulp, these become 34, 25 and 8. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-17f
 
@@ -94,7 +94,7 @@ CLRT_SAME_SIZE(CornerNormals, 48)
 // child without a count is the inner node `first`. A missing child has an inverted box, which no
 // ray enters.
 typedef struct {
-    float planes[3][2][2]; // [axis][low, high][child], grown by the slack of traverse.cl
+    float planes[3][2][2]; // [axis][low, high][child], grown by the slack of search.cl
     uint first[2];
     uint count[2];
 } BvhPair;
@@ -110,7 +110,7 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // plane of all children. A child is the index of an inner node or, if WIDE_LEAF is set, of a
 // block. Present children come first; missing ones have inverted boxes.
 typedef struct {
-    float planes[3][2][WIDE]; // [axis][low, high][child], grown by the slack of traverse.cl
+    float planes[3][2][WIDE]; // [axis][low, high][child], grown by the slack of search.cl
     uint child[WIDE];
     uint child_count;
     uint padding[7]; // keeps nodes on cache lines of 64 bytes

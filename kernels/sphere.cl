@@ -71,7 +71,7 @@ static inline TwoFloat two_magnitude(TwoFloat a)
     return (TwoFloat){fabs(a.high), a.high < 0.0f ? -a.low : a.low};
 }
 
-static inline TwoFloat two_choose(Truth first, TwoFloat a, TwoFloat b)
+static inline TwoFloat two_choose(Mask first, TwoFloat a, TwoFloat b)
 {
     return (TwoFloat){first ? a.high : b.high, first ? a.low : b.low};
 }
@@ -140,8 +140,8 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
 // of f that nearly equals the radius is therefore factored out as a product.
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
-    const Truth z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
-    const Truth y_first = !z_first && fabs(f.y.high) >= fabs(f.x.high);
+    const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
+    const Mask y_first = !z_first && fabs(f.y.high) >= fabs(f.x.high);
     const TwoFloat x = two_choose(z_first || y_first, f.x, f.z);
     const TwoFloat y = two_choose(y_first, f.z, f.y);
     const TwoFloat z = two_magnitude(two_choose(z_first, f.z, two_choose(y_first, f.y, f.x)));
@@ -152,7 +152,7 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 // Returns whether plain floats already prove that the line misses the sphere. Their error is below
 // 16 units of rounding of the squares of all lengths involved; 64 are allowed. This saves most
 // spheres the exact test: three of them took half a picture's time without it.
-static inline Truth sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
+static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
         real3_of(sphere->center.x.high, sphere->center.y.high, sphere->center.z.high);
@@ -166,9 +166,9 @@ static inline Truth sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d
 
 // Returns the smallest t > 0 at which origin + t * direction hits the sphere in the wanted lanes,
 // INFINITY if it misses. A ray from inside hits the far wall.
-static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Truth wanted)
+static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
-    const Truth is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
     if (!any_lane(is_near))
         return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);

@@ -2,9 +2,9 @@
 // Turns a hit into a surface: the point and its normals. Points are interpolated on the primitive
 // rather than stepped along the ray, so their error does not grow with the distance traveled
 // (pbrt, section 6.8). New rays start exactly at the point. The side on which the point lies
-// decides which triangles they may stop on (triangle.cl), so no offset moves contacts and shadows.
-// The start only moves if rounding has put the point outside its own triangle, as the new ray sees
-// it.
+// decides which triangles they may stop on (triangle.inc.cl), so no offset moves contacts and
+// shadows. The start only moves if rounding has put the point outside its own triangle, as the new
+// ray sees it.
 //
 // The shading normal and the true face can face opposite sides. Two rules then decide which light
 // and which rays leave or reach the surface. The face always counts as seen from the ray's side.
@@ -15,8 +15,7 @@
 //  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
-#include "fetch.cl"
-#include "traverse.cl"
+#include "intersect.cl"
 
 typedef struct {
     Real3 point;
@@ -24,12 +23,12 @@ typedef struct {
     Real3 face;          // unit, of the true surface, on the ray's side
     Real3 on_face;       // a corner of the triangle, exact; for a sphere the point
     Real3 toward_viewer; // unit
-    Count id, material;
-    Count index;     // of a triangle; NOTHING for spheres
+    UInt id, material;
+    UInt index;      // of a triangle; NOTHING for spheres
     Real room, edge; // the point is room / edge away from the edges, within a factor of 2
 } Surface;
 
-static inline Truth has_length(Real3 v)
+static inline Mask has_length(Real3 v)
 {
     return largest_component(v) > 0.0f;
 }
@@ -51,13 +50,12 @@ static inline Real3 weighted(Real3 weights, const Corners *corners)
                     weights.x * a.z + weights.y * b.z + weights.z * c.z);
 }
 
-static inline Real3 triangle_normal(const SceneView *scene, Count normals, Real3 weights,
-                                    Real3 face)
+static inline Real3 triangle_normal(const Tracer *tracer, UInt normals, Real3 weights, Real3 face)
 {
-    const Truth is_smooth = normals != NOTHING;
+    const Mask is_smooth = normals != NOTHING;
     if (!any_lane(is_smooth))
         return face;
-    const Corners corners = fetch_normals(scene, is_smooth ? normals : (Count)(0));
+    const Corners corners = fetch_normals(tracer, is_smooth ? normals : (UInt)(0));
     const Real3 normal = unit_vector(weighted(weights, &corners));
     return choose3(is_smooth && has_length(normal), normal, face);
 }
@@ -96,21 +94,20 @@ static inline void note_edges(Surface *surface, const Corners *corners, Real3 we
     surface->edge = largest_component(ab) + largest_component(ac);
 }
 
-static inline Surface triangle_surface(const SceneView *scene, const FrameData *frame,
-                                       const Ray *ray, const Hit *hit)
+static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, const Hit *hit)
 {
-    const Corners corners = fetch_corners(scene, hit->index);
-    const Look look = fetch_look(scene, hit, frame->sphere_count);
+    const Corners corners = fetch_corners(tracer, hit->index);
+    const Look look = fetch_look(tracer, hit);
     const View view = view_of(&corners, ray->origin, ray->direction);
     const Real r = 1.0f / view.edges.determinant;
     const Real3 weights = {view.edges.u * r, view.edges.v * r, view.edges.w * r};
-    const Truth front = edges_face(&view.edges, &view.shear);
+    const Mask front = edges_face(&view.edges, &view.shear);
 
     Surface surface;
     surface.toward_viewer = negative3(unit_vector(ray->direction));
     surface.point = weighted(weights, &corners);
     const Real3 face = triangle_face(&corners, surface.toward_viewer);
-    const Real3 normal = triangle_normal(scene, look.normals, weights, face);
+    const Real3 normal = triangle_normal(tracer, look.normals, weights, face);
     surface.face = choose3(front, face, negative3(face));
     surface.on_face = corners.a;
     surface.normal = choose3(front, normal, negative3(normal));
@@ -124,31 +121,31 @@ static inline Surface triangle_surface(const SceneView *scene, const FrameData *
 // Returns whether a ray that hits the sphere comes from outside. sphere_distance uses the same
 // power to choose between the near and the far wall. The answer therefore also holds for a grazing
 // ray, where rounding may turn the normal away.
-static inline Truth comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
+static inline Mask comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
 {
     const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
     return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
 }
 
 // A sphere's normal points outward even from inside, as in the course.
-static inline Surface sphere_surface(const SceneView *scene, const Ray *ray, const Hit *hit)
+static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const Hit *hit)
 {
-    const Sphere sphere = fetch_sphere(scene, hit->index);
+    const Sphere sphere = fetch_sphere(tracer, hit->index);
     Surface surface;
     surface.toward_viewer = negative3(unit_vector(ray->direction));
     surface.point = sphere_point(&sphere, ray->origin, ray->direction, hit->t, &surface.normal);
-    const Truth outside = comes_from_outside(&sphere, ray, hit);
+    const Mask outside = comes_from_outside(&sphere, ray, hit);
     surface.face = choose3(outside, surface.normal, negative3(surface.normal));
     surface.on_face = surface.point;
     surface.id = hit->id;
     surface.index = NOTHING;
     surface.room = 0.0f;
     surface.edge = 0.0f;
-    surface.material = fetch_sphere_material(scene, hit->index);
+    surface.material = fetch_sphere_material(tracer, hit->index);
     return surface;
 }
 
-static inline Surface choose_surface(Truth first, const Surface *a, const Surface *b)
+static inline Surface choose_surface(Mask first, const Surface *a, const Surface *b)
 {
     return (Surface){choose3(first, a->point, b->point),
                      choose3(first, a->normal, b->normal),
@@ -164,7 +161,7 @@ static inline Surface choose_surface(Truth first, const Surface *a, const Surfac
 
 // Lanes of hit outside `met` copy a lane inside. Their results are discarded, but they must read
 // valid memory.
-static inline Hit hit_everywhere(const Hit *hit, Truth met)
+static inline Hit hit_everywhere(const Hit *hit, Mask met)
 {
     Hit filled = *hit;
     filled.id = met ? hit->id : first_lane(hit->id, met);
@@ -173,24 +170,23 @@ static inline Hit hit_everywhere(const Hit *hit, Truth met)
 }
 
 // Returns the surfaces of lanes with a hit. The values of other lanes are unspecified.
-static inline Surface surface_at(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                                 const Hit *hit, Truth met)
+static inline Surface surface_at(const Tracer *tracer, const Ray *ray, const Hit *hit, Mask met)
 {
     if (!CLRT_TRIANGLES) {
         const Hit hits = hit_everywhere(hit, met);
-        return sphere_surface(scene, ray, &hits);
+        return sphere_surface(tracer, ray, &hits);
     }
-    const Truth on_sphere = met && hit->id < frame->sphere_count;
-    const Truth on_triangle = met && hit->id >= frame->sphere_count;
+    const Mask on_sphere = met && hit->id < tracer->frame->sphere_count;
+    const Mask on_triangle = met && hit->id >= tracer->frame->sphere_count;
     Surface triangle;
     if (!CLRT_SPHERES || any_lane(on_triangle)) {
         const Hit hits = hit_everywhere(hit, on_triangle);
-        triangle = triangle_surface(scene, frame, ray, &hits);
+        triangle = triangle_surface(tracer, ray, &hits);
     }
     if (!CLRT_SPHERES || !any_lane(on_sphere))
         return triangle;
     const Hit hits = hit_everywhere(hit, on_sphere);
-    const Surface sphere = sphere_surface(scene, ray, &hits);
+    const Surface sphere = sphere_surface(tracer, ray, &hits);
     return any_lane(on_triangle) ? choose_surface(on_sphere, &sphere, &triangle) : sphere;
 }
 
@@ -209,16 +205,16 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
 // beyond the neighbor that should stop the ray. While the ray's line misses the triangle, the
 // point moves toward the triangle's middle, within its plane. Sharper corners move it farther, up
 // to 256 times the line's shift along the plane by a unit of rounding.
-static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surface,
-                                     const Heading *heading, Real sine, Truth near_edge)
+static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
+                                     const Heading *heading, Real sine, Mask near_edge)
 {
-    const Corners corners = fetch_corners(scene, near_edge ? surface->index : (Count)(0));
+    const Corners corners = fetch_corners(tracer, near_edge ? surface->index : (UInt)(0));
     const Real third = RATIO(1.0f, 3.0f);
     const Real3 middle = weighted(real3_of(third, third, third), &corners);
     const Real3 inward = difference(middle, surface->point);
     const Real unit = UNIT_ROUNDOFF / (sine * largest_component(inward));
     Real3 point = surface->point;
-    Truth outside = near_edge;
+    Mask outside = near_edge;
     for (uint step = 1; step <= 256 && any_lane(outside); step *= 2) {
         const View view = view_of(&corners, point, direction_from(point, heading));
         outside = outside && !edges_contain(&view.edges);
@@ -231,19 +227,19 @@ static NOT_INLINE Real3 point_inside(const SceneView *scene, const Surface *surf
 // Returns the start of a ray that leaves the surface, such that its line passes through its own
 // triangle. Rounding can prevent that only near edges. A point is off by some units of rounding,
 // with coordinates up to 1. A line that rises at a given sine is off by this error over the sine.
-static inline Real3 point_left(const SceneView *scene, const Surface *surface,
-                               const Heading *heading, Real sine, Truth active)
+static inline Real3 point_left(const Tracer *tracer, const Surface *surface, const Heading *heading,
+                               Real sine, Mask active)
 {
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
-    const Truth near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
+    const Mask near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
         return surface->point;
-    return point_inside(scene, surface, heading, sine, near_edge);
+    return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
 // An interpolated normal can send the reflected ray into the surface it leaves. That ray is
 // mirrored out again at the true surface, which is continuous at its horizon.
-static inline Ray ray_reflected(const SceneView *scene, const Surface *surface, Truth active)
+static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
     const Real3 direction =
@@ -253,7 +249,7 @@ static inline Ray ray_reflected(const SceneView *scene, const Surface *surface, 
     const Real3 turned = choose3(height < 0.0f, outward, direction);
     const Heading heading = {turned, false};
     const Real sine = fabs(dot_product(surface->face, turned));
-    const Real3 point = point_left(scene, surface, &heading, sine, active);
+    const Real3 point = point_left(tracer, surface, &heading, sine, active);
     return (Ray){point, turned, surface->id, surface->index, RAY_REFLECTED, active};
 }
 

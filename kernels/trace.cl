@@ -11,7 +11,7 @@ static inline Real3 load_private3(const float *components)
 }
 
 // x and y are positions in the whole picture, in halves of a sub-pixel.
-static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Truth active)
+static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
     const Real along = to_real(to_int(y) - (int)(frame->height * frame->samples));
@@ -26,56 +26,101 @@ static inline Ray camera_ray_toward(const FrameData *frame, Count x, Count y, Tr
 }
 
 // sample_x and sample_y count sub-pixels across the whole picture.
-static inline Ray camera_ray(const FrameData *frame, Count sample_x, Count sample_y, Truth active)
+static inline Ray camera_ray(const FrameData *frame, UInt sample_x, UInt sample_y, Mask active)
 {
     return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);
 }
 
-static inline void count_rays(Tally *tally, uint level, Truth active, Truth met)
+// A camera ray's path through its reflections.
+typedef struct {
+    Ray ray;       // the last ray that was followed
+    uint level;    // rays followed
+    Real3 color;   // of the path so far
+    Real weight;   // of the next ray's color in the sample's color
+    Hit hit;       // of the last ray
+    Mask met;      // lanes with a hit; the members below are valid there
+    Mask reflects; // lanes with a next ray
+    Surface surface;
+    MaterialLanes material;
+} Path;
+
+static inline Path path_along(Ray ray)
 {
-    tally->camera_hits += level == 0 ? lane_count(met) : 0;
-    tally->reflected_rays += level > 0 ? lane_count(active) : 0;
-    tally->shaded_points += lane_count(met);
+    return (Path){.ray = ray, .weight = 1.0f, .reflects = ray.active};
+}
+
+static inline void count_rays(const Path *path, Tally *tally)
+{
+    tally->camera_hits += path->level == 1 ? lane_count(path->met) : 0;
+    tally->reflected_rays += path->level > 1 ? lane_count(path->ray.active) : 0;
+    tally->shaded_points += lane_count(path->met);
 }
 
 // Returns the surface's word for signatures. Each sphere is its own surface; all triangles of one
 // material are one surface.
-static inline Count surface_word(const FrameData *frame, const Surface *surface)
+static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 {
-    const Count of_mesh = frame->sphere_count + surface->material;
+    const UInt of_mesh = frame->sphere_count + surface->material;
     return surface->id < frame->sphere_count ? surface->id : of_mesh;
 }
 
-static inline Real3 trace(const SceneView *scene, const FrameData *frame, Ray ray, Tally *tally)
+// Follows the next ray of each lane that has one, up to its surface. Returns false if no lane has
+// one.
+static inline bool path_step(const Tracer *tracer, Path *path)
 {
-    Real3 color = real3_of(0.0f, 0.0f, 0.0f);
-    Real weight = 1.0f;
-    Truth ended = 0; // at a surface that does not reflect
-    for (uint level = 0; level < frame->max_level && any_lane(ray.active); level++) {
-        const Hit hit = nearest_hit(scene, frame, &ray, tally);
-        const Truth met = ray.active && hit.id != NOTHING;
-        if (CLRT_STATISTICS)
-            count_rays(tally, level, ray.active, met);
-        if (!any_lane(met))
-            break;
-        const Surface surface = surface_at(scene, frame, &ray, &hit, met);
-        const MaterialLanes material = fetch_material(scene, surface.material);
-        sign_lanes(tally, met, surface_word(frame, &surface));
-        const Lighting dark = lighting_of(&surface, &material, met);
-        const Real3 shaded = shade(scene, frame, dark, tally);
-        Truth ends = met;
-        if (CLRT_MIRRORS)
-            ends = met && material.reflectivity == 0.0f;
-        const Real share = ends ? weight : weight * (1.0f - material.reflectivity);
-        color = choose3(met, sum3(color, scaled3(share, shaded)), color);
-        weight = met && !ends ? weight * material.reflectivity : weight;
-        ended = ended || ends;
-        if (!CLRT_MIRRORS)
-            break;
-        ray = ray_reflected(scene, &surface, met && !ends);
-    }
-    const Real3 background = load_private3(frame->background);
-    return choose3(ended, color, sum3(color, scaled3(weight, background)));
+    if (path->level == tracer->frame->max_level || !any_lane(path->reflects))
+        return false;
+    if (CLRT_MIRRORS && path->level > 0)
+        path->ray = ray_reflected(tracer, &path->surface, path->reflects);
+    path->level++;
+    path->hit = nearest_hit(tracer, &path->ray);
+    path->met = path->ray.active && path->hit.id != NOTHING;
+    path->reflects = 0;
+    if (CLRT_STATISTICS)
+        count_rays(path, tracer->tally);
+    if (!any_lane(path->met))
+        return true;
+    path->surface = surface_at(tracer, &path->ray, &path->hit, path->met);
+    path->material = fetch_material(tracer, path->surface.material);
+    if (CLRT_MIRRORS)
+        path->reflects = path->met && path->material.reflectivity != 0.0f;
+    sign_lanes(tracer->tally, path->met, surface_word(tracer->frame, &path->surface));
+    return true;
+}
+
+// Returns the weight of the surface's own color in the sample's color.
+static inline Real path_share(const Path *path)
+{
+    const Real rest = path->weight * (1.0f - path->material.reflectivity);
+    return path->reflects ? rest : path->weight;
+}
+
+// Adds the surface's own color, and returns it.
+static inline Real3 path_shade(const Tracer *tracer, Path *path)
+{
+    const Lighting dark = lighting_of(&path->surface, &path->material, path->met);
+    const Real3 shaded = shade(tracer, dark);
+    const Real3 color = sum3(path->color, scaled3(path_share(path), shaded));
+    const Real reflected = path->reflects ? path->weight * path->material.reflectivity : 0.0f;
+    path->color = choose3(path->met, color, path->color);
+    path->weight = path->met ? reflected : path->weight;
+    return shaded;
+}
+
+// Returns the color of a path that ends: rays without a surface see the background.
+static inline Real3 path_color(const Tracer *tracer, const Path *path)
+{
+    const Real3 background = load_private3(tracer->frame->background);
+    return sum3(path->color, scaled3(path->weight, background));
+}
+
+static inline Real3 trace(const Tracer *tracer, Ray ray)
+{
+    Path path = path_along(ray);
+    while (path_step(tracer, &path))
+        if (any_lane(path.met))
+            path_shade(tracer, &path);
+    return path_color(tracer, &path);
 }
 
 #endif

@@ -2,54 +2,23 @@
 // Traces single rays through the tree of wide nodes. All children of a node and all triangles of a
 // block are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The rays of
 // a packet's lanes advance alternately, one step each. Culling is pair.cl's and acceptance
-// triangle.cl's, so the hits are equal, too.
+// triangle.inc.cl's, so the hits are equal, too.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "fetch.cl"
-#include "waiting.cl"
+#include "search.cl"
+#include "wide_stack.cl"
 
 #if CLRT_WIDE_NODES
 
-// The rays of all lanes, prepared for the searches.
-typedef struct {
-    const SceneView *scene;
-    const Ray *ray;
-    ShearAxes axes;
-    Shear shear;
-    Real3 inverse, near_offset, far_offset; // of the slabs, as in pair.cl
-} Search;
-
-static inline float real_of(const Real *lanes, uint lane)
+static inline float lane_real(const Real *lanes, uint lane)
 {
     return ((const float *)lanes)[lane];
 }
 
-static inline uint count_of(const Count *lanes, uint lane)
+static inline uint lane_uint(const UInt *lanes, uint lane)
 {
     return ((const uint *)lanes)[lane];
-}
-
-static inline Real slab_direction(Real direction, Real smallest)
-{
-    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
-}
-
-static inline void search_slab(Search *search, uint axis, Real direction, Real origin, Real slack)
-{
-    const Real widening = copysign(slack, direction), inverse = 1.0f / direction;
-    (&search->inverse.x)[axis] = inverse;
-    (&search->near_offset.x)[axis] = -(origin + widening) * inverse;
-    (&search->far_offset.x)[axis] = -(origin - widening) * inverse;
-}
-
-// Computes the slabs of rays with origins o and directions d.
-static inline void search_slabs(Search *search, Real3 o, Real3 d)
-{
-    const Real smallest = 0x1p-30f * largest_component(d);
-    const Real slack = BVH_SLACK * largest_component(o);
-    search_slab(search, 0, slab_direction(d.x, smallest), o.x, slack);
-    search_slab(search, 1, slab_direction(d.y, smallest), o.y, slack);
-    search_slab(search, 2, slab_direction(d.z, smallest), o.z, slack);
 }
 
 // Returns the distances to a plane of each child's box: the one the lane's ray enters by, or the
@@ -57,17 +26,17 @@ static inline void search_slabs(Search *search, Real3 o, Real3 d)
 static inline float8 wide_planes(global const float planes[2][WIDE], const Real *inverse,
                                  const Real *offset, uint lane, uint other)
 {
-    const float i = real_of(inverse, lane);
+    const float i = lane_real(inverse, lane);
     const uint side = (as_uint(i) >> 31) ^ other;
-    return fma(vload8(0, planes[side]), (float8)(i), (float8)(real_of(offset, lane)));
+    return fma(vload8(0, planes[side]), (float8)(i), (float8)(lane_real(offset, lane)));
 }
 
 // Returns the children whose boxes the lane's ray enters before `reach`, and where it enters them.
-static inline int8 children_met(global const BvhWide *node, const Search *search, uint lane,
+static inline int8 children_hit(global const BvhWide *node, const Search *search, uint lane,
                                 float reach, float8 *entry)
 {
-    const Real3 *inverse = &search->inverse;
-    const Real3 *near = &search->near_offset, *far = &search->far_offset;
+    const Real3 *inverse = &search->slabs.inverse;
+    const Real3 *near = &search->slabs.near_offset, *far = &search->slabs.far_offset;
     const float8 near_x = wide_planes(node->planes[0], &inverse->x, &near->x, lane, 0);
     const float8 near_y = wide_planes(node->planes[1], &inverse->y, &near->y, lane, 0);
     const float8 near_z = wide_planes(node->planes[2], &inverse->z, &near->z, lane, 0);
@@ -98,14 +67,13 @@ typedef struct {
 
 static inline LaneRay lane_ray(const Search *search, uint lane)
 {
-    const Real *origin = &search->ray->origin.x;
-    const uint x = count_of(&search->axes.x, lane), y = count_of(&search->axes.y, lane);
-    const uint z = count_of(&search->axes.z, lane);
     return (LaneRay){
-        {x, y, z},
-        {real_of(origin + x, lane), real_of(origin + y, lane), real_of(origin + z, lane)},
-        {real_of(&search->shear.shear_x, lane), real_of(&search->shear.shear_y, lane),
-         real_of(&search->shear.inverse_z, lane), real_of(&search->shear.direction_z, lane)}};
+        {lane_uint(&search->axes.x, lane), lane_uint(&search->axes.y, lane),
+         lane_uint(&search->axes.z, lane)},
+        {lane_real(&search->origin.x, lane), lane_real(&search->origin.y, lane),
+         lane_real(&search->origin.z, lane)},
+        {lane_real(&search->shear.shear_x, lane), lane_real(&search->shear.shear_y, lane),
+         lane_real(&search->shear.inverse_z, lane), lane_real(&search->shear.direction_z, lane)}};
 }
 
 static inline Wide3 block_corner_relative(global const TriangleBlock *block, uint corner,
@@ -130,27 +98,27 @@ typedef struct {
     uint place, index;
 } BlockPlace;
 
-static inline BlockPlace block_start(const SceneView *scene, uint number)
+static inline BlockPlace block_start(const Tracer *tracer, uint number)
 {
-    return (BlockPlace){scene->triangles + number, 0, number * WIDE};
+    return (BlockPlace){tracer->triangles + number, 0, number * WIDE};
 }
 
 static inline Wide3 splat3(const Real3 *v, uint lane)
 {
-    return (Wide3){real_of(&v->x, lane), real_of(&v->y, lane), real_of(&v->z, lane)};
+    return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
 // Returns which triangles of the block stop the lane's ray, among those that its line hits within
 // rounding of the ray's own.
-static NOT_INLINE int8 block_stops(const WideCorners *corners, const Search *search, uint lane,
-                                   int8 from_back)
+static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search *search, uint lane,
+                                       int8 from_back)
 {
     const Ray *ray = search->ray;
-    if (count_of(&ray->own_index, lane) == NOTHING)
+    if (lane_uint(&ray->own_index, lane) == NOTHING)
         return 0;
-    const Corners owns = fetch_corners(search->scene, (Count)(count_of(&ray->own_index, lane)));
+    const Corners owns = fetch_corners(search->tracer, (UInt)(lane_uint(&ray->own_index, lane)));
     const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
-    return meets_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
+    return hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
 
 // Returns the distances of these hits, INFINITY for triangles that do not stop the ray before
@@ -165,7 +133,7 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const int8 inner = front == ((id & TRIANGLE_REVERSED) != 0);
     const int8 one_sided = (id & TRIANGLE_TWO_SIDED) == 0;
     const int8 open = one_sided && inner;
-    const int8 own = (id & ~TRIANGLE_MARKS) == count_of(&ray->own, lane);
+    const int8 own = (id & ~TRIANGLE_MARKS) == lane_uint(&ray->own, lane);
     const int8 closed = test->inside && !open && !own;
     const float8 t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const float8 clear = closed && t > 0.0f ? t : INFINITY;
@@ -188,12 +156,13 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     in_doubt = in_doubt && near;
     if (lane_bits(in_doubt) == 0)
         return near ? distance : INFINITY;
-    const int8 stops = block_stops(&corners, search, lane, !front);
+    const int8 stops = block_neighbors(&corners, search, lane, !front);
     return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
 }
 
 // Records the nearest distance if it precedes the lane's hit, and returns whether it does.
-static inline bool lane_hits(const float8 *distances, const BlockPlace *start, uint lane, Hit *hits)
+static inline bool update_lane_hit(const float8 *distances, const BlockPlace *start, uint lane,
+                                   Hit *hits)
 {
     float *best_t = (float *)&hits->t + lane;
     uint *best_id = (uint *)&hits->id + lane, *best_index = (uint *)&hits->index + lane;
@@ -214,8 +183,8 @@ static inline bool lane_hits(const float8 *distances, const BlockPlace *start, u
 }
 
 // Tests a block's triangles against the lane's ray. Returns whether its hit changed.
-static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *search, uint lane,
-                                     Hit *hits)
+static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search *search, uint lane,
+                                          Hit *hits)
 {
     global const TriangleBlock *block = start->block;
     const LaneRay ray = lane_ray(search, lane);
@@ -229,24 +198,24 @@ static ALWAYS_INLINE bool test_block(const BlockPlace *start, const Search *sear
     test.inside = edges_contain(&test.edges);
     if (lane_bits(test.inside) == 0)
         return false;
-    const float reach = real_of(&hits->t, lane);
+    const float reach = lane_real(&hits->t, lane);
     const float8 distances = block_distances(block, search, lane, &test, reach);
-    return lane_hits(&distances, start, lane, hits);
+    return update_lane_hit(&distances, start, lane, hits);
 }
 
 // Prefetches a node, or most of a block: four cache lines. OpenCL's prefetch does nothing on PoCL.
-static inline void fetch_ahead(const SceneView *scene, uint child)
+static inline void prefetch_child(const Tracer *tracer, uint child)
 {
 #if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
-    const ulong node = (ulong)(scene->nodes + child);
-    const ulong block = (ulong)(scene->triangles + (child & ~WIDE_LEAF));
+    const ulong node = (ulong)(tracer->nodes + child);
+    const ulong block = (ulong)(tracer->triangles + (child & ~WIDE_LEAF));
     const ulong start = (child & WIDE_LEAF) != 0 ? block : node;
     __builtin_prefetch((const void *)start);
     __builtin_prefetch((const void *)(start + 64));
     __builtin_prefetch((const void *)(start + 128));
     __builtin_prefetch((const void *)(start + 192));
 #else
-    (void)scene, (void)child;
+    (void)tracer, (void)child;
 #endif
 }
 
@@ -256,78 +225,79 @@ typedef struct {
     Hit *hits;
     uint child[CLRT_LANES]; // the next child of each
     uint leaves, ended;     // bits of the lanes at a block, and of those that have ended
-    WideWaiting waiting[CLRT_LANES];
-} Walkers;
+    WideStack stack[CLRT_LANES];
+} LaneSearches;
 
-static inline void walk_on(Walkers *walkers, const SceneView *scene, uint lane)
+static inline void advance_lane(LaneSearches *searches, uint lane)
 {
     uint child;
     const uint bit = 1u << lane;
-    if (!next_child(&walkers->waiting[lane], real_of(&walkers->hits->t, lane), &child)) {
-        walkers->ended |= bit;
+    if (!pop_child(&searches->stack[lane], lane_real(&searches->hits->t, lane), &child)) {
+        searches->ended |= bit;
         return;
     }
-    fetch_ahead(scene, child);
-    walkers->child[lane] = child;
-    walkers->leaves |= (child & WIDE_LEAF) != 0 ? bit : 0;
+    prefetch_child(searches->search->tracer, child);
+    searches->child[lane] = child;
+    searches->leaves |= (child & WIDE_LEAF) != 0 ? bit : 0;
 }
 
 // Advances each lane that is at a node by one step.
-static inline void walk_nodes(Walkers *walkers, const SceneView *scene, Tally *tally)
+static inline void visit_nodes(LaneSearches *searches)
 {
-    uint bits = ALL_LANES & ~(walkers->leaves | walkers->ended);
+    const Tracer *tracer = searches->search->tracer;
+    uint bits = ALL_LANES & ~(searches->leaves | searches->ended);
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        global const BvhWide *node = &scene->nodes[walkers->child[lane]];
+        global const BvhWide *node = &tracer->nodes[searches->child[lane]];
         // Read early, while the other cache lines of the node are loading.
         const uint8 children = vload8(0, node->child);
-        const float reach = real_of(&walkers->hits->t, lane);
+        const float reach = lane_real(&searches->hits->t, lane);
         float8 entry;
-        const int8 met = children_met(node, walkers->search, lane, reach, &entry);
+        const int8 met = children_hit(node, searches->search, lane, reach, &entry);
         if (CLRT_STATISTICS)
-            tally->box_tests += node->child_count;
-        wait_for(&walkers->waiting[lane], entry, met, children);
-        walk_on(walkers, scene, lane);
+            tracer->tally->box_tests += node->child_count;
+        push_children(&searches->stack[lane], entry, met, children);
+        advance_lane(searches, lane);
     }
 }
 
 // Advances each lane that is at a block by one step. A shadow ray stops at its first hit.
-static inline void walk_leaves(Walkers *walkers, const SceneView *scene, Tally *tally)
+static inline void visit_leaves(LaneSearches *searches)
 {
-    const bool is_shadow = walkers->search->ray->kind == RAY_SHADOW;
-    uint bits = walkers->leaves;
-    walkers->leaves = 0;
+    const Tracer *tracer = searches->search->tracer;
+    const bool is_shadow = searches->search->ray->kind == RAY_SHADOW;
+    uint bits = searches->leaves;
+    searches->leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        const BlockPlace start = block_start(scene, walkers->child[lane] & ~WIDE_LEAF);
-        const bool changed = test_block(&start, walkers->search, lane, walkers->hits);
+        const BlockPlace start = block_start(tracer, searches->child[lane] & ~WIDE_LEAF);
+        const bool changed = intersect_block(&start, searches->search, lane, searches->hits);
         if (CLRT_STATISTICS)
-            tally->triangle_tests += WIDE;
+            tracer->tally->triangle_tests += WIDE;
         if (!is_shadow || !changed)
-            walk_on(walkers, scene, lane);
+            advance_lane(searches, lane);
         else
-            walkers->ended |= 1u << lane;
+            searches->ended |= 1u << lane;
     }
 }
 
 // Searches for the rays of the lanes whose bits are set. While one ray waits for memory or for its
 // last step's result, the others advance. This is a fifth faster than one ray after another.
-static NOT_INLINE void meet_alone(const SceneView *scene, const Search *search, uint bits,
-                                  Hit *best, Tally *tally)
+static NOT_INLINE void intersect_lanes(const Search *search, uint bits, Hit *best)
 {
-    Walkers walkers;
-    walkers.search = search;
-    walkers.hits = best;
-    walkers.ended = ALL_LANES & ~bits;
-    walkers.leaves = 0;
+    LaneSearches searches;
+    searches.search = search;
+    searches.hits = best;
+    searches.ended = ALL_LANES & ~bits;
+    searches.leaves = 0;
     for (uint lane = 0; lane < CLRT_LANES; lane++) {
-        walkers.child[lane] = 0;
-        walkers.waiting[lane].count = 0;
+        searches.child[lane] = 0;
+        searches.stack[lane].count = 0;
     }
-    while (walkers.ended != ALL_LANES) {
-        while ((walkers.leaves | walkers.ended) != ALL_LANES)
-            walk_nodes(&walkers, scene, tally);
-        walk_leaves(&walkers, scene, tally);
+    while (searches.ended != ALL_LANES) {
+        while ((searches.leaves | searches.ended) != ALL_LANES)
+            visit_nodes(&searches);
+        visit_leaves(&searches);
     }
 }
 

@@ -35,5 +35,5 @@ static inline float box_half_area(const Box *box)
 }
 
 // Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
-// makes the device's culling conservative (kernels/traverse.cl).
+// makes the device's culling conservative (kernels/search.cl).
 Box box_grow(const Box *box);

@@ -18,7 +18,7 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
-// aim's largest coordinate. triangle.cl accepts hits within 22 units of rounding (2^-24) of the
+// aim's largest coordinate. triangle.inc.cl accepts hits within 22 units of rounding (2^-24) of the
 // ray. Directions and aims are also rounded.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22

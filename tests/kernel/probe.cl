@@ -39,7 +39,7 @@ kernel void probe_highlights(global const float *cases, global float *results)
     global const float *values = cases + 8 * item;
     MaterialLanes material;
     material.shininess = values[6];
-    material.exponent = (Count)(as_uint(values[7]));
+    material.exponent = (UInt)(as_uint(values[7]));
     const Real result = highlight(&material, load3(values), load3(values + 3));
     results[item] = *(const float *)&result;
 }
@@ -77,7 +77,7 @@ kernel void probe_units(global const float *vectors, global float *results)
 kernel void probe_lanes(global const uint *bits, global uint *results)
 {
     const uint item = get_global_id(0);
-    const Truth lanes = lanes_of(bits[item]);
+    const Mask lanes = lanes_of(bits[item]);
     results[2 * item] = lane_bits(lanes);
     results[2 * item + 1] = lane_count(lanes);
 }
@@ -86,8 +86,8 @@ kernel void probe_lanes(global const uint *bits, global uint *results)
 kernel void probe_truths(global const uint *bits, global uint *results)
 {
     const uint item = get_global_id(0);
-    const Truth lanes = lanes_of(bits[item]);
-    const Count words = lanes ? (Count)(1) : (Count)(0);
+    const Mask lanes = lanes_of(bits[item]);
+    const UInt words = lanes ? (UInt)(1) : (UInt)(0);
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         results[item * CLRT_LANES + lane] = ((const uint *)&words)[lane];
 }
@@ -96,10 +96,10 @@ kernel void probe_truths(global const uint *bits, global uint *results)
 kernel void probe_gather(global const uint *words, global const uint *places, global uint *results)
 {
     const uint item = get_global_id(0);
-    Count place;
+    UInt place;
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         ((uint *)&place)[lane] = places[item * CLRT_LANES + lane];
-    const Count gathered = gather(words, place);
+    const UInt gathered = gather(words, place);
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         results[item * CLRT_LANES + lane] = ((const uint *)&gathered)[lane];
 }

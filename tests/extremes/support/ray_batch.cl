@@ -18,17 +18,17 @@ typedef struct {
 // The rays of a work-item, one in each lane; `first` is the place of the first.
 typedef struct {
     Real3 origin, direction;
-    Count own, kind;
+    UInt own, kind;
     uint first;
-    Truth exist; // lanes whose ray is among the count
+    Mask exist; // lanes whose ray is among the count
 } TestRays;
 
 // Lanes past the end read the last ray.
 static inline TestRays test_rays(global const TestRay *rays, uint count)
 {
     const uint first = CLRT_LANES * (uint)get_global_id(0);
-    const Count place = first + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Count last = count - 1;
+    const UInt place = first + LANE_Y * PACKET_WIDTH + LANE_X;
+    const UInt last = count - 1;
     const Record record = record_at(rays, min(place, last) * WORDS(TestRay));
     return (TestRays){record_real3(&record, 0, 1),
                       record_real3(&record, 4, 1),
@@ -38,42 +38,42 @@ static inline TestRays test_rays(global const TestRay *rays, uint count)
                       place < count};
 }
 
-static inline Truth same_in_first(Count value, Truth among)
+static inline Mask same_in_first(UInt value, Mask among)
 {
     return value == first_lane(value, among);
 }
 
 // Those lanes of `left` that may search with the first of them: their rays are of one kind and,
 // as the camera's do, start at one point.
-static inline Truth companions(const TestRays *rays, Truth left)
+static inline Mask companions(const TestRays *rays, Mask left)
 {
     const Real3 o = rays->origin;
-    const Truth same_kind = left && same_in_first(rays->kind, left);
-    const Truth same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
-                              as_bits(o.y) == as_bits(first_real(o.y, left)) &&
-                              as_bits(o.z) == as_bits(first_real(o.z, left));
+    const Mask same_kind = left && same_in_first(rays->kind, left);
+    const Mask same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
+                             as_bits(o.y) == as_bits(first_real(o.y, left)) &&
+                             as_bits(o.z) == as_bits(first_real(o.z, left));
     return same_kind && (rays->kind != (uint)RAY_CAMERA || same_origin);
 }
 
-static inline Real filled_lane(Real value, Truth lanes)
+static inline Real filled_lane(Real value, Mask lanes)
 {
     return lanes ? value : first_real(value, lanes);
 }
 
-static inline Real3 filled_lanes(Real3 v, Truth lanes)
+static inline Real3 filled_lanes(Real3 v, Mask lanes)
 {
     return real3_of(filled_lane(v.x, lanes), filled_lane(v.y, lanes), filled_lane(v.z, lanes));
 }
 
-static inline uint first_kind(const TestRays *rays, Truth lanes)
+static inline uint first_kind(const TestRays *rays, Mask lanes)
 {
-    const Count kind = first_lane(rays->kind, lanes);
+    const UInt kind = first_lane(rays->kind, lanes);
     return *(const uint *)&kind;
 }
 
 // Reflected rays are made by the tracer's own function, from a face they look straight away from;
 // a shadow ray ends where t is 1.  The other lanes copy the first.
-static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Truth lanes)
+static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
@@ -88,12 +88,12 @@ static inline Ray ray_of(const SceneView *scene, const TestRays *rays, Truth lan
     surface.face = direction;
     surface.toward_viewer = negative3(direction);
     if (kind == RAY_REFLECTED)
-        return ray_reflected(scene, &surface, lanes);
+        return ray_reflected(tracer, &surface, lanes);
     return (Ray){origin, direction, rays->own, NOTHING, (RayKind)kind, lanes};
 }
 
-static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth lanes, Real t,
-                              Count id)
+static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask lanes, Real t,
+                              UInt id)
 {
     const uint bits = lane_bits(lanes);
     for (uint lane = 0; lane < CLRT_LANES; lane++)
@@ -103,19 +103,18 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Truth 
 }
 
 // Finds the rays' hits or, for shadow rays, whether they are blocked, as 1 in place of the id.
-static inline void trace_rays(const SceneView *scene, const FrameData *frame, const TestRays *rays,
-                              bool are_shadows, global TestHit *hits)
+static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool are_shadows,
+                              global TestHit *hits)
 {
-    Truth left = rays->exist;
+    Mask left = rays->exist;
     while (any_lane(left)) {
-        const Truth lanes = companions(rays, left);
-        const Ray ray = ray_of(scene, rays, lanes);
-        Tally tally = {0};
+        const Mask lanes = companions(rays, left);
+        const Ray ray = ray_of(tracer, rays, lanes);
         Hit hit = {0.0f, NOTHING, NOTHING};
         if (are_shadows)
-            hit.id = is_blocked(scene, frame, &ray, &tally) ? (Count)(1) : (Count)(0);
+            hit.id = is_blocked(tracer, &ray) ? (UInt)(1) : (UInt)(0);
         else
-            hit = nearest_hit(scene, frame, &ray, &tally);
+            hit = nearest_hit(tracer, &ray);
         store_hits(hits, rays, lanes, hit.t, hit.id);
         left = left && !lanes;
     }
@@ -127,9 +126,10 @@ kernel void batch_nearest(const FrameData frame, global const SphereData *sphere
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    trace_rays(&scene, &frame, &all, false, hits);
+    trace_rays(&tracer, &all, false, hits);
 }
 
 // id becomes 1 where the ray, a shadow ray, is blocked.
@@ -139,9 +139,10 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    trace_rays(&scene, &frame, &all, true, hits);
+    trace_rays(&tracer, &all, true, hits);
 }
 
 // Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or
@@ -157,43 +158,43 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, looks, normals};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, looks, normals, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    const Count place = all.first + LANE_Y * PACKET_WIDTH + LANE_X, last = count - 1;
+    const UInt place = all.first + LANE_Y * PACKET_WIDTH + LANE_X, last = count - 1;
     const Record record = record_at(outward, min(place, last) * 3);
     const Real3 chosen = record_real3(&record, 0, 1);
-    Truth left = all.exist;
+    Mask left = all.exist;
     while (any_lane(left)) {
-        Tally tally = {0};
-        const Truth lanes = companions(&all, left);
-        const Ray ray = ray_of(&scene, &all, lanes);
-        const Hit first = nearest_hit(&scene, &frame, &ray, &tally);
-        const Truth met = lanes && first.id != NOTHING;
+        const Mask lanes = companions(&all, left);
+        const Ray ray = ray_of(&tracer, &all, lanes);
+        const Hit first = nearest_hit(&tracer, &ray);
+        const Mask met = lanes && first.id != NOTHING;
         Hit second = {0.0f, NOTHING, NOTHING};
         if (any_lane(met)) {
-            const Surface surface = surface_at(&scene, &frame, &ray, &first, met);
-            const Truth inward = dot_product(chosen, surface.face) < 0.0f;
+            const Surface surface = surface_at(&tracer, &ray, &first, met);
+            const Mask inward = dot_product(chosen, surface.face) < 0.0f;
             const Real3 direction = choose3(inward, negative3(chosen), chosen);
             const Ray next = {surface.point, direction,     surface.id,
                               surface.index, RAY_REFLECTED, met};
-            second = nearest_hit(&scene, &frame, &next, &tally);
-            const SeenLight light = {
+            second = nearest_hit(&tracer, &next);
+            const LightSample light = {
                 .position = sum3(surface.point, direction), .toward = direction, .faces = met};
-            const Ray shadow = ray_to_light(&scene, &surface, &light);
-            const Truth dark = is_blocked(&scene, &frame, &shadow, &tally);
-            second.id = second.id == NOTHING && dark ? (Count)(LEAVE_SHADOWED) : second.id;
+            const Ray shadow = ray_to_light(&tracer, &surface, &light);
+            const Mask dark = is_blocked(&tracer, &shadow);
+            second.id = second.id == NOTHING && dark ? (UInt)(LEAVE_SHADOWED) : second.id;
         }
-        store_hits(hits, &all, lanes, met ? second.t : 0.0f, met ? second.id : (Count)(NOTHING));
+        store_hits(hits, &all, lanes, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
         left = left && !lanes;
     }
 }
 
 #if CLRT_WIDE_NODES
 // The first lane's ray, as the searches want it, in every lane of which only that one counts.
-static inline void prepare_first(Packet *packet, const SceneView *scene, const Ray *ray)
+static inline void prepare_first(Packet *packet, const Tracer *tracer, const Ray *ray)
 {
-    const Count classes = ray_classes(ray->direction);
-    packet_gather(packet, scene, ray, 1, count_of(&classes, 0) / 8);
+    const UInt classes = ray_classes(ray->direction);
+    packet_gather(packet, tracer, ray, 1, lane_uint(&classes, 0) / 8);
 }
 
 // Where the ray alone meets a triangle, by the test of packets or by that of blocks.
@@ -205,8 +206,8 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
         const BlockPlace at = {&triangles[block], place, block * WIDE + place};
         const Corners corners = {corner_from(&at, 0, packet), corner_from(&at, 1, packet),
                                  corner_from(&at, 2, packet)};
-        test_triangle(&at, packet, &corners, packet->active, &hit);
-        return real_of(&hit.t, 0);
+        intersect_packet_triangle(&at, packet, &corners, packet->active, &hit);
+        return lane_real(&hit.t, 0);
     }
     const LaneRay ray = lane_ray(&packet->rays, 0);
     const WideCorners relative = {block_corner_relative(&triangles[block], 0, &ray),
@@ -229,11 +230,12 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint block = get_global_id(0);
     if (block >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&scene, &all, lanes_of(1));
+    const Ray ray = ray_of(&tracer, &all, lanes_of(1));
     Packet packet;
-    prepare_first(&packet, &scene, &ray);
+    prepare_first(&packet, &tracer, &ray);
     for (uint place = 0; place < WIDE; place++) {
         const uint id = triangles[block].id[place] & ~TRIANGLE_MARKS;
         if (triangles[block].id[place] != NOTHING)
@@ -243,15 +245,15 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
 }
 
 // Which of the first two children's boxes the lanes' rays meet, each those of its own node.
-static inline Count boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
+static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
 {
-    Count met = 0;
+    UInt met = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
         const uint lane = lowest_bit(lanes);
         float8 entry;
         uint near = lane_bits(
             CLRT_PACKET ? children_near(&nodes[lane], packet, INFINITY, &entry)
-                        : children_met(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
+                        : children_hit(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
         for (uint child = 0; child < 2 && CLRT_PACKET; child++)
             if ((lane_bits(lanes_in_child(&nodes[lane], child, packet, INFINITY)) >> lane & 1) == 0)
                 near &= ~(1u << child);
@@ -268,18 +270,19 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
 {
     if (count == 0)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     TestRays all = test_rays(rays, count);
-    all.kind = (Count)((uint)RAY_REFLECTED);
-    const Count classes = ray_classes(all.direction);
-    Truth left = all.exist;
+    all.kind = (UInt)((uint)RAY_REFLECTED);
+    const UInt classes = ray_classes(all.direction);
+    Mask left = all.exist;
     while (any_lane(left)) {
-        const Truth lanes = left && same_in_first(classes, left);
-        const Count wanted = first_lane(classes, left);
-        Ray ray = ray_of(&scene, &all, lanes);
+        const Mask lanes = left && same_in_first(classes, left);
+        const UInt wanted = first_lane(classes, left);
+        Ray ray = ray_of(&tracer, &all, lanes);
         ray.direction = filled_lanes(all.direction, lanes);
         Packet packet;
-        packet_gather(&packet, &scene, &ray, lane_bits(lanes), count_of(&wanted, 0) / 8);
+        packet_gather(&packet, &tracer, &ray, lane_bits(lanes), lane_uint(&wanted, 0) / 8);
         store_hits(hits, &all, lanes, 0.0f,
                    boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
         left = left && !lanes;
@@ -294,11 +297,12 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&scene, &all, 1);
-    const Query query = query_of(&scene, &ray);
-    const Real t = triangle_distance(&triangles[place], &ray, &query);
+    const Ray ray = ray_of(&tracer, &all, 1);
+    const Search search = search_along(&tracer, &ray);
+    const Real t = triangle_distance(&triangles[place], &search);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
 
@@ -310,12 +314,13 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    const SceneView scene = {0, 0, spheres, nodes, triangles, 0, 0};
+    Tally tally = {0};
+    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const TestRays all = test_rays(rays, count);
-    const Ray ray = ray_of(&scene, &all, 1);
-    const Query query = query_of(&scene, &ray);
+    const Ray ray = ray_of(&tracer, &all, 1);
+    const Search search = search_along(&tracer, &ray);
     Real2 entry, leave;
-    slabs_meet(&nodes[place], &query, INFINITY, &entry, &leave);
+    intersect_slabs(&nodes[place], &search, INFINITY, &entry, &leave);
     hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
 #endif

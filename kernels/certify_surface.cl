@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A certain hit of a thick ray becomes a fat surface. Its point and normals carry bounds on the
-// deviation of the tracer's values and of the exact ones. The file also computes the thick rays
-// that leave it.
-#ifndef CLRT_SURE_SURFACE_CL
-#define CLRT_SURE_SURFACE_CL
-#include "sure_search.cl"
+// Turns a certain hit of a ray cone into a surface. Its point and normals carry bounds on the
+// deviation of the tracer's values from the exact ones. The file also computes the cones that leave
+// the surface.
+#ifndef CLRT_CERTIFY_SURFACE_CL
+#define CLRT_CERTIFY_SURFACE_CL
+#include "certify_search.cl"
 
 // Unit vectors, and bounds on the chords by which they may differ.
 typedef struct {
-    FatPoint end;
+    UncertainPoint end;
     Real3 normal, face, toward_viewer; // as in Surface
     Real normal_doubt, face_doubt, viewer_doubt;
-    Count id, index, material; // as in Surface
+    UInt id, index, material; // as in Surface
     bool is_sphere;
     bool from_behind; // seen from a triangle's back or from inside a sphere
     Corners corners;  // of a triangle
     Real room, edge;  // the point is at least room / edge away from the edges
-} FatSurface;
+} UncertainSurface;
 
 // Moving the end of a vector of this length by `doubt` turns it by less than the result.
 static inline Real turn_of(Real doubt, Real length)
@@ -26,8 +26,8 @@ static inline Real turn_of(Real doubt, Real length)
 
 // Interpolates the normal by the weights. Sliding along the triangle changes a weight by the slide
 // over the height of its corner.
-static inline void interpolate_normal(FatSurface *surface, const Corners *normals, Real3 weights,
-                                      const Corners *corners, Real u)
+static inline void interpolate_normal(UncertainSurface *surface, const Corners *normals,
+                                      Real3 weights, const Corners *corners, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real area = length_of(cross_product(ab, ac));
@@ -42,7 +42,7 @@ static inline void interpolate_normal(FatSurface *surface, const Corners *normal
     surface->normal_doubt = turn_of(doubt, length_of(sum)) + 5.0f * (u + OWN_ROUNDOFF);
 }
 
-static inline void face_viewer(FatSurface *surface)
+static inline void face_viewer(UncertainSurface *surface)
 {
     if (!surface->from_behind)
         return;
@@ -51,7 +51,7 @@ static inline void face_viewer(FatSurface *surface)
 }
 
 // Records the point's least distance from the edges under sliding.
-static inline void note_room(FatSurface *surface, const Corners *corners, Real3 weights)
+static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real area = largest_component(cross_product(ab, ac));
@@ -61,8 +61,8 @@ static inline void note_room(FatSurface *surface, const Corners *corners, Real3 
     surface->edge = 2.0f * (largest_component(ab) + largest_component(ac));
 }
 
-static inline FatPoint fat_point(const ThickRay *ray, const Corners *corners, const Sight *sight,
-                                 Real3 weights)
+static inline UncertainPoint uncertain_point(const RayCone *ray, const Corners *corners,
+                                             const ProjectedTriangle *projected, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
     const Real3 normal = cross_product(ab, ac);
@@ -70,37 +70,38 @@ static inline FatPoint fat_point(const ThickRay *ray, const Corners *corners, co
     const Corners sizes = {magnitudes(corners->a), magnitudes(corners->b), magnitudes(corners->c)};
     const Real size = length_of(weighted(weights, &sizes));
     const Real area = length_of(normal);
-    FatPoint end;
+    UncertainPoint end;
     end.point = weighted(weights, corners);
     end.face = scaled3(1.0f / area, normal);
-    end.slide =
-        sight->broad ? 1.25f * sight->blur * area / fabs(sight->edges.determinant) : INFINITY;
+    end.slide = projected->broad
+                    ? 1.25f * projected->blur * area / fabs(projected->edges.determinant)
+                    : INFINITY;
     end.lift = (11.1f * ray->u + 32.0f * OWN_ROUNDOFF) * size +
                16.0f * OWN_ROUNDOFF * edges / area * end.slide;
     return end;
 }
 
-static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *frame,
-                                      const ThickRay *ray, const Hit *hit)
+static inline UncertainSurface uncertain_triangle(const Tracer *tracer, const RayCone *ray,
+                                                  const Hit *hit)
 {
-    const Corners corners = fetch_corners(scene, hit->index);
-    const Look look = fetch_look(scene, hit, frame->sphere_count);
-    const Sight sight = sight_of(ray, &corners);
+    const Corners corners = fetch_corners(tracer, hit->index);
+    const Look look = fetch_look(tracer, hit);
+    const ProjectedTriangle projected = project_triangle(ray, &corners);
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     const Real edges = largest_component(ab) * largest_component(ac);
-    const Real u = ray->u + OWN_ROUNDOFF, r = 1.0f / sight.edges.determinant;
-    const Real3 weights = {sight.edges.u * r, sight.edges.v * r, sight.edges.w * r};
-    FatSurface surface = {.end = fat_point(ray, &corners, &sight, weights),
-                          .id = hit->id,
-                          .index = hit->index,
-                          .material = look.material,
-                          .from_behind = !(sight.edges.determinant > 0.0f),
-                          .corners = corners};
+    const Real u = ray->u + OWN_ROUNDOFF, r = 1.0f / projected.edges.determinant;
+    const Real3 weights = {projected.edges.u * r, projected.edges.v * r, projected.edges.w * r};
+    UncertainSurface surface = {.end = uncertain_point(ray, &corners, &projected, weights),
+                                .id = hit->id,
+                                .index = hit->index,
+                                .material = look.material,
+                                .from_behind = !(projected.edges.determinant > 0.0f),
+                                .corners = corners};
     surface.normal = surface.face = surface.end.face;
     surface.face_doubt = turn_of(8.0f * u * edges, length_of(cross_product(ab, ac))) + 8.0f * u;
     surface.normal_doubt = surface.face_doubt;
     if (look.normals != NOTHING) {
-        const Corners normals = fetch_normals(scene, look.normals);
+        const Corners normals = fetch_normals(tracer, look.normals);
         interpolate_normal(&surface, &normals, weights, &corners, ray->u);
     }
     note_room(&surface, &corners, weights);
@@ -109,19 +110,19 @@ static inline FatSurface fat_triangle(const SceneView *scene, const FrameData *f
 }
 
 // The point is projected onto the sphere, as in the tracer. A certain hit has a certain wall: the
-// near one for an origin outside, the far one for an origin inside (sure_sphere.cl).
-static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
-                                    const Nearest *nearest)
+// near one for an origin outside, the far one for an origin inside (certify_sphere.cl).
+static inline UncertainSurface uncertain_sphere(const Tracer *tracer, const RayCone *ray,
+                                                const Nearest *nearest)
 {
-    const PlainSphere sphere = plain_sphere(&scene->spheres[nearest->index]);
+    const PlainSphere sphere = plain_sphere(&tracer->spheres[nearest->index]);
     const Chord chord = chord_of(ray, &sphere);
     const Real depth = 0.5f * (nearest->low + nearest->high);
     const Real3 met = sum3(ray->origin, scaled3(depth, ray->along));
-    FatSurface surface = {.id = nearest->id,
-                          .index = NOTHING,
-                          .material = fetch_sphere_material(scene, nearest->index),
-                          .is_sphere = true,
-                          .from_behind = nearest->id == ray->own || chord.enter.high < 0.0f};
+    UncertainSurface surface = {.id = nearest->id,
+                                .index = NOTHING,
+                                .material = fetch_sphere_material(tracer, nearest->index),
+                                .is_sphere = true,
+                                .from_behind = nearest->id == ray->own || chord.enter.high < 0.0f};
     surface.normal = surface.face = unit_vector(difference(met, sphere.center));
     surface.end.point = sum3(sphere.center, scaled3(sphere.radius, surface.normal));
     surface.end.face = surface.normal;
@@ -133,12 +134,13 @@ static inline FatSurface fat_sphere(const SceneView *scene, const ThickRay *ray,
     return surface;
 }
 
-static inline FatSurface fat_surface(const SceneView *scene, const FrameData *frame,
-                                     const ThickRay *ray, const Nearest *nearest)
+static inline UncertainSurface uncertain_surface(const Tracer *tracer, const RayCone *ray,
+                                                 const Nearest *nearest)
 {
     const Hit hit = {nearest->low, nearest->id, nearest->index};
-    FatSurface surface = nearest->id < frame->sphere_count ? fat_sphere(scene, ray, nearest)
-                                                           : fat_triangle(scene, frame, ray, &hit);
+    UncertainSurface surface = nearest->id < tracer->frame->sphere_count
+                                   ? uncertain_sphere(tracer, ray, nearest)
+                                   : uncertain_triangle(tracer, ray, &hit);
     surface.toward_viewer = negative3(ray->along);
     surface.viewer_doubt = ray->spread + 4.0f * (ray->u + OWN_ROUNDOFF);
     return surface;
@@ -149,9 +151,10 @@ static inline FatSurface fat_surface(const SceneView *scene, const FrameData *fr
 // per axis) and of the corners (14u of their distance), both over the sine at which the ray
 // leaves. The tracer ignores edges farther than 64u over that sine. The start may then move by
 // 256u over the sine along the surface, on each axis.
-static inline FatPoint start_of(const FatSurface *surface, Real3 direction, Real doubt, Real u)
+static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
+                                      Real u)
 {
-    FatPoint start = surface->end;
+    UncertainPoint start = surface->end;
     const Real sine = fabs(dot_product(direction, surface->face)) - doubt - surface->face_doubt;
     const Real least = min((Real)(71.0f), 24.0f + 11.0f * surface->edge) * u * surface->edge;
     if (!surface->is_sphere && !(surface->room * sine > least)) {
@@ -161,27 +164,27 @@ static inline FatPoint start_of(const FatSurface *surface, Real3 direction, Real
     return start;
 }
 
-static inline ThickRay thick_shadow_ray(const FatSurface *surface, Real3 light, Real u)
+static inline RayCone shadow_cone(const UncertainSurface *surface, Real3 light, Real u)
 {
     const Real3 apart = difference(light, surface->end.point);
     const Real length = length_of(apart), rounding = (u + 8.0f * OWN_ROUNDOFF) * length;
     const Real turn = turn_of(radius_of(&surface->end) + rounding, length) + 8.0f * u;
-    const FatPoint start = start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF);
-    ThickRay ray = {.origin = start.point,
-                    .around = radius_of(&start),
-                    .spread = spread_of(turn_of(radius_of(&start) + rounding, length)),
-                    .length = length,
-                    .u = u,
-                    .own = surface->id,
-                    .own_index = surface->index,
-                    .kind = RAY_SHADOW,
-                    .start = start,
-                    .goal = {light, surface->face, 0.0f, 1.01f * rounding}};
-    look_along(&ray, unit_vector(apart));
+    const UncertainPoint start = start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF);
+    RayCone ray = {.origin = start.point,
+                   .around = radius_of(&start),
+                   .spread = spread_of(turn_of(radius_of(&start) + rounding, length)),
+                   .length = length,
+                   .u = u,
+                   .own = surface->id,
+                   .own_index = surface->index,
+                   .kind = RAY_SHADOW,
+                   .start = start,
+                   .goal = {light, surface->face, 0.0f, 1.01f * rounding}};
+    set_axis(&ray, unit_vector(apart));
     return ray;
 }
 
-static inline Answer normal_surely_faces(const FatSurface *surface, const ThickRay *to_light)
+static inline Answer certify_normal_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const Real cosine = dot_product(surface->normal, to_light->along);
     const Real doubt =
@@ -193,9 +196,9 @@ static inline Answer normal_surely_faces(const FatSurface *surface, const ThickR
 
 // Corners and lights are stored values, so only rounding can leave a light's side of a triangle
 // undecided.
-static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay *to_light)
+static inline Answer certify_face_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
-    const FatPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
+    const UncertainPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
     const int side = side_of(&surface->corners, &light, to_light->u);
     if (side == 0)
         return ANSWER_UNKNOWN;
@@ -205,18 +208,18 @@ static inline Answer face_surely_faces(const FatSurface *surface, const ThickRay
 // Returns whether the shading normal and the face both face the light. From outside, a sphere's
 // face is its normal. From inside it is the opposite, so only rounding can let a light near the
 // horizon pass both tests.
-static inline Answer surely_faces(const FatSurface *surface, const ThickRay *to_light)
+static inline Answer certify_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
-    const Answer normal = normal_surely_faces(surface, to_light);
+    const Answer normal = certify_normal_facing(surface, to_light);
     if (!surface->is_sphere)
-        return min(normal, face_surely_faces(surface, to_light));
+        return min(normal, certify_face_facing(surface, to_light));
     return surface->from_behind && normal == ANSWER_YES ? ANSWER_NO : normal;
 }
 
 // The ray is mirrored at the face wherever ray_reflected does so. The two reflections agree at the
 // face's horizon. Near the horizon either may apply, and their difference counts as doubt. A
 // sphere's face is its normal.
-static inline ThickRay thick_reflected_ray(const FatSurface *surface, const ThickRay *before)
+static inline RayCone reflected_cone(const UncertainSurface *surface, const RayCone *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
@@ -230,17 +233,17 @@ static inline ThickRay thick_reflected_ray(const FatSurface *surface, const Thic
     } else if (!surface->is_sphere && height <= height_doubt) {
         doubt += 4.0f * height_doubt + 12.0f * u;
     }
-    const FatPoint start = start_of(surface, direction, doubt, u);
-    ThickRay ray = {.origin = start.point,
-                    .around = radius_of(&start),
-                    .spread = spread_of(1.01f * doubt),
-                    .length = INFINITY,
-                    .u = before->u,
-                    .own = surface->id,
-                    .own_index = surface->index,
-                    .kind = RAY_REFLECTED,
-                    .start = start};
-    look_along(&ray, unit_vector(direction));
+    const UncertainPoint start = start_of(surface, direction, doubt, u);
+    RayCone ray = {.origin = start.point,
+                   .around = radius_of(&start),
+                   .spread = spread_of(1.01f * doubt),
+                   .length = INFINITY,
+                   .u = before->u,
+                   .own = surface->id,
+                   .own_index = surface->index,
+                   .kind = RAY_REFLECTED,
+                   .start = start};
+    set_axis(&ray, unit_vector(direction));
     return ray;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thick ray is a cone that holds two rays: the exact ray on the stored scene, in real
+// A ray cone holds two rays: the exact ray on the stored scene, in real
 // arithmetic, and the ray of a tracer with unit roundoff u. If all rays of the cone lead to the
 // same decision, with all errors of the tracer's tests included, no rounding can change that
 // decision.
@@ -15,11 +15,11 @@
 //   2. Corners relative to the origin, sheared to (X - S Z, ., Z), |S| <= 1: u for the differences,
 //      2u for S, u for the fma of its small result. Together: 4u |S Z| + 2u |X - S Z| on each of
 //      two axes. For a corner at depth z, l aside of a ray at an angle of sine w to the longest
-//      axis, the sum is below 4u w z + 10u l. The edge functions' signs are exact (vector.cl), so
-//      the tracer decides exactly about corners shifted by this much (blur_at). If the axis passes
-//      all three edges by more than the blur, no shift of the corners within the blur moves an edge
-//      across the axis. The triangle then winds around the axis as often as before, in the same
-//      direction.
+//      axis, the sum is below 4u w z + 10u l. The edge functions' signs are exact (vector.inc.cl),
+//      so the tracer decides exactly about corners shifted by this much (blur_at). If the axis
+//      passes all three edges by more than the blur, no shift of the corners within the blur moves
+//      an edge across the axis. The triangle then winds around the axis as often as before, in the
+//      same direction.
 //   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
 //   are
 //      common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
@@ -40,9 +40,9 @@
 //      of its length from the light. The side of a face that a light is on depends only on stored
 //      numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and rounds
 //      by 12u.
-//  8. Spheres: sure_sphere.cl.
-#ifndef CLRT_THICK_CL
-#define CLRT_THICK_CL
+//  8. Spheres: certify_sphere.cl.
+#ifndef CLRT_CERTIFY_CONE_CL
+#define CLRT_CERTIFY_CONE_CL
 
 #define OWN_ROUNDOFF 0x1p-53
 
@@ -52,27 +52,27 @@ typedef struct {
     Real3 point;
     Real3 face; // unit normal of the triangle's plane
     Real slide, lift;
-} FatPoint;
+} UncertainPoint;
 
 typedef struct {
     Real3 origin, along, right, up; // unit and perpendicular; right and up span the plane across
-    Real around;          // bound on the distance of the cone's rays from the origin at their start
-    Real spread;          // bound on the tangent of their angle to `along`
-    Real tilt;            // lower bound of the sine between them and the longest axis
-    Real length;          // of a shadow ray, up to the light; else INFINITY
-    Real u;               // unit roundoff of the tracer being checked
-    Count own, own_index; // as in Ray
+    Real around;         // bound on the distance of the cone's rays from the origin at their start
+    Real spread;         // bound on the tangent of their angle to `along`
+    Real tilt;           // lower bound of the sine between them and the longest axis
+    Real length;         // of a shadow ray, up to the light; else INFINITY
+    Real u;              // unit roundoff of the tracer being checked
+    UInt own, own_index; // as in Ray
     RayKind kind;
-    FatPoint start; // the surface point that it leaves, or the eye
-    FatPoint goal;  // of a shadow ray: its end, at the light
-} ThickRay;
+    UncertainPoint start; // the surface point that it leaves, or the eye
+    UncertainPoint goal;  // of a shadow ray: its end, at the light
+} RayCone;
 
 static inline Real length_of(Real3 v)
 {
     return sqrt(dot_product(v, v));
 }
 
-static inline Real radius_of(const FatPoint *point)
+static inline Real radius_of(const UncertainPoint *point)
 {
     return point->slide + point->lift;
 }
@@ -89,7 +89,7 @@ static inline Real spread_of(Real chord)
 }
 
 // Sets the frame of a ray along a unit vector.
-static inline void look_along(ThickRay *ray, Real3 along)
+static inline void set_axis(RayCone *ray, Real3 along)
 {
     const Real3 size = magnitudes(along);
     const bool x_least = size.x <= min(size.y, size.z), y_least = size.y <= size.z;
@@ -103,14 +103,14 @@ static inline void look_along(ThickRay *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// The tracer searches no farther (traverse.cl), and a wider cone would decide nothing.
-static inline bool is_usable(const ThickRay *ray)
+// The tracer searches no farther (intersect.cl), and a wider cone would decide nothing.
+static inline bool is_usable(const RayCone *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
 }
 
 // Returns a point in the ray's frame: across, across and along.
-static inline Real3 seen_by(const ThickRay *ray, Real3 point)
+static inline Real3 to_cone_frame(const RayCone *ray, Real3 point)
 {
     const Real3 apart = difference(point, ray->origin);
     return real3_of(dot_product(apart, ray->right), dot_product(apart, ray->up),
@@ -118,7 +118,7 @@ static inline Real3 seen_by(const ThickRay *ray, Real3 point)
 }
 
 // Returns the cone's radius at a depth. The cone of a shadow ray narrows again toward the light.
-static inline Real cone_at(const ThickRay *ray, Real z)
+static inline Real cone_at(const RayCone *ray, Real z)
 {
     const Real depth = fabs(z) + ray->around;
     if (ray->kind != RAY_SHADOW)
@@ -128,7 +128,7 @@ static inline Real cone_at(const ThickRay *ray, Real z)
 }
 
 // Bounds the shift of a point as seen along any ray of the cone, including the tracer's rounding.
-static inline Real blur_at(const ThickRay *ray, Real3 seen)
+static inline Real blur_at(const RayCone *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;
     const Real aside = fabs(seen.x) + fabs(seen.y) + ray->around + ray->spread * depth;
@@ -147,7 +147,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 direction, fl
 }
 
 // sample_x and sample_y are as in camera_ray. Doubling the lengths covers fp64's rounding.
-static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Real u)
+static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);
     const int x = convert_int(2 * sample.x + 1) - (int)(frame->width * frame->samples);
@@ -159,7 +159,7 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
     const Real rounding =
         own + (u > OWN_ROUNDOFF ? camera_rounding(&frame->camera, ray.direction, (float)x, (float)y)
                                 : 0.0f);
-    ThickRay thick = {
+    RayCone cone = {
         .origin = ray.origin,
         .spread = spread_of(1.01f * rounding / length_of(ray.direction) + 8.0f * OWN_ROUNDOFF),
         .length = INFINITY,
@@ -168,8 +168,8 @@ static inline ThickRay thick_camera_ray(const FrameData *frame, uint2 sample, Re
         .own_index = NOTHING,
         .kind = RAY_CAMERA,
         .start = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
-    look_along(&thick, unit_vector(ray.direction));
-    return thick;
+    set_axis(&cone, unit_vector(ray.direction));
+    return cone;
 }
 
 #endif

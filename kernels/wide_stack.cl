@@ -4,8 +4,8 @@
 // network (Batcher, "Sorting networks and their applications", 1968) has no branches. Against
 // insertion sort it saves 17, 10 and 1 % of the time for pictures of a million, 122 thousand and 6
 // thousand triangles.
-#ifndef CLRT_WAITING_CL
-#define CLRT_WAITING_CL
+#ifndef CLRT_WIDE_STACK_CL
+#define CLRT_WIDE_STACK_CL
 #include "ray.cl"
 
 #if CLRT_WIDE_NODES
@@ -18,7 +18,7 @@ typedef struct {
     uint order[WIDE_STACK_SIZE]; // as made by entry_order
     uint child[WIDE_STACK_SIZE];
     uint count;
-} WideWaiting;
+} WideStack;
 
 static inline uint lowest_bit(uint bits)
 {
@@ -112,23 +112,23 @@ static inline uint8 orders_sorted(uint8 order, uint met)
 #endif
 
 // Pushes the children that are hit, with their entry distances.
-static inline void wait_for(WideWaiting *waiting, float8 entry, int8 met, uint8 children)
+static inline void push_children(WideStack *stack, float8 entry, int8 met, uint8 children)
 {
     const uint bits = lane_bits(met);
     const uint8 order = orders_sorted(entry_order(entry, met), bits);
-    vstore8(order, 0, waiting->order + waiting->count);
-    vstore8(permuted(children, ~order & (WIDE - 1)), 0, waiting->child + waiting->count);
-    waiting->count += popcount(bits);
+    vstore8(order, 0, stack->order + stack->count);
+    vstore8(permuted(children, ~order & (WIDE - 1)), 0, stack->child + stack->count);
+    stack->count += popcount(bits);
 }
 
 // Pops the child with the smallest entry distance. Returns false if none is entered before
 // `reach`, which must not be negative.
-static inline bool next_child(WideWaiting *waiting, float reach, uint *child)
+static inline bool pop_child(WideStack *stack, float reach, uint *child)
 {
-    while (waiting->count > 0) {
-        const uint top = --waiting->count;
-        *child = waiting->child[top];
-        if ((~waiting->order[top] & ~(WIDE - 1u)) <= as_uint(reach))
+    while (stack->count > 0) {
+        const uint top = --stack->count;
+        *child = stack->child[top];
+        if ((~stack->order[top] & ~(WIDE - 1u)) <= as_uint(reach))
             return true;
     }
     return false;

@@ -2,10 +2,13 @@
 // Watertight ray-triangle intersection: the triangle is sheared into the ray's frame, and the
 // signs of three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013). Neighbors share
 // the sheared vertices bit for bit. Kahan's difference of products gives each shared edge the same
-// exact sign from both sides, so no ray passes between them. This file has no include guard,
-// because it is compiled for one ray and one triangle, one ray and eight triangles, and a packet
-// of rays and one triangle.
-#include "vector.cl"
+// exact sign from both sides, so no ray passes between them.
+//
+// Included several times, by numeric.cl: for one ray and one triangle, for a packet of rays and one
+// triangle, and for one ray and eight triangles. Expects the number types Real, Mask and UInt, and
+// OVERLOAD (lanes.cl). Defines the functions and the types Real3, Shear, Corners, Edges, SurfaceRay
+// and Sides. A later inclusion has to rename these types by macros.
+#include "vector.inc.cl"
 
 // The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
 // follow in cyclic order.
@@ -47,7 +50,7 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
 }
 
 // Zero counts for both signs: a ray through an edge hits both triangles, and the lower id wins.
-static inline Truth OVERLOAD edges_contain(const Edges *edges)
+static inline Mask OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
     const Real largest = max(max(edges->u, edges->v), edges->w);
@@ -55,7 +58,7 @@ static inline Truth OVERLOAD edges_contain(const Edges *edges)
 }
 
 // Returns whether the ray comes from the stored front, where the corners turn counter-clockwise.
-static inline Truth OVERLOAD edges_face(const Edges *edges, const Shear *shear)
+static inline Mask OVERLOAD edges_face(const Edges *edges, const Shear *shear)
 {
     return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
 }
@@ -80,7 +83,7 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 
 // Returns whether the hit is so close to the origin that rounding may decide whether it is in
 // front or behind. Coordinates are at most 1, which bounds that error by 2^-17.
-static inline Truth OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
+static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }
@@ -107,7 +110,7 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
 
 // The sides of a triangle that another triangle certainly reaches.
 typedef struct {
-    Truth front, back;
+    Mask front, back;
 } Sides;
 
 static inline Sides OVERLOAD sides_of(const Corners *corners, const Corners *other)
@@ -119,7 +122,7 @@ static inline Sides OVERLOAD sides_of(const Corners *corners, const Corners *oth
     return (Sides){highest > 0.0f, lowest < 0.0f};
 }
 
-static inline Sides OVERLOAD sides_exchanged(Truth exchange, Sides sides)
+static inline Sides OVERLOAD sides_exchanged(Mask exchange, Sides sides)
 {
     return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
 }
@@ -132,22 +135,22 @@ static inline Sides OVERLOAD sides_exchanged(Truth exchange, Sides sides)
 //    other's plane that the ray comes from. It is not ahead if the own one is on the opposite side.
 // A ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
 // that stops then does not leave a closed shape.
-static inline Truth OVERLOAD meets_neighbor(const Corners *own, const Corners *other,
-                                            Real3 direction, Truth from_back)
+static inline Mask OVERLOAD hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
+                                          Mask from_back)
 {
     const Real3 ab = difference(own->b, own->a), ac = difference(own->c, own->a);
-    const Truth downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
+    const Mask downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
     const Sides neighbor = sides_exchanged(downward, sides_of(own, other));
     const Sides start = sides_exchanged(from_back, sides_of(other, own));
-    const Truth behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
+    const Mask behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
     return (neighbor.front || start.front) && !behind;
 }
 
 // The state of a ray that leaves a surface, beside its direction.
 typedef struct {
     Real3 point;  // of the surface
-    Truth front;  // it comes from the triangle's stored front
-    Truth inner;  // it comes from the back of the mesh's triangle
+    Mask front;   // it comes from the triangle's stored front
+    Mask inner;   // it comes from the back of the mesh's triangle
     float length; // as a distance t: 1 up to a light, else INFINITY
     float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
@@ -160,13 +163,13 @@ typedef struct {
 // no surface. A triangle that the light lies on, as far as t shows, does not shadow the ray.
 // in_doubt receives the lanes that only rounding keeps from stopping.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
-                                                 Real t, Real error, Truth *in_doubt)
+                                                 Real t, Real error, Mask *in_doubt)
 {
-    const Truth ahead = t > -error && t < ray->length - error;
-    const Truth clear = t > (ray->blur > 0.0f ? error : -error);
+    const Mask ahead = t > -error && t < ray->length - error;
+    const Mask clear = t > (ray->blur > 0.0f ? error : -error);
     const Real above = height_over(corners, ray->point, ray->blur);
     const Real height = ray->front ? above : -above; // on the ray's side
-    const Truth beyond = height > 0.0f && (clear || !ray->inner);
+    const Mask beyond = height > 0.0f && (clear || !ray->inner);
     *in_doubt = ahead && !beyond && height >= 0.0f;
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;
 }

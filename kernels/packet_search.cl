@@ -3,8 +3,8 @@
 // rendering with coherent ray tracing", 2001). Bounds over the packet's rays cull a node's
 // children (Boulos, Wald and Shirley, "Geometric and arithmetic culling methods for entire ray
 // packets", 2006). Each remaining child is tested against all lanes when it is popped.
-#ifndef CLRT_MEET_CL
-#define CLRT_MEET_CL
+#ifndef CLRT_PACKET_SEARCH_CL
+#define CLRT_PACKET_SEARCH_CL
 #include "packet.cl"
 
 #if CLRT_WIDE_NODES
@@ -38,12 +38,12 @@ static inline int8 children_near(global const BvhWide *node, const Packet *packe
 }
 
 // Returns the lanes whose rays enter the child's box before their current hit.
-static inline Truth lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
-                                   Real reach)
+static inline Mask lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
+                                  Real reach)
 {
     const uint x = packet->negative[0], y = packet->negative[1], z = packet->negative[2];
-    const Real3 i = packet->rays.inverse, near = packet->rays.near_offset,
-                far = packet->rays.far_offset;
+    const Real3 i = packet->rays.slabs.inverse;
+    const Real3 near = packet->rays.slabs.near_offset, far = packet->rays.slabs.far_offset;
     const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
     const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
     const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
@@ -56,102 +56,103 @@ static inline Truth lanes_in_child(global const BvhWide *node, uint child, const
 
 // The state of a packet's search. The stack stores children as WIDE * node + slot.
 typedef struct {
-    WideWaiting waiting;
-    Truth searching; // lanes not yet ended by a shadow ray's hit
-    float farthest;  // largest hit distance of the searching lanes
+    const Packet *packet;
+    WideStack stack;
+    Mask searching; // lanes not yet ended by a shadow ray's hit
+    float farthest; // largest hit distance of the searching lanes
     int credit;
     Hit *best;
-} PacketWalk;
+} PacketSearch;
 
-static inline void expand_node(PacketWalk *walk, const SceneView *scene, const Packet *packet,
-                               uint number)
+static inline void expand_node(PacketSearch *search, uint number)
 {
+    global const BvhWide *node = &search->packet->rays.tracer->nodes[number];
     float8 entry;
-    const int8 near = children_near(&scene->nodes[number], packet, walk->farthest, &entry);
-    wait_for(&walk->waiting, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
+    const int8 near = children_near(node, search->packet, search->farthest, &entry);
+    push_children(&search->stack, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
 }
 
 // Returns the lanes that enter the child.
-static inline uint lanes_to_child(PacketWalk *walk, const SceneView *scene, const Packet *packet,
-                                  uint child, Tally *tally)
+static inline uint lanes_entering(PacketSearch *search, uint child)
 {
-    global const BvhWide *node = &scene->nodes[child / WIDE];
-    const Truth inside = lanes_in_child(node, child % WIDE, packet, walk->best->t);
-    const uint bits = lane_bits(walk->searching && inside);
-    walk->credit += (int)popcount(bits) - LANES_PER_TEST;
+    const Tracer *tracer = search->packet->rays.tracer;
+    global const BvhWide *node = &tracer->nodes[child / WIDE];
+    const Mask inside = lanes_in_child(node, child % WIDE, search->packet, search->best->t);
+    const uint bits = lane_bits(search->searching && inside);
+    search->credit += (int)popcount(bits) - LANES_PER_TEST;
     if (CLRT_STATISTICS)
-        tally->box_tests += lane_count(walk->searching);
+        tracer->tally->box_tests += lane_count(search->searching);
     return bits;
 }
 
-static inline void note_hits(PacketWalk *walk, bool is_shadow)
+static inline void update_lanes(PacketSearch *search, bool is_shadow)
 {
     if (is_shadow)
-        walk->searching = walk->searching && walk->best->id == NOTHING;
-    walk->farthest = highest(walk->searching ? walk->best->t : (Real)(0.0f));
+        search->searching = search->searching && search->best->id == NOTHING;
+    search->farthest = highest(search->searching ? search->best->t : (Real)(0.0f));
 }
 
 // Returns the remaining lanes if the packet is abandoned, else 0.
-static inline uint traverse_packet(const SceneView *scene, const Packet *packet, Hit *best,
-                                   Tally *tally)
+static inline uint traverse_packet(const Packet *packet, Hit *best)
 {
+    const Tracer *tracer = packet->rays.tracer;
     const bool is_shadow = packet->rays.ray->kind == RAY_SHADOW;
-    PacketWalk walk;
-    walk.waiting.count = 0;
-    walk.searching = packet->active;
-    walk.farthest = highest(best->t);
-    walk.credit = PACKET_CREDIT;
-    walk.best = best;
-    expand_node(&walk, scene, packet, 0);
-    uint waiting;
-    while (next_child(&walk.waiting, walk.farthest, &waiting)) {
-        const uint bits = lanes_to_child(&walk, scene, packet, waiting, tally);
-        if (walk.credit < 0)
-            return lane_bits(walk.searching);
+    PacketSearch search;
+    search.packet = packet;
+    search.stack.count = 0;
+    search.searching = packet->active;
+    search.farthest = highest(best->t);
+    search.credit = PACKET_CREDIT;
+    search.best = best;
+    expand_node(&search, 0);
+    uint slot;
+    while (pop_child(&search.stack, search.farthest, &slot)) {
+        const uint bits = lanes_entering(&search, slot);
+        if (search.credit < 0)
+            return lane_bits(search.searching);
         if (bits == 0)
             continue;
-        const uint child = scene->nodes[waiting / WIDE].child[waiting % WIDE];
+        const uint child = tracer->nodes[slot / WIDE].child[slot % WIDE];
         if ((child & WIDE_LEAF) == 0) {
-            expand_node(&walk, scene, packet, child);
+            expand_node(&search, child);
             continue;
         }
         if (CLRT_STATISTICS)
-            tally->triangle_tests += WIDE * popcount(bits);
-        const BlockPlace start = block_start(scene, child & ~WIDE_LEAF);
-        if (!test_packet_leaf(&start, packet, bits, walk.farthest, best))
+            tracer->tally->triangle_tests += WIDE * popcount(bits);
+        const BlockPlace start = block_start(tracer, child & ~WIDE_LEAF);
+        if (!intersect_packet_leaf(&start, packet, bits, search.farthest, best))
             continue;
-        note_hits(&walk, is_shadow);
-        if (is_shadow && !any_lane(walk.searching))
+        update_lanes(&search, is_shadow);
+        if (is_shadow && !any_lane(search.searching))
             return 0;
     }
     return 0;
 }
 
 // Returns the class that the rays of a packet must share: direction signs and longest axis.
-static inline Count ray_classes(Real3 direction)
+static inline UInt ray_classes(Real3 direction)
 {
     const ShearAxes axes = shear_axes(direction);
-    const Count x = as_bits(direction.x) >> 31, y = as_bits(direction.y) >> 31;
-    const Count z = as_bits(direction.z) >> 31;
-    return axes.z * 8 + x * 4 + y * 2 + z;
+    return axes.z * 8 + sign_bit(direction.x) * 4 + sign_bit(direction.y) * 2 +
+           sign_bit(direction.z);
 }
 
 // Returns the remaining lanes, whose rays have to search alone.
-static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *frame,
-                                     const Packet *packet, Hit *best, Tally *tally)
+static NOT_INLINE uint intersect_packet(const Packet *packet, Hit *best)
 {
-    const Truth lanes = packet->active;
+    const Tracer *tracer = packet->rays.tracer;
+    const Mask lanes = packet->active;
     Hit hit = *best;
     uint left = 0;
-    if (CLRT_BVH && frame->uses_bvh) {
-        left = traverse_packet(scene, packet, &hit, tally);
+    if (CLRT_BVH && tracer->frame->uses_bvh) {
+        left = traverse_packet(packet, &hit);
     } else {
-        for (uint block = 0; block * WIDE < frame->triangle_count; block++) {
-            const BlockPlace start = block_start(scene, block);
-            test_packet_block(&start, packet, lanes, INFINITY, &hit);
+        for (uint block = 0; block * WIDE < tracer->frame->triangle_count; block++) {
+            const BlockPlace start = block_start(tracer, block);
+            intersect_packet_block(&start, packet, lanes, INFINITY, &hit);
         }
         if (CLRT_STATISTICS)
-            tally->triangle_tests += frame->triangle_count * lane_count(lanes);
+            tracer->tally->triangle_tests += tracer->frame->triangle_count * lane_count(lanes);
     }
     best->t = lanes ? hit.t : best->t;
     best->id = lanes ? hit.id : best->id;
@@ -161,17 +162,16 @@ static NOT_INLINE uint meet_together(const SceneView *scene, const FrameData *fr
 
 // Rays that share signs and longest axis with enough others form a packet; the rest search alone.
 // Without a tree there is no traversal, and all rays form packets.
-static void meet_triangles(const SceneView *scene, const FrameData *frame, const Ray *ray,
-                           Hit *best, Tally *tally)
+static void search_packets(const Tracer *tracer, const Ray *ray, Hit *best)
 {
     const uint all = lane_bits(ray->active);
-    const bool has_tree = CLRT_BVH && frame->uses_bvh;
+    const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
     const uint smallest = has_tree ? SMALLEST_PACKET : 1;
     uint alone = has_tree && !CLRT_PACKET ? all : 0;
     uint left = all & ~alone;
-    const Count classes = ray_classes(ray->direction);
+    const UInt classes = ray_classes(ray->direction);
     while (left != 0) {
-        const uint wanted = count_of(&classes, lowest_bit(left));
+        const uint wanted = lane_uint(&classes, lowest_bit(left));
         const uint part = left & lane_bits(classes == wanted);
         left &= ~part;
         if (popcount(part) < smallest) {
@@ -179,18 +179,13 @@ static void meet_triangles(const SceneView *scene, const FrameData *frame, const
             continue;
         }
         Packet packet;
-        packet_gather(&packet, scene, ray, part, wanted / 8);
-        alone |= meet_together(scene, frame, &packet, best, tally);
+        packet_gather(&packet, tracer, ray, part, wanted / 8);
+        alone |= intersect_packet(&packet, best);
     }
     if (alone == 0)
         return;
-    Search search;
-    search.scene = scene;
-    search.ray = ray;
-    search.axes = shear_axes(ray->direction);
-    search.shear = shear_along(ray->direction, &search.axes);
-    search_slabs(&search, ray->origin, ray->direction);
-    meet_alone(scene, &search, alone, best, tally);
+    const Search search = search_along(tracer, ray);
+    intersect_lanes(&search, alone, best);
 }
 
 #endif

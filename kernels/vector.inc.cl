@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three Reals, and exact signs. This file has no include guard, because types.cl
-// includes it once for every type of Real.
+// Vectors of three Reals, and exact signs. Included several times, by triangle.inc.cl, which lists
+// what must be defined.
 
 typedef struct {
     Real x, y, z;
@@ -44,7 +44,7 @@ static inline Real OVERLOAD largest_component(Real3 v)
 }
 
 // Returns the component on an axis, which can differ between lanes.
-static inline Real OVERLOAD component(Real3 v, Count axis)
+static inline Real OVERLOAD component(Real3 v, UInt axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }

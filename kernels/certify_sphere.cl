@@ -5,9 +5,9 @@
 // perpendicular is below 64 u^3 |f|^2. Moving the ray aside by `distance_doubt` has a larger
 // effect than either, and than the error of the product of the distances. All other terms of a
 // distance have a relative error below 8u.
-#ifndef CLRT_SURE_SPHERE_CL
-#define CLRT_SURE_SPHERE_CL
-#include "sure_triangle.cl"
+#ifndef CLRT_CERTIFY_SPHERE_CL
+#define CLRT_CERTIFY_SPHERE_CL
+#include "certify_triangle.cl"
 
 typedef struct {
     Real3 center;
@@ -53,7 +53,7 @@ static inline Range negative_range(Range range)
     return (Range){-range.high, -range.low};
 }
 
-static inline Range rounded_range(const ThickRay *ray, Range range, Real shift)
+static inline Range rounded_range(const RayCone *ray, Range range, Real shift)
 {
     const Real factor = 16.0f * (ray->u + OWN_ROUNDOFF) + ray->spread * ray->spread;
     return (Range){range.low - factor * fabs(range.low) - shift,
@@ -64,7 +64,7 @@ static inline Range rounded_range(const ThickRay *ray, Range range, Real shift)
 // `distance`, and as much along the line. The nearer wall is at (|f|^2 - radius^2) / (|middle| +
 // half the chord), because the power does not depend on the direction. The tracer computes it this
 // way, too. A nearby wall of a huge sphere is thus as certain as a small sphere's.
-static inline Chord chord_of(const ThickRay *ray, const PlainSphere *sphere)
+static inline Chord chord_of(const RayCone *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);
     const Real middle = dot_product(f, ray->along), r = sphere->radius, apart = length_of(f);
@@ -122,7 +122,7 @@ static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
 }
 
 // A ray hits its own sphere again from inside if the chord is longer than sphere_chord requires.
-static inline Candidate own_sphere_candidate(const ThickRay *ray, const PlainSphere *sphere)
+static inline Candidate own_sphere_candidate(const RayCone *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);
     const Real middle = dot_product(f, ray->along), r = sphere->radius;

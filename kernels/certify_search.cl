@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Finds the certain first hit of a thick ray, and whether anything certainly blocks a point from a
+// Finds the certain first hit of a ray cone, and whether anything certainly blocks a point from a
 // light. Boxes grow by the blur of their farthest corner, below 18u of its distance beside the
 // cone, and by another 111u. The axis is then inside a box before any possible hit of a triangle
 // in it. This holds even for a hit behind the origin by the error of a distance.
-#ifndef CLRT_SURE_SEARCH_CL
-#define CLRT_SURE_SEARCH_CL
-#include "sure_sphere.cl"
-#include "sure_twin.cl"
+#ifndef CLRT_CERTIFY_SEARCH_CL
+#define CLRT_CERTIFY_SEARCH_CL
+#include "certify_sphere.cl"
 
 // The nearest certain hit, and the least depth of any other possible hit.
 typedef struct {
-    Count id, index;
+    UInt id, index;
     Real low, high; // INFINITY without a hit
     Real other;
 } Nearest;
 
-static inline bool nearest_is_sure(const Nearest *nearest)
+static inline bool nearest_is_certain(const Nearest *nearest)
 {
     return nearest->id == NOTHING ? nearest->other == INFINITY : nearest->other > nearest->high;
 }
@@ -31,15 +30,15 @@ static inline void nearest_add(Nearest *nearest, const Candidate *candidate, uin
 }
 
 typedef struct {
-    const ThickRay *ray;
+    const RayCone *ray;
     Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
     uint triangle;  // position of the nearest hit if a triangle, else NOTHING
     Answer blocked; // for a shadow ray
-} Search;
+} ConeSearch;
 
 // Returns the growth of a box whose farthest corner is `far` away.
-static inline Real growth_at(const ThickRay *ray, Real far)
+static inline Real growth_at(const RayCone *ray, Real far)
 {
     const Real rounding = 140.0f * ray->u + 200.0f * OWN_ROUNDOFF;
     return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
@@ -51,20 +50,20 @@ static inline Real inverse_of(Real direction)
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
 }
 
-static inline Search search_along(const ThickRay *ray)
+static inline ConeSearch search_along(const RayCone *ray)
 {
     const Real3 o = ray->origin, d = ray->along;
-    return (Search){.ray = ray,
-                    .origin = {o.x, o.y, o.z},
-                    .inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)},
-                    .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
-                    .triangle = NOTHING,
-                    .blocked = ANSWER_NO};
+    return (ConeSearch){.ray = ray,
+                        .origin = {o.x, o.y, o.z},
+                        .inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)},
+                        .nearest = {NOTHING, NOTHING, INFINITY, INFINITY, INFINITY},
+                        .triangle = NOTHING,
+                        .blocked = ANSWER_NO};
 }
 
 // Nothing beyond the nearest certain hit can be first. Nothing beyond another possible hit can
 // certainly be first.
-static inline Real search_reach(const Search *search)
+static inline Real search_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)
         return 1.01f * search->ray->length;
@@ -76,7 +75,7 @@ typedef struct {
 } Box;
 
 // Returns where the cone enters a box, INFINITY if it does not enter before `reach`.
-static inline Real box_entry(const Search *search, const Box *box, Real reach)
+static inline Real box_entry(const ConeSearch *search, const Box *box, Real reach)
 {
     Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
     for (uint axis = 0; axis < 3; axis++) {
@@ -94,7 +93,7 @@ static inline Real box_entry(const Search *search, const Box *box, Real reach)
     return enter <= leave && low[0] <= high[0] ? enter : INFINITY;
 }
 
-static inline Real child_entry(const Search *search, global const BvhPair *node, uint child,
+static inline Real child_entry(const ConeSearch *search, global const BvhPair *node, uint child,
                                Real reach)
 {
     Box box;
@@ -107,7 +106,7 @@ static inline Real child_entry(const Search *search, global const BvhPair *node,
 
 // Each triangle's own box is tested before the triangle. The result then does not depend on the
 // boxes of the tree, and every tree finds the same hit.
-static inline Real triangle_entry(const Search *search, global const TriangleData *triangle,
+static inline Real triangle_entry(const ConeSearch *search, global const TriangleData *triangle,
                                   Real reach)
 {
     Box box;
@@ -119,41 +118,42 @@ static inline Real triangle_entry(const Search *search, global const TriangleDat
     return box_entry(search, &box, reach);
 }
 
-static inline void wait_for_cone(const SceneView *scene, const Search *search, uint node,
-                                 Waiting *waiting)
+static inline void push_certified_children(const Tracer *tracer, const ConeSearch *search,
+                                           uint node, PairStack *stack)
 {
     const Real reach = search_reach(search);
-    const Real first = child_entry(search, &scene->nodes[node], 0, reach);
-    const Real second = child_entry(search, &scene->nodes[node], 1, reach);
+    const Real first = child_entry(search, &tracer->nodes[node], 0, reach);
+    const Real second = child_entry(search, &tracer->nodes[node], 1, reach);
     const bool second_nearer = second < first;
     if (!second_nearer && second < INFINITY)
-        wait_for_child(waiting, 2 * node + 1, second);
+        push_child(stack, 2 * node + 1, second);
     if (first < INFINITY)
-        wait_for_child(waiting, 2 * node, first);
+        push_child(stack, 2 * node, first);
     if (second_nearer)
-        wait_for_child(waiting, 2 * node + 1, second);
+        push_child(stack, 2 * node + 1, second);
 }
 
-static inline Candidate leaf_candidate(const SceneView *scene, const ThickRay *ray, uint index)
+static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray, uint index)
 {
-    global const TriangleData *triangle = &scene->triangles[index];
+    global const TriangleData *triangle = &tracer->triangles[index];
     const Candidate candidate = triangle_candidate(ray, triangle);
     if (candidate.met == ANSWER_NO || ray->own_index == NOTHING ||
-        !are_twins(scene, ray->own_index, index))
+        !are_coincident(tracer, ray->own_index, index))
         return candidate;
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    return surely_passes_twin(&corners, ray) ? candidate_none() : candidate;
+    return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
 }
 
-// A twin of the nearest hit may win by its id but does not change the distance.
-static inline void add_triangle(const SceneView *scene, Search *search, uint index,
+// A triangle that coincides with the nearest hit may win by its id but does not change the
+// distance.
+static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)
 {
     Nearest *nearest = &search->nearest;
-    const uint id = scene->triangles[index].id;
-    const bool is_twin = candidate->met == ANSWER_YES && search->triangle != NOTHING &&
-                         are_twins(scene, search->triangle, index);
-    if (!is_twin)
+    const uint id = tracer->triangles[index].id;
+    const bool is_coincident = candidate->met == ANSWER_YES && search->triangle != NOTHING &&
+                               are_coincident(tracer, search->triangle, index);
+    if (!is_coincident)
         nearest_add(nearest, candidate, id, index);
     else if (id < nearest->id)
         *nearest = (Nearest){id, index, nearest->low, nearest->high, nearest->other};
@@ -161,81 +161,78 @@ static inline void add_triangle(const SceneView *scene, Search *search, uint ind
         search->triangle = index;
 }
 
-static inline void search_leaf(const SceneView *scene, Search *search, uint2 range)
+static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 range)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
-        global const TriangleData *triangle = &scene->triangles[index];
+        global const TriangleData *triangle = &tracer->triangles[index];
         if (!(triangle_entry(search, triangle, search_reach(search)) < INFINITY))
             continue;
-        const Candidate candidate = leaf_candidate(scene, search->ray, index);
+        const Candidate candidate = leaf_candidate(tracer, search->ray, index);
         if (search->ray->kind != RAY_SHADOW)
-            add_triangle(scene, search, index, &candidate);
+            add_triangle(tracer, search, index, &candidate);
         search->blocked = max(search->blocked, candidate.met);
     }
 }
 
-static inline bool search_is_over(const Search *search)
+static inline bool search_is_over(const ConeSearch *search)
 {
     return search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
 }
 
-static void search_triangles(const SceneView *scene, Search *search)
+static void search_triangles(const Tracer *tracer, ConeSearch *search)
 {
-    Waiting waiting;
-    waiting.count = 0;
-    wait_for_cone(scene, search, 0, &waiting);
-    while (waiting.count > 0 && !search_is_over(search)) {
-        waiting.count--;
-        if (waiting.entry[waiting.count] > search_reach(search))
+    PairStack stack;
+    stack.count = 0;
+    push_certified_children(tracer, search, 0, &stack);
+    while (stack.count > 0 && !search_is_over(search)) {
+        stack.count--;
+        if (stack.entry[stack.count] > search_reach(search))
             continue;
-        const uint child = waiting.child[waiting.count];
-        const uint first = scene->nodes[child >> 1].first[child & 1];
-        const uint count = scene->nodes[child >> 1].count[child & 1];
+        const uint child = stack.child[stack.count];
+        const uint first = tracer->nodes[child >> 1].first[child & 1];
+        const uint count = tracer->nodes[child >> 1].count[child & 1];
         if (count == 0)
-            wait_for_cone(scene, search, first, &waiting);
+            push_certified_children(tracer, search, first, &stack);
         else
-            search_leaf(scene, search, (uint2)(first, count));
+            search_leaf(tracer, search, (uint2)(first, count));
     }
 }
 
-static inline Nearest surely_nearest(const SceneView *scene, const FrameData *frame,
-                                     const ThickRay *ray)
+static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *ray)
 {
-    Search search = search_along(ray);
-    for (uint index = 0; index < frame->sphere_count; index++) {
-        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+    ConeSearch search = search_along(ray);
+    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
+        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
         const Candidate candidate =
             index == ray->own ? own_sphere_candidate(ray, &sphere) : sphere_candidate(&chord);
         nearest_add(&search.nearest, &candidate, index, index);
     }
-    if (frame->triangle_count > 0)
-        search_triangles(scene, &search);
+    if (tracer->frame->triangle_count > 0)
+        search_triangles(tracer, &search);
     return search.nearest;
 }
 
-static inline Answer spheres_block(const SceneView *scene, const FrameData *frame,
-                                   const ThickRay *ray)
+static inline Answer spheres_block(const Tracer *tracer, const RayCone *ray)
 {
     const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
     Answer blocked = ANSWER_NO;
-    for (uint index = 0; index < frame->sphere_count; index++) {
+    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
         if (index == ray->own)
             continue;
-        const PlainSphere sphere = plain_sphere(&scene->spheres[index]);
+        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
         blocked = max(blocked, sphere_blocks(&chord, ray->length - margin, ray->length + margin));
     }
     return blocked;
 }
 
-static inline Answer surely_blocked(const SceneView *scene, const FrameData *frame,
-                                    const ThickRay *ray)
+static inline Answer certify_occlusion(const Tracer *tracer, const RayCone *ray)
 {
-    Search search = search_along(ray);
-    search.blocked = spheres_block(scene, frame, ray);
-    if (frame->triangle_count > 0 && search.blocked != ANSWER_YES)
-        search_triangles(scene, &search);
+    ConeSearch search = search_along(ray);
+    search.blocked = spheres_block(tracer, ray);
+    if (tracer->frame->triangle_count > 0 && search.blocked != ANSWER_YES)
+        search_triangles(tracer, &search);
     return search.blocked;
 }
 

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Thick ray against triangle: a certain hit, a certain miss, or undecided; and the depth.
+#ifndef CLRT_CERTIFY_TRIANGLE_CL
+#define CLRT_CERTIFY_TRIANGLE_CL
+#include "certify_cone.cl"
+
+typedef enum { ANSWER_NO, ANSWER_UNKNOWN, ANSWER_YES } Answer;
+
+// A hit lies at a depth within [low, high] along the ray, including the tracer's rounding.
+typedef struct {
+    Answer met;
+    Real low, high;
+} Candidate;
+
+// The triangle in the ray's frame.
+typedef struct {
+    Corners corners;
+    Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
+    Real blur;   // of all corners
+    Real size;   // upper bound of the corners' distances
+    Real sides;  // sum of the two edges at the first corner
+    bool clear;  // the axis passes all edges by more than the blur
+    bool inside; // and passes inside them
+    bool faces;  // the visible side is certain
+    bool inner;  // the mesh's back is visible
+    bool broad;  // the triangle is broad enough to compute its plane
+} ProjectedTriangle;
+
+static inline bool corners_pass(const Corners *c, Real blur)
+{
+    return min(min(c->a.x, c->b.x), c->c.x) > blur || max(max(c->a.x, c->b.x), c->c.x) < -blur ||
+           min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
+}
+
+// Returns whether the axis passes the edge from p to q by more than the blur. edge is its edge
+// function.
+static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
+{
+    const Real x = q.x - p.x, y = q.y - p.y;
+    const Real length = x * x + y * y, place = -(p.x * x + p.y * y);
+    if (place <= 0.0f)
+        return p.x * p.x + p.y * p.y > blur * blur;
+    if (place >= length)
+        return q.x * q.x + q.y * q.y > blur * blur;
+    return edge * edge > blur * blur * length;
+}
+
+static inline Real length_across(Real3 p, Real3 q)
+{
+    const Real x = q.x - p.x, y = q.y - p.y;
+    return sqrt(x * x + y * y);
+}
+
+static inline ProjectedTriangle project_triangle(const RayCone *ray, const Corners *corners)
+{
+    ProjectedTriangle projected;
+    const Corners seen = {to_cone_frame(ray, corners->a), to_cone_frame(ray, corners->b),
+                          to_cone_frame(ray, corners->c)};
+    const Real blur = max(max(blur_at(ray, seen.a), blur_at(ray, seen.b)), blur_at(ray, seen.c));
+    projected.corners = seen;
+    projected.blur = blur;
+    projected.size = max(max(sum_of_sizes(seen.a), sum_of_sizes(seen.b)), sum_of_sizes(seen.c)) +
+                     2.0f * ray->around;
+    projected.inside = projected.faces = projected.broad = false;
+    projected.clear = corners_pass(&seen, blur);
+    if (projected.clear)
+        return projected;
+    projected.edges = edges_of(&seen);
+    projected.sides = length_across(seen.a, seen.b) + length_across(seen.a, seen.c);
+    projected.clear = edge_is_clear(seen.b, seen.c, projected.edges.u, blur) &&
+                      edge_is_clear(seen.c, seen.a, projected.edges.v, blur) &&
+                      edge_is_clear(seen.a, seen.b, projected.edges.w, blur);
+    projected.inside = projected.clear && edges_contain(&projected.edges);
+    const Real area = fabs(projected.edges.determinant);
+    projected.broad = area > 8.0f * blur * projected.sides;
+    projected.faces = projected.inside || projected.broad;
+    return projected;
+}
+
+// Returns the largest depth change of the plane per step across the ray.
+static inline Real slope_of(const ProjectedTriangle *projected)
+{
+    const Real3 ab = difference(projected->corners.b, projected->corners.a);
+    const Real3 ac = difference(projected->corners.c, projected->corners.a);
+    const Real x = difference_of_products(ab.z, ac.y, ac.z, ab.y);
+    const Real y = difference_of_products(ac.z, ab.x, ab.z, ac.x);
+    return sqrt(x * x + y * y) / fabs(projected->edges.determinant);
+}
+
+// A hit lies within the blur of the axis. It is no deeper than the corners. Its distance from the
+// axis's own hit is limited by the plane's slope. A broad triangle is more than 8 blurs high.
+// Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than half of 1 +
+// slope. A bound of 4 (1 + slope) blurs covers all of this.
+static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
+{
+    const Corners *c = &projected->corners;
+    const Real rounding = 26.0f * (u + OWN_ROUNDOFF) * projected->size + 4.0f * projected->blur;
+    Candidate depth = {ANSWER_UNKNOWN, min(min(c->a.z, c->b.z), c->c.z) - rounding,
+                       max(max(c->a.z, c->b.z), c->c.z) + rounding};
+    if (projected->broad) {
+        const Real middle = triangle_depth(c, &projected->edges);
+        const Real doubt = rounding + 4.0f * projected->blur * slope_of(projected);
+        depth.low = max(depth.low, middle - doubt);
+        depth.high = min(depth.high, middle + doubt);
+    }
+    return depth;
+}
+
+// At least the distance error that surface_ray_distance uses.
+static inline Real margin_of(const ProjectedTriangle *projected, Real u)
+{
+    return 64.0f * (u + OWN_ROUNDOFF) * projected->size;
+}
+
+// Returns the side of a triangle's plane on which a point certainly lies: 1 in front, -1 behind, 0
+// if unknown. It agrees with real arithmetic and with height_over, which may also return zero if
+// this returns 0. The error of height_over is below 12u n.|apart| + 12u E |apart|, and its
+// threshold is below the bound, which is therefore doubled. The error of is_before_face
+// (shade.cl), whose unit vector adds 4u n.|apart|, stays within the bound, too.
+static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
+{
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real3 normal = cross_product(ab, ac), apart = difference(uncertain->point, corners->a);
+    const Real3 size = magnitudes(normal);
+    const Real radius = radius_of(uncertain);
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Real rounding =
+        16.0f *
+        (dot_product(size, magnitudes(uncertain->point)) + dot_product(size, magnitudes(apart)) +
+         edges * largest_component(apart) + 2.0f * radius * (sum_of_sizes(normal) + edges));
+    const Real length = length_of(normal);
+    const Real tilt = length_of(cross_product(normal, uncertain->face)) + 0x1p-48f * length;
+    const Real doubt = 1.01f * (uncertain->slide * tilt + uncertain->lift * length);
+    const Real height = dot_product(normal, apart);
+    if (!(fabs(height) > doubt + 2.0f * (u + OWN_ROUNDOFF) * rounding))
+        return 0;
+    return height > 0.0f ? 1 : -1;
+}
+
+static inline Candidate candidate_none(void)
+{
+    return (Candidate){ANSWER_NO, INFINITY, INFINITY};
+}
+
+static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedTriangle *projected,
+                                            int side)
+{
+    Candidate candidate = depth_of(projected, ray->u);
+    const Real margin = margin_of(projected, ray->u);
+    const bool front = projected->edges.determinant > 0.0f;
+    const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
+    const bool behind = front ? side < 0 : side > 0;
+    if (candidate.high < -margin || (projected->faces && behind))
+        return candidate_none();
+    const bool clear = !projected->inner || candidate.low > margin;
+    candidate.met = projected->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    candidate.low = max(candidate.low, (Real)(0.0f));
+    return candidate;
+}
+
+// Closer to the eye than this, a camera ray's start counts as a surface point.
+#define AT_EYE 0x1p-15f
+
+static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTriangle *projected,
+                                         const Corners *corners)
+{
+    Candidate candidate = depth_of(projected, ray->u);
+    if (candidate.high < -margin_of(projected, ray->u))
+        return candidate_none();
+    const bool is_clear = projected->inside && candidate.low > AT_EYE;
+    candidate.met = is_clear ? ANSWER_YES : ANSWER_UNKNOWN;
+    if (candidate.low > AT_EYE)
+        return candidate;
+    const Candidate near =
+        reflected_candidate(ray, projected, side_of(corners, &ray->start, ray->u));
+    if (near.met == ANSWER_NO || (near.met == ANSWER_YES && candidate.low > 0.0f))
+        return near;
+    return candidate;
+}
+
+// A triangle with both ends of the ray on one side does not block it.
+static inline Candidate shadow_candidate(const RayCone *ray, const ProjectedTriangle *projected,
+                                         int side, int light_side)
+{
+    Candidate candidate = reflected_candidate(ray, projected, side);
+    const Real doubt =
+        margin_of(projected, ray->u) + radius_of(&ray->start) + radius_of(&ray->goal);
+    const bool same = side != 0 && side == light_side;
+    if (candidate.low > ray->length + doubt || (projected->faces && same))
+        return candidate_none();
+    if (!(candidate.high + doubt < ray->length))
+        candidate.met = ANSWER_UNKNOWN;
+    return candidate;
+}
+
+static inline Candidate triangle_candidate(const RayCone *ray, global const TriangleData *triangle)
+{
+    const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
+    if (triangle->id == ray->own)
+        return candidate_none();
+    ProjectedTriangle projected = project_triangle(ray, &corners);
+    if (projected.clear && !projected.inside)
+        return candidate_none();
+    const bool front = projected.edges.determinant > 0.0f;
+    const bool one_sided = (triangle->material & TRIANGLE_TWO_SIDED) == 0;
+    projected.inner = front == ((triangle->material & TRIANGLE_REVERSED) != 0);
+    if (one_sided && projected.faces && projected.inner)
+        return candidate_none();
+    if (ray->kind == RAY_CAMERA)
+        return camera_candidate(ray, &projected, &corners);
+    const int side = side_of(&corners, &ray->start, ray->u);
+    if (ray->kind == RAY_REFLECTED)
+        return reflected_candidate(ray, &projected, side);
+    return shadow_candidate(ray, &projected, side, side_of(&corners, &ray->goal, 0.0f));
+}
+
+// Coincident triangles have the same stored corners (shared.h). A ray hits both at the same
+// distance, bit for bit, so the lower id wins if the ray certainly hits one of them first. A ray
+// that leaves one of them starts in the plane of the other and does not hit it.
+static inline bool is_same_corner(global const float *a, global const float *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
+{
+    global const TriangleData *one = &tracer->triangles[index], *two = &tracer->triangles[other];
+    return is_same_corner(one->a, two->a) && is_same_corner(one->b, two->b) &&
+           is_same_corner(one->c, two->c);
+}
+
+// Returns whether a ray that leaves a triangle certainly misses a
+// coincident one. It does if height_over
+// returns zero for the ray's start. hits_neighbor then compares the triangles and finds neither
+// in front of the other: the height of an edge over its own plane is below 6u n.|edge|, less than
+// height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the products'
+// magnitudes. The computed height of the start is the sum of these errors:
+//  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its
+//    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
+//  - Moving the start into the triangle adds u n.|start| and 2u n.|way|.
+//  - An edge leaves the plane across n by 4u n.|edge|: 3u from rounding the components of n, and
+//    u from rounding the edge.
+//  - The difference of start and corner and its product with n add 4u n.|difference|.
+// Both sides of the comparison are in units of u. The normal computed here differs from n by 4u E
+// per axis, because the tracer rounds the edges. E is the product of the largest edge components.
+// As coordinates are at most 1, this changes the comparison by less than 1100u E.
+static inline bool certainly_misses_coincident(const Corners *corners, const RayCone *ray)
+{
+    const UncertainPoint *start = &ray->start;
+    const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
+    const Real3 normal = cross_product(ab, ac), apart = difference(start->point, corners->a);
+    const Real3 a = magnitudes(corners->a), b = magnitudes(corners->b), c = magnitudes(corners->c);
+    const Real3 size = magnitudes(normal);
+    const Real3 farthest =
+        real3_of(max(max(a.x, b.x), c.x), max(max(a.y, b.y), c.y), max(max(a.z, b.z), c.z));
+    const Real edges = largest_component(ab) * largest_component(ac);
+    const Real radius = radius_of(start), moved = radius * sum_of_sizes(normal);
+    const Real point = dot_product(size, magnitudes(start->point));
+    const Real distance = dot_product(size, magnitudes(apart));
+    const Real longest = max(dot_product(size, magnitudes(ab)), dot_product(size, magnitudes(ac)));
+    const Real height = 4.0f * fabs(dot_product(normal, corners->a)) +
+                        3.0f * dot_product(size, farthest) + point + 4.0f * longest +
+                        4.0f * distance + 11.0f * moved + 1100.0f * (ray->u + OWN_ROUNDOFF) * edges;
+    const Real least = POINT_BLUR * (point - moved) + 8.0f * (distance - moved) +
+                       8.0f * edges * (largest_component(apart) - radius);
+    return radius < 1.0f && height < 0.999f * least;
+}
+
+#endif

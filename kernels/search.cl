@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Prepares rays for the tests against boxes and triangles. Boxes only cull, and never a triangle
+// that the exact test would accept. The host grows each box by BVH_SLACK times its largest
+// coordinate. slabs_of moves the ray's origin away from each plane by BVH_SLACK times the origin's
+// largest coordinate. Together they cover the rounding of the triangle test and of the slabs
+// (shared.h). The hit is therefore the same for every tree, for every traversal order and without a
+// tree.
+#ifndef CLRT_SEARCH_CL
+#define CLRT_SEARCH_CL
+#include "ray.cl"
+
+// The ray's longest axis, which the shear maps it to, and the two axes that follow.
+typedef struct {
+    UInt x, y, z;
+} ShearAxes;
+
+static inline ShearAxes shear_axes(Real3 direction)
+{
+    const Real3 size = magnitudes(direction);
+    const UInt second = size.y > size.x ? (UInt)(1) : (UInt)(0);
+    ShearAxes axes;
+    axes.z = size.z > max(size.x, size.y) ? (UInt)(2) : second;
+    axes.x = axes.z == 2 ? (UInt)(0) : axes.z + 1;
+    axes.y = axes.x == 2 ? (UInt)(0) : axes.x + 1;
+    return axes;
+}
+
+static inline Shear shear_along(Real3 direction, const ShearAxes *axes)
+{
+    Shear shear;
+    shear.direction_z = component(direction, axes->z);
+    shear.inverse_z = 1.0f / shear.direction_z;
+    shear.shear_x = component(direction, axes->x) * shear.inverse_z;
+    shear.shear_y = component(direction, axes->y) * shear.inverse_z;
+    return shear;
+}
+
+static inline Real3 axes_ordered(Real3 v, const ShearAxes *axes)
+{
+    return real3_of(component(v, axes->x), component(v, axes->y), component(v, axes->z));
+}
+
+// The slab test's constants: distance to a plane = fma(plane, inverse, offset).
+typedef struct {
+    Real3 inverse, near_offset, far_offset;
+} Slabs;
+
+// A zero direction becomes 2^-30 of the largest component. No infinity or NaN can then arise from
+// rays whose largest component exceeds 2^-96; shorter ones have no usable direction.
+static inline Real slab_direction(Real direction, Real smallest)
+{
+    return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
+}
+
+static inline Slabs slabs_of(Real3 origin, Real3 direction)
+{
+    const Real smallest = 0x1p-30f * largest_component(direction);
+    const Real slack = BVH_SLACK * largest_component(origin);
+    const Real x = slab_direction(direction.x, smallest);
+    const Real y = slab_direction(direction.y, smallest);
+    const Real z = slab_direction(direction.z, smallest);
+    const Real3 widening = {copysign(slack, x), copysign(slack, y), copysign(slack, z)};
+    const Real3 near = sum3(origin, widening), far = difference(origin, widening);
+    const Real3 inverse = {1.0f / x, 1.0f / y, 1.0f / z};
+    return (Slabs){inverse,
+                   {-near.x * inverse.x, -near.y * inverse.y, -near.z * inverse.z},
+                   {-far.x * inverse.x, -far.y * inverse.y, -far.z * inverse.z}};
+}
+
+// A search for triangles, with the prepared rays of all lanes.
+typedef struct {
+    const Tracer *tracer;
+    const Ray *ray;
+    ShearAxes axes;
+    Shear shear;
+    Real3 origin; // in the order of the axes
+    Slabs slabs;
+} Search;
+
+static inline Search search_along(const Tracer *tracer, const Ray *ray)
+{
+    Search search;
+    search.tracer = tracer;
+    search.ray = ray;
+    search.axes = shear_axes(ray->direction);
+    search.shear = shear_along(ray->direction, &search.axes);
+    search.origin = axes_ordered(ray->origin, &search.axes);
+    search.slabs = slabs_of(ray->origin, ray->direction);
+    return search;
+}
+
+#endif
