@@ -50,7 +50,7 @@ static inline Real inverse_of(Real direction)
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
 }
 
-static inline ConeSearch search_along(const RayCone *ray)
+static inline ConeSearch search_in_cone(const RayCone *ray)
 {
     const Real3 o = ray->origin, d = ray->along;
     return (ConeSearch){.ray = ray,
@@ -200,7 +200,7 @@ static void search_triangles(const Tracer *tracer, ConeSearch *search)
 
 static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *ray)
 {
-    ConeSearch search = search_along(ray);
+    ConeSearch search = search_in_cone(ray);
     for (uint index = 0; index < tracer->frame->sphere_count; index++) {
         const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
@@ -229,7 +229,7 @@ static inline Answer spheres_block(const Tracer *tracer, const RayCone *ray)
 
 static inline Answer certify_occlusion(const Tracer *tracer, const RayCone *ray)
 {
-    ConeSearch search = search_along(ray);
+    ConeSearch search = search_in_cone(ray);
     search.blocked = spheres_block(tracer, ray);
     if (tracer->frame->triangle_count > 0 && search.blocked != ANSWER_YES)
         search_triangles(tracer, &search);

@@ -13,13 +13,8 @@
 #include "render/tile.h"
 #include "scene/camera.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-// With a value of --error above this, the user may have meant percent.
-#define LARGE_ERROR 0.1
 
 // The context of the render observer.
 typedef struct {
@@ -206,51 +201,6 @@ static bool write_statistics(Run *run, double start, Error *error)
     return report_write_json(&run->report, options->statistics_path, error);
 }
 
-static void describe(const Run *run)
-{
-    const Report *report = &run->report;
-    if (!run->options->verbose)
-        return;
-    fprintf(stderr, "scene: %u triangles, %u spheres, %u lights; %llu triangles dropped\n",
-            report->triangles, report->spheres, report->lights,
-            (unsigned long long)report->dropped_triangles);
-    fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
-            report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
-    const Device *device = &run->async_device.device;
-    fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
-            device->compute_units);
-    fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
-            kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
-            kernel_precision_name(report->choice->precision),
-            report->specialized ? "specialized" : "general", report->kernel_build,
-            report->upload_size);
-}
-
-static void print_beginning(const Picture *picture)
-{
-    const Run *run = picture->run;
-    if (!run->options->verbose)
-        return;
-    if (frames_are_many(&run->options->frames))
-        fprintf(stderr, "picture: %s\n", picture->path);
-    if (run->options->resume)
-        fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
-                (unsigned long long)run->settings.ready_tiles,
-                (unsigned long long)tile_count(&run->settings));
-}
-
-static ExitCode goal_missed(const Run *run, Error *error)
-{
-    const Report *report = &run->report;
-    if (run->options->time_goal > 0)
-        error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
-                  report->trace);
-    else
-        error_set(error, "the error may be %.2g %%, more than --error allows",
-                  100 * fmax(report->bound, report->truncation));
-    return EXIT_FAULTS;
-}
-
 // Reports invalid dates and unwritable outputs before any work, and looks for an earlier run.
 static ExitCode check_files(Picture *picture, Error *error)
 {
@@ -265,16 +215,9 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                              : EXIT_DONE;
 }
 
-static void warn_of_goal(const Options *options)
-{
-    if (options->error_goal > LARGE_ERROR && !options->quiet)
-        fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
-                100 * options->error_goal, options->error_goal, options->error_goal);
-}
-
 static ExitCode prepare(Run *run, Error *error)
 {
-    warn_of_goal(run->options);
+    picture_warn_of_goal(run->options);
     image_prepare(run->options->format);
     run_begin(run);
     if (!run_load_scene(run, error))
@@ -284,7 +227,7 @@ static ExitCode prepare(Run *run, Error *error)
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)
-        describe(run);
+        picture_print_setup(run);
     return prepared;
 }
 
@@ -327,21 +270,6 @@ static bool begin_picture(Picture *picture, Error *error)
     return ok;
 }
 
-static ExitCode report_stopped(const Picture *picture, Error *error)
-{
-    const Run *run = picture->run;
-    const RenderProgress *progress = &run->renderer.progress;
-    const char *path = picture->path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
-    if (run->report.complete)
-        error_set(error, "stopped: %s is whole", name);
-    else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
-        error_set(error, "stopped: %s is incomplete", name);
-    else
-        error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,
-                  (unsigned long long)progress->tiles_done, (unsigned long long)progress->tiles);
-    return (ExitCode)(128 + picture->stopped_by);
-}
-
 static ExitCode finish(Picture *picture, double start, Error *error)
 {
     Run *run = picture->run;
@@ -350,10 +278,10 @@ static ExitCode finish(Picture *picture, double start, Error *error)
         return EXIT_OUTPUT;
     resume_close(&picture->resume, run->report.complete);
     if (picture->stopped_by > 0)
-        return report_stopped(picture, error);
+        return picture_fail_stopped(picture, error);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
-    return run->report.goal_missed ? goal_missed(run, error) : EXIT_DONE;
+    return run->report.goal_missed ? picture_fail_goal(run, error) : EXIT_DONE;
 }
 
 static ExitCode make_frame(Picture *picture, uint32_t number, double start, Error *error)
@@ -362,7 +290,7 @@ static ExitCode make_frame(Picture *picture, uint32_t number, double start, Erro
     set_view(picture, number);
     if (!begin_picture(picture, error))
         return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
-    print_beginning(picture);
+    picture_print_beginning(picture);
     stop_wait_for_tiles();
     if (!draw(picture, error))
         return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;

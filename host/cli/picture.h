@@ -21,6 +21,17 @@ typedef struct {
     int stopped_by;         // a signal; 0 if the picture is complete
 } Picture;
 
+// Warns of an error goal that may be meant as a percentage.
+void picture_warn_of_goal(const Options *options);
+
+// With --verbose, print the scene, the device and the kernels; and where a picture starts.
+void picture_print_setup(const Run *run);
+void picture_print_beginning(const Picture *picture);
+
+// Fill error for a picture that misses its goal or is stopped, and return the exit status.
+ExitCode picture_fail_goal(const Run *run, Error *error);
+ExitCode picture_fail_stopped(const Picture *picture, Error *error);
+
 // A reference is the same view drawn again in fp64, with many samples different from the picture's.
 
 // Adds the channel of each pixel's error, the largest difference of its colors, after the others.

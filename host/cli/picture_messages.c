@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Messages about a picture: notes on standard error, and the errors of a picture that falls short.
+#include "cli/picture.h"
+
+#include "render/tile.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// With a value of --error above this, the user may have meant percent.
+#define LARGE_ERROR 0.1
+
+void picture_warn_of_goal(const Options *options)
+{
+    if (options->error_goal > LARGE_ERROR && !options->quiet)
+        fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
+                100 * options->error_goal, options->error_goal, options->error_goal);
+}
+
+void picture_print_setup(const Run *run)
+{
+    const Report *report = &run->report;
+    if (!run->options->verbose)
+        return;
+    fprintf(stderr, "scene: %u triangles, %u spheres, %u lights; %llu triangles dropped\n",
+            report->triangles, report->spheres, report->lights,
+            (unsigned long long)report->dropped_triangles);
+    fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
+            report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
+    const Device *device = &run->async_device.device;
+    fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
+            device->compute_units);
+    fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
+            kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
+            kernel_precision_name(report->choice->precision),
+            report->specialized ? "specialized" : "general", report->kernel_build,
+            report->upload_size);
+}
+
+void picture_print_beginning(const Picture *picture)
+{
+    const Run *run = picture->run;
+    if (!run->options->verbose)
+        return;
+    if (frames_are_many(&run->options->frames))
+        fprintf(stderr, "picture: %s\n", picture->path);
+    if (run->options->resume)
+        fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
+                (unsigned long long)run->settings.ready_tiles,
+                (unsigned long long)tile_count(&run->settings));
+}
+
+ExitCode picture_fail_goal(const Run *run, Error *error)
+{
+    const Report *report = &run->report;
+    if (run->options->time_goal > 0)
+        error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
+                  report->trace);
+    else
+        error_set(error, "the error may be %.2g %%, more than --error allows",
+                  100 * fmax(report->bound, report->truncation));
+    return EXIT_FAULTS;
+}
+
+ExitCode picture_fail_stopped(const Picture *picture, Error *error)
+{
+    const Run *run = picture->run;
+    const RenderProgress *progress = &run->renderer.progress;
+    const char *path = picture->path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
+    if (run->report.complete)
+        error_set(error, "stopped: %s is whole", name);
+    else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
+        error_set(error, "stopped: %s is incomplete", name);
+    else
+        error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,
+                  (unsigned long long)progress->tiles_done, (unsigned long long)progress->tiles);
+    return (ExitCode)(128 + picture->stopped_by);
+}
