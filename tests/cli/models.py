@@ -123,9 +123,7 @@ def glb(points, triangles, normals=None, node=None, change=None):
     ]
     attributes = {"POSITION": 1}
     if normals:
-        accessors.append(
-            {"bufferView": 2, "componentType": 5126, "count": len(normals), "type": "VEC3"}
-        )
+        accessors.append({"bufferView": 2, "componentType": 5126, "count": len(normals), "type": "VEC3"})
         attributes["NORMAL"] = 2
     views, place = [], 0
     for part in parts:

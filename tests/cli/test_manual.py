@@ -20,9 +20,7 @@ ENTRY = re.compile(r"^  (?:-(\w), |    )--([a-z-]+)(\[=\S+\]| \S+)?", re.MULTILI
 
 
 def run(*words, **settings):
-    return subprocess.run(
-        [str(word) for word in words], capture_output=True, text=True, check=True, **settings
-    )
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True, **settings)
 
 
 def read_page(page):
@@ -47,9 +45,7 @@ class Pages(unittest.TestCase):
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_mandoc_has_nothing_to_warn_of(self):
         for page in PAGES:
-            done = subprocess.run(
-                ["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True
-            )
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True)
             self.assertEqual((done.stdout, done.returncode), ("", 0))
 
     @unittest.skipUnless(shutil.which("man"), "man is not installed")

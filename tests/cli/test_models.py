@@ -10,7 +10,7 @@ import time
 import unittest
 
 import models
-from work import CLRT, Work
+from work import CLRT, Work, main
 
 ASSIMP = sys.argv[2] == "1"
 EXPORT = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
@@ -26,9 +26,7 @@ DEFINES = (
     "define red matte diffuse 0.5 0.25 0.125\n"
     "define shiny blinn_phong diffuse 0.125 0.5 0.25 specular 0.5 0.5 0.25 kd 1 ks 1 shininess 40\n"
 )
-COLORED = models.obj(
-    COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0), ("usemtl shiny", HALF)]
-)
+COLORED = models.obj(COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0), ("usemtl shiny", HALF)])
 
 
 @unittest.skipIf(ASSIMP, "this build has Assimp")
@@ -75,10 +73,7 @@ class Formats(Work):
 
     def test_faces_of_four_corners_are_split(self):
         square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
-        self.write(
-            a_ply=models.ply(square, [(0, 1, 2), (0, 2, 3)]),
-            a_obj=models.obj(square, [(0, 1, 2, 3)]),
-        )
+        self.write(a_ply=models.ply(square, [(0, 1, 2), (0, 2, 3)]), a_obj=models.obj(square, [(0, 1, 2, 3)]))
         self.assertEqual(self.picture("a.obj"), self.picture("a.ply"))
 
     def test_a_statement_moves_every_part(self):
@@ -176,16 +171,11 @@ class Materials(Work):
         )
 
     def test_those_of_the_file_are_used_before_a_material_is_selected(self):
-        self.write(
-            defined_scn=CAMERA + DEFINES + "material red\nmesh red.ply\nmaterial shiny\nmesh shiny.ply\n"
-        )
+        self.write(defined_scn=CAMERA + DEFINES + "material red\nmesh red.ply\nmaterial shiny\nmesh shiny.ply\n")
         self.assertEqual(self.picture("own.scn"), self.picture("defined.scn"))
 
     def test_a_selected_material_takes_their_place(self):
-        self.write(
-            a_scn=CAMERA + "material 2\nmesh colors.obj\n",
-            b_scn=CAMERA + "material 2\nmesh whole.ply\n",
-        )
+        self.write(a_scn=CAMERA + "material 2\nmesh colors.obj\n", b_scn=CAMERA + "material 2\nmesh whole.ply\n")
         self.assertEqual(self.picture("a.scn"), self.picture("b.scn"))
 
     def test_material_own_brings_them_back(self):
@@ -337,9 +327,7 @@ class Hostile(Work):
         self.assertEqual(self.run_clrt("check", "a.stl").returncode, 1)
 
     def test_a_model_without_triangles_is_refused(self):
-        self.write(
-            a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False)
-        )
+        self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False))
         self.fails("a.obj: there are no triangles in it", "a.obj")
         self.fails("a.3mf: there are no triangles in it", "a.3mf")
 
@@ -350,4 +338,4 @@ class Hostile(Work):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(3 if EXPORT else 2)
