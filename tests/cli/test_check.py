@@ -24,7 +24,7 @@ SCENES = {
     "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
     "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n",
 }
-# Of each file the exit status and parts of the report.
+# Each file with its exit status and parts of its report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed",
                        "of its 10 edges and points: 0 hidden by other parts, 0 pass through", "\nfine\n"]),

@@ -150,7 +150,7 @@ class Causes(SharedWork):
     """Pictures with the channels that clrt compare finds causes by, each changed in one way."""
 
     def prepare(self):
-        scene = open(SCENE).read().replace("ply_file ", f"ply_file {ROOT}/scenes/")
+        scene = (ROOT / "scenes/reflections.scn").read_text().replace("ply_file ", f"ply_file {ROOT}/scenes/")
         self.write(
             scene_scn=scene, moved_scn=re.sub(r"(?m)^sphere \S+", "sphere 0.2", scene),
             light_scn=re.sub(r"(?m)^light (\S+)", lambda m: f"light {float(m[1]) + 0.7}", scene),

@@ -26,8 +26,7 @@ class Convert(Work):
 
     def expect_same_pictures(self, before, after, views):
         for view in range(1, views + 1):
-            words = ["--view", str(view), "-q"]
-            self.assertEqual(self.picture(before, *words), self.picture(after, *words), f"{before} {view}")
+            self.expect_same(before, after, "--view", str(view), "-q")
 
 
 class Scenes(Convert):

@@ -117,6 +117,10 @@ class Work(unittest.TestCase):
         self.assertEqual((done.stderr, done.returncode), (says, 0))
         return self.bytes_of("picture.pfm")
 
+    def expect_same(self, one, other, *words):
+        """Two scenes give the same picture."""
+        self.assertTrue(self.picture(one, *words) == self.picture(other, *words), (one, other, words))
+
     def refuses(self, code, sentence, *words, **environment):
         """clrt fails with the exit status and prints only that message."""
         self.assertEqual(self.clrt(*words, code=code, **environment), f"clrt: {sentence}\n", words)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
-// cli/test_cli.py.
+// cli/test_files.py.
 #include "image/png_file.h"
 
 #include "unit/cmocka_all.h"
