@@ -139,7 +139,8 @@ class BadGeometry(Meshes):
 
     def test_fail_draws_only_what_is_sound(self):
         words = ["-s", "8x8", "--bad-geometry", "fail", "-o"]
-        for name, fault in (("equal", "2 such, has two equal corners"), ("line", "1 such, has its corners on a line")):
+        for name, fault in (("equal", "2 such, has two equal corners"),
+                            ("line", "1 such, has its corners on a line")):
             self.refuses(3, f"{name}.ply: triangle 2, the first of {fault}", f"{name}.ply", *words, "c.pfm")
             self.assertFalse((self.work / "c.pfm").exists())
         self.clrt("closed.ply", *words, "d.pfm")

@@ -252,7 +252,6 @@ class Refusals(Resume):
             (["-o", "a.pfm", "--aa-adaptive"],
              "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as a "
              "whole: give --aa"),
-            (["-o", "a.pfm", "--repeat", "2"], "--repeat times whole pictures: leave out --resume"),
         ):
             self.refuses(2, sentence, *SMALL, "--resume", *words)
         os.mkfifo(self.work / "pipe.pfm")
