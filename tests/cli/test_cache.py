@@ -3,7 +3,6 @@
 # Whatever happens to the kernel cache, clrt draws the picture, or ends with status 4 and one message
 # and draws it the next time.
 # Usage: test_cache.py CLRT [TEST...]
-import pathlib
 import random
 import shutil
 import unittest

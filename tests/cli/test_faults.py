@@ -5,7 +5,6 @@
 # Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], as tests/cli/fail_memory.c
 # and fail_device.c are built
 import os
-import resource
 import sys
 import threading
 import unittest
