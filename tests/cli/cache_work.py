@@ -4,21 +4,19 @@
 import os
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
-import unittest
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
-# These kernels compile fastest.
+from work import SCENE, Work
+
+# Drawn by kernels that are compiled soonest.
 PICTURE = [SCENE, "-s", "48x32", "-q", "--kernel=ray", "--nodes=pair", "--specialize=never"]
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 
-# Each test gets a copy of a cache that contains PICTURE's kernels, and the expected picture.
-class CacheWork(unittest.TestCase):
+# Each test gets a copy of one cache in which PICTURE's kernels are compiled, and the picture.
+class CacheWork(Work):
+    compiled = expected = None
+
     @classmethod
     def setUpClass(cls):
         if CacheWork.compiled is None:
@@ -29,29 +27,26 @@ class CacheWork(unittest.TestCase):
             (made.work / "picture.pfm").unlink()
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
+        super().setUp()
         self.cache = self.work / "cache"
         shutil.copytree(CacheWork.compiled.name, self.cache)
 
-    compiled = expected = None
-
     def environment(self, **more):
-        kept = {key: value for key, value in os.environ.items() if key not in CHOSEN}
-        return {**kept, "XDG_CACHE_HOME": str(self.cache), **more}
+        return dict.fromkeys(CHOSEN) | {"XDG_CACHE_HOME": str(self.cache)} | more
 
-    def run_clrt(self, *words, before=(), more=None, **others):
+    def start_clrt(self, *words, **settings):
+        kept = {name: value for name, value in os.environ.items() if name not in CHOSEN}
+        return self.start(*words, env={**kept, "XDG_CACHE_HOME": str(self.cache)}, **settings)
+
+    def run_picture(self, *words, before=(), **more):
+        """Returns the exit status, standard error and the picture, if there is one."""
         picture = self.work / "picture.pfm"
         picture.unlink(missing_ok=True)
-        command = [*before, str(CLRT), *(words or PICTURE), "-o", str(picture)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120,
-                              env=self.environment(**(more or {})), **others)
-        bytes_written = picture.read_bytes() if picture.exists() else None
-        return done.returncode, done.stderr, bytes_written
+        done = self.run_clrt(*(words or PICTURE), "-o", picture, before=before, **self.environment(**more))
+        return done.returncode, done.stderr, picture.read_bytes() if picture.exists() else None
 
     def draw(self, *words, **more):
-        status, talk, picture = self.run_clrt(*words, **more)
+        status, talk, picture = self.run_picture(*words, **more)
         self.assertEqual((status, talk), (0, ""))
         return picture
 

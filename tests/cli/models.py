@@ -23,13 +23,8 @@ def knot(rings=24, sides=10):
         for side in range(sides):
             around = 2 * math.pi * side / sides
             far = wide + 0.4 * math.cos(around)
-            points.append(
-                (
-                    rounded(far * math.cos(2 * turn)),
-                    rounded(far * math.sin(2 * turn)),
-                    rounded(math.sin(3 * turn) + 0.4 * math.sin(around)),
-                )
-            )
+            point = far * math.cos(2 * turn), far * math.sin(2 * turn), math.sin(3 * turn) + 0.4 * math.sin(around)
+            points.append(tuple(rounded(value) for value in point))
     for ring in range(rings):
         for side in range(sides):
             a, b = ring * sides + side, ring * sides + (side + 1) % sides
@@ -88,11 +83,8 @@ def obj(points, triangles, head="", groups=None):
 
 
 def stl(points, triangles):
-    """Returns a binary STL file with wrong normals, like files of many programs."""
-    facets = b"".join(
-        struct.pack("<12fH", 0, 0, 1, *points[a], *points[b], *points[c], 0)
-        for a, b, c in triangles
-    )
+    """Binary, with normals that are wrong, as those of many programs are."""
+    facets = b"".join(struct.pack("<12fH", 0, 0, 1, *points[a], *points[b], *points[c], 0) for a, b, c in triangles)
     return b"\0" * 80 + struct.pack("<I", len(triangles)) + facets
 
 
@@ -114,36 +106,21 @@ def glb(points, triangles, normals=None, node=None, change=None):
     parts = [b"".join(struct.pack("<3I", *t) for t in triangles)]
     parts += [b"".join(struct.pack("<3f", *p) for p in v) for v in (points, normals) if v]
     low, high = _low_high(points)
-    accessors = [
-        {"bufferView": 0, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"},
-        {
-            "bufferView": 1,
-            "componentType": 5126,
-            "count": len(points),
-            "type": "VEC3",
-            "min": low,
-            "max": high,
-        },
-    ]
+    accessors = [{"bufferView": 0, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"},
+                 {"bufferView": 1, "componentType": 5126, "count": len(points), "type": "VEC3",
+                  "min": low, "max": high}]
     attributes = {"POSITION": 1}
     if normals:
-        accessors.append(
-            {"bufferView": 2, "componentType": 5126, "count": len(normals), "type": "VEC3"}
-        )
+        accessors.append({"bufferView": 2, "componentType": 5126, "count": len(normals), "type": "VEC3"})
         attributes["NORMAL"] = 2
     views, place = [], 0
     for part in parts:
         views.append({"buffer": 0, "byteOffset": place, "byteLength": len(part)})
         place += len(part)
     document = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, **(node or {})}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, **(node or {})}],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": 0}]}],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": place}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": place}],
     }
     if change:
         change(document)
@@ -151,13 +128,8 @@ def glb(points, triangles, normals=None, node=None, change=None):
     text += b" " * (-len(text) % 4)
     body = b"".join(parts)
     total = 12 + 8 + len(text) + 8 + len(body)
-    return (
-        struct.pack("<4sII", b"glTF", 2, total)
-        + struct.pack("<I4s", len(text), b"JSON")
-        + text
-        + struct.pack("<I4s", len(body), b"BIN\0")
-        + body
-    )
+    head = struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(text), b"JSON")
+    return head + text + struct.pack("<I4s", len(body), b"BIN\0") + body
 
 
 # %d is the number of the last corner.

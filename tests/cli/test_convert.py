@@ -10,10 +10,9 @@ import sys
 import unittest
 
 import models
-from work import Work
+from work import ROOT, Work, main
 
 ASSIMP = sys.argv[2] == "1"
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT.parent / "shared/course"))
 POINTS, TRIANGLES = models.knot()
 NORMALS = models.normals_of(POINTS)
@@ -27,10 +26,7 @@ class Convert(Work):
 
     def expect_same_pictures(self, before, after, views):
         for view in range(1, views + 1):
-            words = ["--view", str(view), "-q"]
-            self.assertEqual(
-                self.picture(before, *words), self.picture(after, *words), f"{before} {view}"
-            )
+            self.expect_same(before, after, "--view", str(view), "-q")
 
 
 class Scenes(Convert):
@@ -38,11 +34,8 @@ class Scenes(Convert):
         """Returns the scenes whose meshes exist, without large models, which take minutes."""
         for scene in sorted(ROOT.glob("scenes/*.scn")) + sorted(COURSE.glob("scenes/*.scn")):
             statements = [line.split() for line in scene.read_text(errors="replace").splitlines()]
-            meshes = [
-                scene.parent / words[1].strip('"')
-                for words in statements
-                if words and words[0] in ("mesh", "ply_file")
-            ]
+            meshes = [scene.parent / words[1].strip('"')
+                      for words in statements if words and words[0] in ("mesh", "ply_file")]
             if all(mesh.is_file() and mesh.stat().st_size < 4e6 for mesh in meshes):
                 yield scene
 
@@ -72,22 +65,16 @@ class Scenes(Convert):
         self.assertEqual(texts[0].replace("b-", "c-"), texts[1])
 
     def test_verbose_names_the_meshes(self):
-        self.converts(
-            ROOT / "scenes/cube.ply", "b.scn", "-v", says="b-1.ply: 10 triangles\n"
-        )
+        self.converts(ROOT / "scenes/cube.ply", "b.scn", "-v", says="b-1.ply: 10 triangles\n")
 
     def test_a_mesh_is_one_mesh_again(self):
         self.write(a_ply=models.ply(POINTS, TRIANGLES, NORMALS))
         self.converts("a.ply", "b.ply")
-        self.assertEqual(
-            (self.work / "a.ply").read_bytes(), (self.work / "b.ply").read_bytes()
-        )
+        self.assert_same_bytes("a.ply", "b.ply")
 
     def test_the_meshes_of_a_scene_become_one_where_they_are(self):
-        self.write(
-            a_ply=models.ply(POINTS, TRIANGLES),
-            a_scn="mesh a.ply scale 0.1\nmesh a.ply rotate 1 1 1 30\n",
-        )
+        self.write(a_ply=models.ply(POINTS, TRIANGLES),
+                   a_scn="mesh a.ply scale 0.1\nmesh a.ply rotate 1 1 1 30\n")
         losses = "materials, lights and cameras are left out, which PLY has no place for"
         self.converts("a.scn", "b.ply", says=f"clrt: b.ply: {losses}\n")
         self.write(b_scn="mesh b.ply\n")
@@ -95,57 +82,37 @@ class Scenes(Convert):
 
     def test_spheres_do_not_become_a_mesh(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        done = self.run_clrt("convert", "a.scn", "b.ply")
-        sentence = "clrt: a.scn: PLY has no place for its 1 spheres: convert it to .scn\n"
-        self.assertEqual((done.stderr, done.returncode), (sentence, 3))
+        self.refuses(3, "a.scn: PLY has no place for its 1 spheres: convert it to .scn",
+                     "convert", "a.scn", "b.ply")
         self.assertFalse((self.work / "b.ply").exists())
 
 
 class Refusals(Convert):
     def refuses(self, code, sentence, *words):
-        done = self.run_clrt("convert", *words)
-        self.assertEqual((done.stderr, done.returncode), (f"clrt: {sentence}\n", code))
+        super().refuses(code, sentence, "convert", *words)
 
     def test_other_endings_and_counts_of_files_are_usage(self):
         self.refuses(2, "clrt convert writes .scn and .ply, not 'b.obj'", "a.ply", "b.obj")
-        self.refuses(
-            2, "clrt convert wants the names of a scene or mesh and of the file to write", "a.ply"
-        )
+        self.refuses(2, "clrt convert wants the names of a scene or mesh and of the file to write", "a.ply")
         self.refuses(2, "clrt convert takes no --aa", "a.ply", "b.ply", "--aa")
-
-    def test_what_is_read_is_not_written_over(self):
-        content = models.ply(POINTS, TRIANGLES)
-        self.write(a_ply=content, a_scn="mesh a.ply\n")
-        same = "the output {} and {} are the same file: choose another name".format
-        self.refuses(5, same("a.ply", "the scene a.ply"), "a.ply", "a.ply")
-        self.refuses(5, same("a.scn", "the scene a.scn"), "a.scn", "a.scn")
-        os.link(self.work / "a.ply", self.work / "b-1.ply")
-        self.refuses(5, same("b-1.ply", "the scene's file a.ply"), "a.scn", "b.scn")
-        self.assertEqual((self.work / "a.ply").read_bytes(), content)
 
     def test_a_full_disk_is_one_sentence(self):
         self.write(a_ply=models.ply(POINTS, TRIANGLES))
         (self.work / "b.ply").symlink_to("/dev/full")
         (self.work / "c.scn").symlink_to("/dev/full")
         for name in ("b.ply", "c.scn"):
-            sentence = f"{name}: cannot be written: No space left on device"
-            self.refuses(5, sentence, "a.ply", name)
-        self.refuses(
-            5, "none/b.ply: cannot be written: No such file or directory", "a.ply", "none/b.ply"
-        )
+            self.refuses(5, f"{name}: cannot be written: No space left on device", "a.ply", name)
+        self.refuses(5, "none/b.ply: cannot be written: No such file or directory", "a.ply", "none/b.ply")
 
     def test_a_scene_that_is_wrong_is_exit_3_and_writes_nothing(self):
         self.write(a_scn="mesh none.ply\n")
-        self.assertEqual(self.run_clrt("convert", "a.scn", "b.scn").returncode, 3)
+        self.clrt("convert", "a.scn", "b.scn", code=3)
         self.assertEqual(sorted(file.name for file in self.work.iterdir()), ["a.scn"])
 
     def test_bad_geometry_is_refused_where_that_is_asked_for(self):
         self.write(a_ply=models.ply([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
-        self.refuses(
-            3,
-            "a.ply: triangle 0, the first of 1 such, has its corners on a line",
-            *("a.ply", "b.ply", "--bad-geometry", "fail"),
-        )
+        self.refuses(3, "a.ply: triangle 0, the first of 1 such, has its corners on a line",
+                     "a.ply", "b.ply", "--bad-geometry", "fail")
 
 
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
@@ -153,11 +120,8 @@ class Models(Convert):
     def test_models_in_any_format_give_the_same_pictures(self):
         coarse = models.coarse(POINTS)
         node = {"translation": [0.1, 0.2, 0.3], "rotation": [0.5, 0.5, 0.5, 0.5]}
-        self.write(
-            a_stl=models.stl(POINTS, TRIANGLES),
-            b_glb=models.glb(POINTS, TRIANGLES, NORMALS, node),
-            c_obj=models.obj(coarse, TRIANGLES),
-        )
+        self.write(a_stl=models.stl(POINTS, TRIANGLES), c_obj=models.obj(coarse, TRIANGLES),
+                   b_glb=models.glb(POINTS, TRIANGLES, NORMALS, node))
         for name in ("a.stl", "b.glb", "c.obj"):
             self.converts(name, "out.ply")
             self.converts(name, "out.scn")
@@ -210,4 +174,4 @@ class Models(Convert):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(2)

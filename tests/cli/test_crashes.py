@@ -9,19 +9,19 @@ import pathlib
 import platform
 import shutil
 import signal
-import subprocess
 import sys
 import time
 import unittest
 
-from cache_work import CLRT, PICTURE, ROOT, CacheWork
+from cache_work import PICTURE, CacheWork
+from work import ROOT, main
 
-CRASH_DEVICE = pathlib.Path(sys.argv[2]).resolve()
+CRASH_DEVICE = os.path.abspath(sys.argv[2])
 
 
 class Crashes(CacheWork):
     def crash(self, kind):
-        return self.run_clrt(more={"LD_PRELOAD": str(CRASH_DEVICE), "CLRT_CRASH": kind})
+        return self.run_picture(LD_PRELOAD=CRASH_DEVICE, CLRT_CRASH=kind)
 
     def test_a_driver_that_crashes_is_told(self):
         crashes = itertools.product(("abort", "segv", "bus", "ill"), ("", "-thread", "-two"))
@@ -44,18 +44,15 @@ class Crashes(CacheWork):
         for blocks in (100, 400):
             shutil.rmtree(self.cache / "clrt")
             limit = ["sh", "-c", f'ulimit -f {blocks} && exec "$@"', "sh"]
-            status, talk, _ = self.run_clrt(before=limit)
+            status, talk, _ = self.run_picture(before=limit)
             self.assertEqual(status, 4, talk)
             self.assertEqual(talk.count("clrt: "), 1, talk)
             self.assertEqual(self.draw(), self.expected)
 
     def test_kernels_damaged_while_they_run_are_told(self):
-        large = [*PICTURE, "-s", "2000x2000", "--aa=4"]
-        command = [str(CLRT), *large, "-o", str(self.work / "large.pfm")]
-        running = subprocess.Popen(command, env=self.environment(), stderr=subprocess.PIPE, text=True)
+        running = self.start_clrt(*PICTURE, "-s", "2000x2000", "--aa=4", "-o", "large.pfm")
         maps = pathlib.Path(f"/proc/{running.pid}/maps")
-        while not any(str(path) in maps.read_text() for path in self.kernels()):
-            time.sleep(0.01)
+        self.wait_for(lambda: any(str(path) in maps.read_text() for path in self.kernels()))
         for path in self.kernels():
             os.truncate(path, 0)
         talk = running.communicate()[1]
@@ -63,9 +60,9 @@ class Crashes(CacheWork):
         self.assertEqual(self.draw(), self.expected)
 
     def test_a_signal_that_is_sent_is_no_crash(self):
-        command = [str(CLRT), *PICTURE, "-s", "4000x4000", "--aa=4", "-o", "/dev/null", "--format=pfm"]
+        words = [*PICTURE, "-s", "4000x4000", "--aa=4", "-o", "/dev/null", "--format=pfm"]
         for number in (signal.SIGABRT, signal.SIGKILL):
-            running = subprocess.Popen(command, env=self.environment())
+            running = self.start_clrt(*words)
             time.sleep(0.3)
             running.send_signal(number)
             self.assertEqual(running.wait(), -number)
@@ -75,10 +72,9 @@ class Crashes(CacheWork):
         shutil.rmtree(self.cache / "clrt")
         self.assertEqual(self.draw(before=small), self.expected)
         self.assertEqual(self.draw(*PICTURE[:4], before=small), self.expected)
-        command = [*small, str(CLRT), "check", str(ROOT / "scenes/cone.ply")]
-        done = subprocess.run(command, env=self.environment(), capture_output=True)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        done = self.run_clrt("check", ROOT / "scenes/cone.ply", before=small, **self.environment())
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    main(2)

@@ -7,15 +7,14 @@ import hashlib
 import json
 import pathlib
 import re
-import struct
 import subprocess
-import sys
 import tempfile
 import unittest
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
+from models import ply
+from pictures import pfm
+from work import CLRT, ROOT, SCENE, main
+
 PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 # With "auto", the cache would decide whether the kernels are specialized.
 PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
@@ -107,22 +106,13 @@ def observe_words(words):
     """Returns all visible effects of a run in its own folder, without times."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / FLAT).write_text(
-            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-            "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
-            "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n"
-        )
+        (folder / FLAT).write_bytes(ply([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)]))
         for color, value in ("black", 0), ("white", 1):
-            pixel = struct.pack("<3f", *[value] * 3)
-            (folder / f"{color}.pfm").write_bytes(b"PF\n1 1\n-1.0\n" + pixel)
+            (folder / f"{color}.pfm").write_bytes(pfm([value] * 3))
         done = subprocess.run([CLRT, *words], cwd=folder, capture_output=True, timeout=300)
         streams = [re.sub(rb"\d+\.\d+ s", b"", stream) for stream in (done.stdout, done.stderr)]
-        files = {
-            file.name: statistics(file)
-            if file.suffix == ".json"
-            else hashlib.sha256(file.read_bytes()).hexdigest()
-            for file in sorted(folder.iterdir())
-        }
+        files = {file.name: statistics(file) if file.suffix == ".json"
+                 else hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(folder.iterdir())}
         return done.returncode, streams, files
 
 
@@ -153,4 +143,4 @@ for trial, (without_option, with_option) in TRIALS.items():
     add_trial(trial, without_option, with_option)
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(1)

@@ -5,67 +5,34 @@
 # partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], with the
 # libraries of tests/cli/fail_memory.c and fail_device.c
 import os
-import pathlib
-import resource
-import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
-FORMATS = sys.argv[2].split(", ")
-FAIL_MEMORY, FAIL_DEVICE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
-# In every format, this picture exceeds DISK_SIZE. Its kernels do not depend on the cache.
+from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
+
+FAIL_MEMORY, FAIL_DEVICE = (os.path.abspath(word) for word in sys.argv[3:5])
+# In every format more than a disk holds here; with kernels that are the same each time.
 LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
 DISK_SIZE = 8192
 
 
-def has_private_disks():
-    command = ["unshare", "-m", "mount", "-t", "tmpfs", "clrt-test", "/mnt"]
-    try:
-        return subprocess.run(command, capture_output=True).returncode == 0
-    except FileNotFoundError:
-        return False
-
-
-class Faults(unittest.TestCase):
+class Faults(Work):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
+        super().setUp()
         self.target = self.work / "target"
         self.target.mkdir()
 
-    def run_command(self, command, **more):
-        environment = dict(os.environ, **more.pop("environment", {}))
-        return subprocess.run(
-            command,
-            cwd=self.work,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            env=environment,
-            timeout=120,
-            **more,
-        )
-
-    def clrt(self, *words, **more):
-        return self.run_command([CLRT, *words], **more)
-
-    # Runs clrt with a disk at target that only this process sees. Afterwards lists the disk's files
-    # on standard output.
+    # On a disk of its own, mounted at target for that one process, whose listing follows.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \
             ls -A target; exit $code'
         size, mode = options
-        words = ["unshare", "-m", "sh", "-c", script, "sh", f"size={size}", mode, CLRT, *words]
-        return self.run_command(words)
+        return self.run_clrt(*words, before=["unshare", "-m", "sh", "-c", script, "sh", f"size={size}", mode])
 
     def assert_fails(self, run, status, sentence):
-        text = run.stderr.decode()
+        text = run.stderr
         self.assertEqual(run.returncode, status, text)
         self.assertEqual(text.count("\n"), 1, text)
         self.assertRegex(text, "^clrt: " + sentence)
@@ -77,18 +44,18 @@ class Disks(Faults):
         for format in FORMATS:
             run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "-o", f"target/a.{format}")
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
-            self.assertEqual(run.stdout, b"old\n")
+            self.assertEqual(run.stdout, "old\n")
 
     def test_a_full_disk_keeps_the_picture_that_was_there(self):
         run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "--format", "png", "-o", "target/old")
         self.assert_fails(run, 5, "target/old: cannot be written: No space left on device")
-        self.assertEqual(run.stdout, b"old\n")
+        self.assertEqual(run.stdout, "old\n")
 
     def test_a_full_disk_keeps_no_part_of_a_report(self):
         words = [SCENE, "-s", "8x8", "-q", "-o", "a.pfm", "--stats=target/a.json"]
         run = self.clrt_on_disk((os.sysconf("SC_PAGE_SIZE"), "rw"), *words)
         self.assert_fails(run, 5, "target/a.json: cannot be written: No space left on device")
-        self.assertEqual(run.stdout, b"old\n")
+        self.assertEqual(run.stdout, "old\n")
 
     def test_a_disk_for_reading_alone_is_told_before_any_work(self):
         run = self.clrt_on_disk((DISK_SIZE, "ro"), "nowhere.scn", "-o", "target/a.png")
@@ -97,21 +64,19 @@ class Disks(Faults):
 
 class Outputs(Faults):
     def test_a_file_past_the_limit_of_its_size_is_told_and_removed(self):
-        def limit():
-            # In each run, PoCL writes preprocessed kernels of a little more than 1 MiB.
-            resource.setrlimit(resource.RLIMIT_FSIZE, (5 << 18, 5 << 18))
-
+        # PoCL writes preprocessed kernels of somewhat more than a MiB in each run.
+        limit = ["prlimit", f"--fsize={5 << 18}"]
         large = [*LARGE, "-s", "800x600"]
         for format in {"pfm", "ppm"} & set(FORMATS):
-            self.clrt(*large, "-o", "warm." + format)  # also writes the compiled kernels
-            run = self.clrt(*large, "-o", f"target/a.{format}", preexec_fn=limit)
+            self.run_clrt(*large, "-o", "warm." + format)  # compiled kernels are files too
+            run = self.run_clrt(*large, "-o", f"target/a.{format}", before=limit)
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
             self.assertEqual(os.listdir(self.target), [])
 
     def test_a_folder_is_no_output(self):
         (self.target / "a.pfm").mkdir()
         for words in (["-o", "target/a.pfm"], ["-o", "a.png", "--reference=target/a.pfm"]):
-            run = self.clrt("nowhere.scn", *words)
+            run = self.run_clrt("nowhere.scn", *words)
             self.assert_fails(run, 5, "target/a.pfm: cannot be written: it is a folder")
 
 
@@ -132,8 +97,7 @@ class Inputs(Faults):
         writer = threading.Thread(target=change)
         writer.start()
         try:
-            no_device = {"OCL_ICD_VENDORS": "/nonexistent"}
-            runs = [self.clrt("check", "mesh.ply", environment=no_device) for _ in range(40)]
+            runs = [self.run_clrt("check", "mesh.ply", **NO_OPENCL) for _ in range(40)]
         finally:
             done.set()
             writer.join()
@@ -147,9 +111,7 @@ class Device(Faults):
     TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
 
     def fail(self, name, call, *words):
-        environment = {"LD_PRELOAD": str(FAIL_DEVICE), "CLRT_FAIL_NAME": name,
-                       "CLRT_FAIL_CALL": str(call)}
-        return self.clrt(*words, environment=environment)
+        return self.run_clrt(*words, LD_PRELOAD=FAIL_DEVICE, CLRT_FAIL_NAME=name, CLRT_FAIL_CALL=str(call))
 
     def count_failures(self, name, sentence, *words):
         for call in range(1, 1000):
@@ -178,10 +140,9 @@ class Device(Faults):
         words = [*self.TILES, "-o", "a.pfm", "--resume"]
         self.clrt(*self.TILES, "-o", "whole.pfm")
         self.assert_fails(self.fail("clWaitForEvents", 9, *words), 4, "cannot trace a tile: ")
-        talk = self.clrt(*words[:5], *words[6:], "-v").stderr.decode()
+        talk = self.run_clrt(*words[:5], *words[6:], "-v").stderr
         self.assertIn("resumed: 8 of 12 tiles are there", talk)
-        pictures = [(self.work / name).read_bytes() for name in ("a.pfm", "whole.pfm")]
-        self.assertTrue(pictures[0] == pictures[1])
+        self.assert_same_bytes("a.pfm", "whole.pfm")
 
 
 class Memory(Faults):
@@ -190,8 +151,7 @@ class Memory(Faults):
     def count_failures(self, *words):
         first, failures = 1, 0
         while True:
-            environment = {"LD_PRELOAD": str(FAIL_MEMORY), "CLRT_FAIL_MEMORY": str(first)}
-            run = self.clrt(*words, environment=environment)
+            run = self.run_clrt(*words, LD_PRELOAD=FAIL_MEMORY, CLRT_FAIL_MEMORY=str(first))
             if run.returncode == 0:
                 return failures
             self.assertIn(run.returncode, (3, 4, 5), f"{first}: {run.stderr}")
@@ -215,4 +175,4 @@ class Memory(Faults):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[5:])
+    main(4)

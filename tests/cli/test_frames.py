@@ -3,19 +3,11 @@
 # Tests runs with many pictures. Each numbered file must equal the picture that is drawn alone.
 # Usage: test_frames.py CLRT FORMATS
 import json
-import pathlib
 import signal
-import subprocess
-import sys
-import time
-import unittest
 
-from read_exr import read_exr, read_header
-from work import CLRT, Work
+from pictures import read_exr, read_header
+from work import SCENE, Work, main, needs_exr
 
-HAS_EXR = "exr" in sys.argv[2]
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
 SMALL = [SCENE, "-s", "32x24"]
 TURNED = [(5, 0, 2), (0, 5, 2), (-5, 0, 2), (0, -5, 2)]
 
@@ -30,24 +22,23 @@ class Frames(Work):
             self.assertEqual(self.names(".png"), ["a.0001.png", "a.0003.png", "a.0005.png"])
             for view in "1", "3", "5":
                 self.clrt(*SMALL, *more, "--view", view, "-o", "one.png")
-                self.assertTrue(self.bytes_of(f"a.000{view}.png") == self.bytes_of("one.png"), (view, more))
+                self.assert_same_bytes(f"a.000{view}.png", "one.png", more)
                 (self.work / f"a.000{view}.png").unlink()
             (self.work / "one.png").unlink()
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_channels_are_each_frame_s_own(self):
         words = [*SMALL, "--bvh", "sah", "--aov", "depth,normal,samples,certainty", "--reference-samples", "2"]
         self.clrt(*words, "--frames", "2-4", "-o", "a.exr")
         for view in "2", "3", "4":
             self.clrt(*words, "--view", view, "-o", "one.exr")
-            self.assertTrue(self.bytes_of(f"a.000{view}.exr") == self.bytes_of("one.exr"), view)
+            self.assert_same_bytes(f"a.000{view}.exr", "one.exr")
 
     def test_a_turntable_turns_the_eye_about_what_it_looks_at(self):
         scene = "light 3 2 8 1\nsphere 0 0 0 1\nsphere 1 1 0 0.5\n"
         look = "0 0 0.5 45\n"
-        (self.work / "turn.scn").write_text(f"{scene}camera 5 0 2 {look}")
         cameras = "".join(f"camera {x} {y} {z} {look}" for x, y, z in TURNED)
-        (self.work / "views.scn").write_text(scene + cameras)
+        self.write(turn_scn=f"{scene}camera 5 0 2 {look}", views_scn=scene + cameras)
         for name, words in (("turn", ["--turntable", "4"]), ("views", ["--frames", "1-4"])):
             self.clrt(f"{name}.scn", "-s", "40x30", *words, "-o", f"{name}.pfm")
         pictures = [self.bytes_of(f"turn.000{number}.pfm") for number in range(1, 5)]
@@ -58,7 +49,7 @@ class Frames(Work):
     def test_the_first_of_a_turntable_is_the_view_itself(self):
         self.clrt(*SMALL, "--turntable", "7", "--frames", "1-1", "--view", "3", "-o", "a.png")
         self.clrt(*SMALL, "--view", "3", "-o", "one.png")
-        self.assertTrue(self.bytes_of("a.0001.png") == self.bytes_of("one.png"))
+        self.assert_same_bytes("a.0001.png", "one.png")
 
     def test_named_frames_of_a_turntable_are_those_of_the_whole_turn(self):
         hashes = self.clrt(*SMALL, "--turntable", "6", "-o", "all.pfm", "--hash").split()
@@ -85,13 +76,11 @@ class Frames(Work):
         self.clrt(*SMALL, "-o", "g##.pfm")
         self.assertEqual(self.names(".pfm"), ["g##.pfm"])
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_a_signal_ends_the_series_with_the_picture_it_meets(self):
         words = [SCENE, "-s", "400x300", "--aa=16", "--tile", "400x20", "-j", "1", "--turntable", "99"]
-        process = subprocess.Popen([CLRT, *words, "-q", "-o", "a.exr"], cwd=self.work)
-        end = time.monotonic() + 200
-        while not (self.work / "a.0001.exr").exists() and time.monotonic() < end:
-            time.sleep(0.002)
+        process = self.start(*words, "-q", "-o", "a.exr")
+        self.wait_for((self.work / "a.0001.exr").exists)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=200), 128 + signal.SIGINT)
         *whole, last = self.names(".exr")
@@ -112,18 +101,16 @@ class Frames(Work):
             (["-o", "a.pfm", "--expect-hash", 32 * "0"], many + "--expect-hash is of one"),
             (["-o", "a.pfm", "--resume"],
              many + "--resume is of one: name those that are missing by --frames"),
-            (["-o", "a.pfm", "--view", "2"], "--frames names the views: leave out --view"),
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
         ):
-            self.assertEqual(self.clrt(*SMALL, "--frames", "1-2", *words, code=2), f"clrt: {sentence}\n")
-        self.assertEqual(self.clrt(*SMALL, "--frames", "5-7", "-o", "a.pfm", code=3),
-                         f"clrt: {SCENE} has 6 viewpoints, so there is no view 7\n")
+            self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)
+        self.refuses(3, f"{SCENE} has 6 viewpoints, so there is no view 7", *SMALL, "--frames", "5-7", "-o", "a.pfm")
 
     def test_what_is_no_range_is_refused(self):
         for value in "3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-":
-            self.assertEqual(self.clrt(*SMALL, "-o", "a.pfm", f"--frames={value}", code=2),
-                             f"clrt: --frames wants A-B or A-B:S, from 1 to 1000000, not '{value}'\n")
+            self.refuses(2, f"--frames wants A-B or A-B:S, from 1 to 1000000, not '{value}'",
+                         *SMALL, "-o", "a.pfm", f"--frames={value}")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    main(2)

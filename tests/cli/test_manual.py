@@ -8,21 +8,18 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import shells
+from work import CLRT, ROOT, Work, main
 
-CLRT, MANUAL = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+MANUAL = pathlib.Path(sys.argv[2])
 PAGES = [MANUAL / "clrt.1", ROOT / "tools/manual/clrt-scene.5"]
 ENTRY = re.compile(r"^  (?:-(\w), |    )--([a-z-]+)(\[=\S+\]| \S+)?", re.MULTILINE)
 
 
 def run(*words, **settings):
-    return subprocess.run(
-        [str(word) for word in words], capture_output=True, text=True, check=True, **settings
-    )
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True, **settings)
 
 
 def read_page(page):
@@ -37,7 +34,7 @@ OPTIONS = ENTRY.findall(HELP)
 COMMANDS = re.findall(r"^  ([a-z]+) [A-Z]", HELP, re.MULTILINE)
 
 
-class Pages(unittest.TestCase):
+class Pages(Work):
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_pages_are_set_without_a_warning(self):
         for page in PAGES:
@@ -47,9 +44,7 @@ class Pages(unittest.TestCase):
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_mandoc_has_nothing_to_warn_of(self):
         for page in PAGES:
-            done = subprocess.run(
-                ["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True
-            )
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True)
             self.assertEqual((done.stdout, done.returncode), ("", 0))
 
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
@@ -108,20 +103,15 @@ class Pages(unittest.TestCase):
     def test_the_scene_of_the_page_is_drawn(self):
         text = PAGES[1].read_text()
         scene = re.search(r"\.Bd -literal.*?\n(.*?)\.Ed", text, re.DOTALL)[1]
-        with tempfile.TemporaryDirectory() as work:
-            file = pathlib.Path(work, "a.scn")
-            file.write_text(scene)
-            done = run(CLRT, file, "-s", "16x12", "-o", f"{work}/a.pfm", "-q")
-            self.assertEqual(done.stderr, "")
+        self.write(a_scn=scene)
+        done = self.run_clrt("a.scn", "-s", "16x12", "-o", "a.pfm", "-q")
+        self.assertEqual((done.stderr, done.returncode), ("", 0))
 
 
-class Completions(unittest.TestCase):
+class Completions(Work):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = folder.name
-        for name in ("room.scn", "bunny.ply", "notes.txt"):
-            pathlib.Path(self.work, name).touch()
+        super().setUp()
+        self.write(room_scn="", bunny_ply="", notes_txt="")
 
     def offered(self, shell, line):
         return shells.complete(shell, MANUAL, line, self.work)
@@ -174,4 +164,4 @@ def add_tests():
 
 add_tests()
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(2)

@@ -3,15 +3,11 @@
 # Tests that no output replaces an input or another output, for all kinds of names and links. Usage:
 # test_overwriting.py CLRT FORMATS
 import os
-import pathlib
 import subprocess
-import sys
-import unittest
 
 import models
-from work import CLRT, Work
+from work import CLRT, Work, main, needs_exr
 
-HAS_EXR = "exr" in sys.argv[2]
 SCENE = "size 8 6\nlight 5 -7 8 1\ncamera 3 -7 4 0 0 0 40\nmaterial 1\nmesh a.ply\nsphere 0 0 0 1\n"
 MESH = models.ply([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
 
@@ -24,9 +20,8 @@ class Overwriting(Work):
     def contents(self):
         return {file.name: file.read_bytes() for file in self.work.iterdir() if file.is_file()}
 
-    def refuses(self, one, other, *words, **settings):
-        """Expects that one message names both files, which are the same, and that no file in the
-        folder changes."""
+    def refuses_files(self, one, other, *words, **settings):
+        """Two files are one: a sentence names both, and no file in the folder changes."""
         before = self.contents()
         done = subprocess.run([CLRT, *words], cwd=self.work, stderr=subprocess.PIPE, text=True, timeout=300,
                               **{"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, **settings})
@@ -35,7 +30,7 @@ class Overwriting(Work):
         self.assertEqual(self.contents(), before, words)
 
     def accepts(self, *words):
-        done = subprocess.run([CLRT, *words], cwd=self.work, capture_output=True, timeout=300)
+        done = self.run_clrt(*words, content=b"")
         self.assertEqual((done.stderr, done.returncode), (b"", 0), words)
 
 
@@ -43,26 +38,26 @@ class Pictures(Overwriting):
     def test_the_scene_is_kept(self):
         for words in (["-o", "a.scn", "--format", "png"], ["-o", "./a.scn", "--format", "pfm"],
                       ["-o", str(self.work / "a.scn"), "--format", "pfm"]):
-            self.refuses(f"-o {words[1]}", "the scene a.scn", "a.scn", *words)
+            self.refuses_files(f"-o {words[1]}", "the scene a.scn", "a.scn", *words)
         picture = ["a.scn", "-o", "a.pfm"]
-        self.refuses("--stats=a.scn", "the scene a.scn", *picture, "--stats=a.scn")
+        self.refuses_files("--stats=a.scn", "the scene a.scn", *picture, "--stats=a.scn")
         self.write(b_png=SCENE)
-        self.refuses("--reference=b.png", "the scene b.png", "b.png", "-o", "a.pfm", "--reference=b.png")
+        self.refuses_files("--reference=b.png", "the scene b.png", "b.png", "-o", "a.pfm", "--reference=b.png")
 
     def test_the_scenes_meshes_are_kept(self):
         for words in (["-o", "a.ply", "--format", "pfm"], ["-o", "a.pfm", "--stats=a.ply"]):
             name = words[1] if words[1] == "a.ply" else "a.ply"
             option = "-o " if words[1] == "a.ply" else "--stats="
-            self.refuses(option + name, "the scene's file a.ply", "a.scn", *words)
-        self.refuses("-o a.ply", "the scene a.ply", "a.ply", "-o", "a.ply", "--format", "pfm")
+            self.refuses_files(option + name, "the scene's file a.ply", "a.scn", *words)
+        self.refuses_files("-o a.ply", "the scene a.ply", "a.ply", "-o", "a.ply", "--format", "pfm")
 
     def test_outputs_keep_each_other(self):
         for there in False, True:
             if there:
                 self.write(a_png="an earlier picture")
-            self.refuses("--stats=a.png", "-o a.png", "a.scn", "-o", "a.png", "--stats=a.png")
-            self.refuses("--reference=a.png", "-o a.png", "a.scn", "-o", "a.png", "--reference=a.png")
-            self.refuses("--stats=./b.png", "--reference=b.png",
+            self.refuses_files("--stats=a.png", "-o a.png", "a.scn", "-o", "a.png", "--stats=a.png")
+            self.refuses_files("--reference=a.png", "-o a.png", "a.scn", "-o", "a.png", "--reference=a.png")
+            self.refuses_files("--stats=./b.png", "--reference=b.png",
                          "a.scn", "-o", "a.png", "--reference=b.png", "--stats=./b.png")
 
     def test_links_lead_to_the_same_file(self):
@@ -71,36 +66,36 @@ class Pictures(Overwriting):
         (self.work / "nothing.pfm").symlink_to("new.pfm")
         (self.work / "chain.pfm").symlink_to("nothing.pfm")
         (self.work / "here").symlink_to(".")
-        self.refuses("-o soft.pfm", "the scene a.scn", "a.scn", "-o", "soft.pfm")
-        self.refuses("-o hard.pfm", "the scene a.scn", "a.scn", "-o", "hard.pfm")
-        self.refuses("-o a.scn", "the scene soft.pfm", "soft.pfm", "-o", "a.scn", "--format", "pfm")
+        self.refuses_files("-o soft.pfm", "the scene a.scn", "a.scn", "-o", "soft.pfm")
+        self.refuses_files("-o hard.pfm", "the scene a.scn", "a.scn", "-o", "hard.pfm")
+        self.refuses_files("-o a.scn", "the scene soft.pfm", "soft.pfm", "-o", "a.scn", "--format", "pfm")
         for new in "new.pfm", "here/new.pfm", "nothing.pfm":
-            self.refuses(f"--stats={new}", "-o chain.pfm", "a.scn", "-o", "chain.pfm", f"--stats={new}")
+            self.refuses_files(f"--stats={new}", "-o chain.pfm", "a.scn", "-o", "chain.pfm", f"--stats={new}")
 
     def test_every_frame_counts(self):
         self.write(turn_0002_png=SCENE)
         os.rename(self.work / "turn_0002.png", self.work / "turn.0002.png")
-        self.refuses("-o turn.0002.png", "the scene turn.0002.png",
+        self.refuses_files("-o turn.0002.png", "the scene turn.0002.png",
                      "turn.0002.png", "-o", "turn.png", "--turntable", "3")
         os.link(self.work / "a.ply", self.work / "view3.png")
-        self.refuses("-o view3.png", "the scene's file a.ply",
+        self.refuses_files("-o view3.png", "the scene's file a.ply",
                      "a.scn", "-o", "view#.png", "--turntable", "9", "--frames", "1-9:2")
         for name in "old.0001.png", "old.0003.png":
             (self.work / name).symlink_to("one.png")
-        self.refuses("-o old.0003.png", "-o old.0001.png", "a.scn", "-o", "old.png", "--turntable", "3")
+        self.refuses_files("-o old.0003.png", "-o old.0001.png", "a.scn", "-o", "old.png", "--turntable", "3")
 
     def test_the_journal_counts(self):
-        self.refuses("the journal a.pfm.part", "--stats=a.pfm.part",
+        self.refuses_files("the journal a.pfm.part", "--stats=a.pfm.part",
                      "a.scn", "-o", "a.pfm", "--resume", "--stats=a.pfm.part")
         os.link(self.work / "a.ply", self.work / "b.pfm.part")
-        self.refuses("the journal b.pfm.part", "the scene's file a.ply", "a.scn", "-o", "b.pfm", "--resume")
+        self.refuses_files("the journal b.pfm.part", "the scene's file a.ply", "a.scn", "-o", "b.pfm", "--resume")
 
     def test_standard_streams_count_where_they_are_files(self):
         with open(self.work / "a.scn") as scene:
-            self.refuses("-o a.scn", "the scene -", "-", "-o", "a.scn", "--format", "pfm", stdin=scene)
+            self.refuses_files("-o a.scn", "the scene -", "-", "-o", "a.scn", "--format", "pfm", stdin=scene)
         for name in "-", "/dev/stdout":
             with open(self.work / "a.ply", "a") as mesh:
-                self.refuses(f"-o {name}", "the scene's file a.ply",
+                self.refuses_files(f"-o {name}", "the scene's file a.ply",
                              "a.scn", "-o", name, "--format", "pfm", stdout=mesh)
 
     def test_devices_and_pipes_may_coincide(self):
@@ -112,43 +107,46 @@ class Pictures(Overwriting):
         self.write(b_scn=SCENE)
         self.accepts("a.scn", "-o", "a.pfm", "--stats=inner/a.pfm")
         self.accepts("a.scn", "-o", "b.scn", "--format", "pfm")
-        self.assertEqual(self.clrt("a.scn", "-o", "no/a.pfm", "--stats=none/a.pfm", code=5),
-                         "clrt: no/a.pfm: cannot be written: No such file or directory\n")
+        self.refuses(5, "no/a.pfm: cannot be written: No such file or directory",
+                     "a.scn", "-o", "no/a.pfm", "--stats=none/a.pfm")
 
     def test_a_mesh_that_is_not_there_is_told_first(self):
-        told = self.clrt("none.scn", "-o", "none.scn", "--format", "pfm", code=3)
-        self.assertEqual(told, "clrt: none.scn: cannot be opened: No such file or directory\n")
+        self.refuses(3, "none.scn: cannot be opened: No such file or directory",
+                     "none.scn", "-o", "none.scn", "--format", "pfm")
 
 
 class Reports(Overwriting):
     def test_explanations_and_checks_keep_what_they_read(self):
         for words in (["check", "a.scn"], ["a.scn", "--explain"], ["a.scn", "--explain-pixel", "1,1"]):
-            self.refuses("--json=a.scn", "the scene a.scn", *words, "--json=a.scn")
-            self.refuses("--json=a.ply", "the scene's file a.ply", *words, "--json=a.ply")
+            self.refuses_files("--json=a.scn", "the scene a.scn", *words, "--json=a.scn")
+            self.refuses_files("--json=a.ply", "the scene's file a.ply", *words, "--json=a.ply")
 
     def test_compare_keeps_its_pictures(self):
         for name in "a.pfm", "b.pfm":
             self.accepts("a.scn", "-o", name)
         both = ["compare", "a.pfm", "b.pfm"]
         for name in "a.pfm", "b.pfm":
-            self.refuses(f"-o {name}", f"the picture {name}", *both, "-o", name)
-            self.refuses(f"--json={name}", f"the picture {name}", *both, f"--json={name}")
-        self.refuses("--json=c.pfm", "-o c.pfm", *both, "-o", "c.pfm", "--json=c.pfm")
+            self.refuses_files(f"-o {name}", f"the picture {name}", *both, "-o", name)
+            self.refuses_files(f"--json={name}", f"the picture {name}", *both, f"--json={name}")
+        self.refuses_files("--json=c.pfm", "-o c.pfm", *both, "-o", "c.pfm", "--json=c.pfm")
         self.assertEqual(self.run_clrt("compare", "a.pfm", "a.pfm").returncode, 0)
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_merge_keeps_its_parts(self):
         for part in 1, 2:
             self.accepts("a.scn", "--tile", "4x4", "--part", f"{part}/2", "-o", f"p{part}.exr")
         for name in "p1.exr", "p2.exr":
-            self.refuses(f"-o {name}", f"the part {name}", "merge", "p2.exr", "p1.exr", "-o", name)
+            self.refuses_files(f"-o {name}", f"the part {name}", "merge", "p2.exr", "p1.exr", "-o", name)
 
     def test_convert_keeps_what_it_reads_and_writes(self):
-        self.refuses("the output a.scn", "the scene a.scn", "convert", "a.scn", "a.scn")
-        self.refuses("the output a.ply", "the scene's file a.ply", "convert", "a.scn", "a.ply")
+        self.refuses_files("the output a.scn", "the scene a.scn", "convert", "a.scn", "a.scn")
+        self.refuses_files("the output a.ply", "the scene's file a.ply", "convert", "a.scn", "a.ply")
+        os.link(self.work / "a.ply", self.work / "c-1.ply")
+        self.refuses_files("the output c-1.ply", "the scene's file a.ply", "convert", "a.scn", "c.scn")
+        self.refuses_files("the output a.ply", "the scene a.ply", "convert", "a.ply", "a.ply")
         (self.work / "b.scn").symlink_to("b-1.ply")
-        self.refuses("the output b-1.ply", "the output b.scn", "convert", "a.ply", "b.scn")
+        self.refuses_files("the output b-1.ply", "the output b.scn", "convert", "a.ply", "b.scn")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(2)

@@ -1,17 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that merged parts of a picture equal the whole picture, byte for byte. clrt must reject
-# parts that do not belong together. Usage: test_parts.py CLRT
-import json
-import pathlib
-import sys
-import unittest
+# Parts of a picture, drawn apart and merged, are the whole one, to the byte; what does not fit
+# together is refused.
+# Usage: test_parts.py CLRT
+from pictures import read_exr, read_header
+from work import ROOT, SCENE, Work, main
 
-from read_exr import read_exr, read_header
-from work import Work
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
 SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
 CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 
@@ -28,7 +22,7 @@ class Parts(Work):
     def expect_whole(self, names, *words):
         self.clrt(*words, "-o", "whole.exr")
         self.clrt("merge", *names, "-o", "merged.exr")
-        self.assertTrue(self.bytes_of("merged.exr") == self.bytes_of("whole.exr"))
+        self.assert_same_bytes("merged.exr", "whole.exr")
 
     def test_any_number_of_parts_makes_the_whole_in_any_order(self):
         for of in 1, 2, 3, 7:
@@ -55,33 +49,29 @@ class Parts(Work):
         for other in ["--bvh", "midpoint"], ["--nodes", "pair"]:
             names = self.draw(*scene, "sah", of=2, parts=[1])
             names += self.draw(*scene, "sah", *other, of=2, parts=[2])
-            self.refuses("part2.exr: is of another set of settings than part1.exr", *names)
+            self.refuses_parts("part2.exr: is of another set of settings than part1.exr", *names)
 
     def test_each_part_draws_its_tiles_alone(self):
         names, rays = self.draw(of=7), 0
-        whole = read_exr(self.work / self.whole())[1]
+        self.clrt(*SMALL, "-o", "whole.exr")
+        whole = read_exr(self.work / "whole.exr")[1]
         for part, name in enumerate(names):
             channels = read_exr(self.work / name)[1]
             for pixel in range(61 * 43):
                 tile = pixel // 61 // 8 * 4 + pixel % 61 // 16
                 expected = whole["R"][pixel] if tile % 7 == part else 0
                 self.assertEqual(channels["R"][pixel], expected, (part, pixel))
-            self.clrt(*SMALL, "--part", f"{part + 1}/7", "-o", "a.exr", "--stats=a.json")
-            report = json.loads(self.bytes_of("a.json"))
-            self.assertEqual(report["samples"]["per_pixel"], 1)
-            rays += report["rays"]["camera"]
+            found = self.statistics(*SMALL, "--part", f"{part + 1}/7", "-o", "a.exr")
+            self.expect(found, samples__per_pixel=1)
+            rays += found["rays"]["camera"]
         self.assertEqual(rays, 61 * 43)
-
-    def whole(self):
-        self.clrt(*SMALL, "-o", "whole.exr")
-        return "whole.exr"
 
     def test_the_whole_is_written_in_any_format(self):
         names = self.draw(*SMALL, "--encode", "srgb")
         for name in "a.png", "a.pfm", "a.jpg":
             self.clrt(*SMALL, "--encode", "srgb", "-o", f"whole_{name}")
             self.clrt("merge", *names, "-o", f"merged_{name}")
-            self.assertTrue(self.bytes_of(f"whole_{name}") == self.bytes_of(f"merged_{name}"), name)
+            self.assert_same_bytes(f"whole_{name}", f"merged_{name}")
 
     def test_merge_tells_and_expects_the_hash_of_the_whole(self):
         right = self.clrt(*SMALL, "-o", "a.pfm", "--hash")
@@ -94,16 +84,15 @@ class Parts(Work):
         self.clrt("merge", *self.draw(), "-o", "a.exr", "--no-metadata")
         self.assertFalse([n for n in read_header(self.bytes_of("a.exr"))[0] if n.startswith("clrt:")])
 
-    def refuses(self, sentence, *words, code=3):
-        self.assertEqual(self.clrt("merge", *words, "-o", "m.exr", code=code), f"clrt: {sentence}\n")
+    def refuses_parts(self, sentence, *words):
+        self.refuses(3, sentence, "merge", *words, "-o", "m.exr")
         self.assertFalse((self.work / "m.exr").exists())
 
     def test_mixed_parts_are_refused_in_one_sentence(self):
         names = self.draw(of=2)
         scene = (ROOT / "scenes/reflections.scn").read_text()
         scene = scene.replace("ply_file ", f"ply_file {ROOT}/scenes/")
-        (self.work / "own.scn").write_text(scene + "\n")
-        (self.work / "mesh.scn").write_text(scene.replace("plateau", "cube"))
+        self.write(own_scn=scene + "\n", mesh_scn=scene.replace("plateau", "cube"))
         for words, of, thing in (
             ([SCENE, "-s", "62x43", "--tile", "16x8"], 2, "set of settings"),
             (SMALL + ["--aa"], 2, "set of settings"),
@@ -117,20 +106,20 @@ class Parts(Work):
             (SMALL + ["--aov", "depth"], 2, "set of channels"),
         ):
             self.clrt(*words, "--part", f"2/{of}", "-o", "other.exr")
-            self.refuses(f"other.exr: is of another {thing} than part1.exr", names[0], "other.exr")
+            self.refuses_parts(f"other.exr: is of another {thing} than part1.exr", names[0], "other.exr")
 
     def test_missing_and_doubled_parts_are_refused(self):
         names = self.draw()
-        self.refuses("part 2 of 3 is missing", names[0], names[2])
-        self.refuses("part1.exr: is part 1 of 3, which part1.exr is already", names[0], names[0])
+        self.refuses_parts("part 2 of 3 is missing", names[0], names[2])
+        self.refuses_parts("part1.exr: is part 1 of 3, which part1.exr is already", names[0], names[0])
 
     def test_what_is_no_part_is_refused(self):
         self.clrt(*SMALL, "-o", "whole.exr")
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
-        (self.work / "text.exr").write_text("no picture")
-        self.refuses("whole.exr: is no part of a picture that --part drew", "whole.exr")
-        self.refuses("bare.exr: is no part of a picture that --part drew", "bare.exr")
-        self.refuses("text.exr: cannot be read: it is no PNG, JPEG, TIFF, PPM, EXR, HDR or PFM", "text.exr")
+        self.write(text_exr="no picture")
+        self.refuses_parts("whole.exr: is no part of a picture that --part drew", "whole.exr")
+        self.refuses_parts("bare.exr: is no part of a picture that --part drew", "bare.exr")
+        self.refuses_parts("text.exr: cannot be read: it is no PNG, JPEG, TIFF, PPM, EXR, HDR or PFM", "text.exr")
 
     def test_texts_that_lie_are_no_part(self):
         (name,) = self.draw(parts=[1])
@@ -139,18 +128,18 @@ class Parts(Work):
                           (b'"width":61', b'"width":60'), (b'"part":[1,3]', b'"part":[1,"]'),
                           (b'"part":[1,3]', b'"part":[0,3]'), (b'"height":43', b'"height":-3')):
             self.assertIn(true, honest)
-            (self.work / "lie.exr").write_bytes(honest.replace(true, lie))
-            self.refuses("lie.exr: is no part of a picture that --part drew", "lie.exr")
+            self.write(lie_exr=honest.replace(true, lie))
+            self.refuses_parts("lie.exr: is no part of a picture that --part drew", "lie.exr")
 
     def test_channels_need_a_file_that_holds_them(self):
         names = self.draw(*SMALL, *CHANNELS, of=1)
-        self.assertEqual(self.clrt("merge", *names, "-o", "m.png", code=2),
-                         "clrt: the parts have channels, which png does not hold: give -o FILE.exr\n")
+        self.refuses(2, "the parts have channels, which png does not hold: give -o FILE.exr",
+                     "merge", *names, "-o", "m.png")
 
     def test_what_no_part_can_have_is_refused(self):
         for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537":
-            self.assertEqual(self.clrt(*SMALL, "-o", "a.exr", "--part", value, code=2),
-                             f"clrt: --part wants I/N, I from 1 to N and N up to 65536, not '{value}'\n")
+            self.refuses(2, f"--part wants I/N, I from 1 to N and N up to 65536, not '{value}'",
+                         *SMALL, "-o", "a.exr", "--part", value)
         for words, sentence in (
             (["-o", "a.png"], "--part needs an EXR file (-o FILE.exr), which clrt merge reads"),
             (["-o", "a.exr", "--error", "1%"],
@@ -159,12 +148,10 @@ class Parts(Work):
             (["-o", "a.exr", "--reference"], "--reference is of whole pictures: leave out --part"),
             (["-o", "a.exr", "--no-metadata"], "--part needs the metadata: leave out --no-metadata"),
         ):
-            self.assertEqual(self.clrt(*SMALL, "--part", "1/2", *words, code=2), f"clrt: {sentence}\n")
-        self.assertEqual(self.clrt("merge", "a.exr", code=2),
-                         "clrt: clrt merge wants the name of the whole picture: -o FILE\n")
-        self.assertEqual(self.clrt("merge", "-o", "a.exr", code=2),
-                         "clrt: clrt merge wants the names of all parts of a picture\n")
+            self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)
+        self.refuses(2, "clrt merge wants the name of the whole picture: -o FILE", "merge", "a.exr")
+        self.refuses(2, "clrt merge wants the names of all parts of a picture", "merge", "-o", "a.exr")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
+    main(1)

@@ -4,36 +4,19 @@
 # Usage: test_provenance.py CLRT FORMATS
 import json
 import os
-import pathlib
 import shutil
 import struct
-import sys
-import unittest
 
-from read_exr import read_header
-from work import Work
+from pictures import read_header, read_png_texts
+from work import HAS_EXR, ROOT, SCENE, Work, main, needs_exr
 
-HAS_EXR = "exr" in sys.argv[2]
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
 SMALL = [SCENE, "-s", "24x16"]
 NAMES = ["Software", "clrt:version", "clrt:scene_hash", "clrt:mesh_hash", "clrt:settings", "clrt:device",
          "clrt:driver", "clrt:pixel_hash", "clrt:complete"]
 
 
-def png_texts(path):
-    data, place, texts = path.read_bytes(), 8, {}
-    while place < len(data):
-        size, kind = struct.unpack_from(">I4s", data, place)
-        if kind == b"tEXt":
-            name, value = data[place + 8 : place + 8 + size].decode().split("\0")
-            texts[name] = value
-        place += size + 12
-    return texts
-
-
-def exr_texts(path):
-    return {name: value.decode(errors="replace") for name, value in read_header(path.read_bytes())[0].items()}
+def exr_texts(data):
+    return {name: value.decode(errors="replace") for name, value in read_header(data)[0].items()}
 
 
 def tiff_description(data):
@@ -65,7 +48,7 @@ DESCRIPTIONS = {"tif": tiff_description, "jpg": jpeg_comment} if HAS_EXR else {}
 class Provenance(Work):
     def draw(self, *words, name="a.png", **environment):
         self.clrt(*(words or SMALL), "-o", name, **environment)
-        return png_texts(self.work / name)
+        return read_png_texts(self.bytes_of(name))
 
     def test_every_name_is_there_and_says_something(self):
         texts = self.draw()
@@ -74,10 +57,10 @@ class Provenance(Work):
         self.assertEqual(texts["clrt:complete"], "yes")
         self.assertIn(texts["clrt:version"], texts["Software"])
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_exr_tells_the_same_as_png(self):
         self.clrt(*SMALL, "-o", "a.exr", "--precision", "fp64")
-        texts, expected = exr_texts(self.work / "a.exr"), self.draw(*SMALL, "--precision", "fp64")
+        texts, expected = exr_texts(self.bytes_of("a.exr")), self.draw(*SMALL, "--precision", "fp64")
         self.assertEqual({name: texts.get(name) for name in NAMES}, expected)
         self.assertEqual(texts["capDate"], "")
 
@@ -102,7 +85,7 @@ class Provenance(Work):
         first = self.draw()
         for words in (["--tile", "5x7"], ["-j", "1"], ["--bvh", "midpoint"], ["--kernel", "ray"]):
             self.assertEqual(self.draw(*SMALL, *words, name="b.png"), first)
-            self.assertEqual((self.work / "a.png").read_bytes(), (self.work / "b.png").read_bytes())
+            self.assert_same_bytes("a.png", "b.png")
 
     def test_the_scene_hash_follows_every_file_and_the_mesh_hash_the_meshes(self):
         shutil.copy(ROOT / "scenes/cube.ply", self.work / "cube.ply")
@@ -126,10 +109,10 @@ class Provenance(Work):
         self.assertEqual(self.draw(SOURCE_DATE_EPOCH="86399")["DateTime"], "1970:01:01 23:59:59")
         if HAS_EXR:
             self.clrt(*SMALL, "-o", "a.exr", SOURCE_DATE_EPOCH="951782400")
-            self.assertIn("2000:02:29 00:00:00", exr_texts(self.work / "a.exr")["capDate"])
+            self.assertIn("2000:02:29 00:00:00", exr_texts(self.bytes_of("a.exr"))["capDate"])
         for wrong in "soon", "-1", "":
-            talk = self.clrt(*SMALL, "-o", "b.png", code=2, SOURCE_DATE_EPOCH=wrong)
-            self.assertEqual(talk, f"clrt: SOURCE_DATE_EPOCH must be seconds since 1970, not '{wrong}'\n")
+            self.refuses(2, f"SOURCE_DATE_EPOCH must be seconds since 1970, not '{wrong}'",
+                         *SMALL, "-o", "b.png", SOURCE_DATE_EPOCH=wrong)
 
     def test_without_metadata_nothing_of_it_is_told(self):
         environment = {"SOURCE_DATE_EPOCH": "0"}
@@ -142,7 +125,7 @@ class Provenance(Work):
 
     def test_the_hash_is_that_of_the_pixels_whatever_the_file(self):
         texts = self.draw(*SMALL, "--stats=a.json")
-        found = {texts["clrt:pixel_hash"], json.loads((self.work / "a.json").read_text())["pixel_hash"]}
+        found = {texts["clrt:pixel_hash"], self.json_of("a.json")["pixel_hash"]}
         for words in (["-o", "b.pfm"], ["-o", "b.png", "--encode", "srgb"], ["-o", "b.png", "-j", "1"]):
             done = self.run_clrt(*SMALL, *words, "--hash")
             self.assertEqual((done.stderr, done.returncode), ("", 0))
@@ -156,25 +139,24 @@ class Provenance(Work):
         for same in right, right.upper():
             self.clrt(*SMALL, "-o", "a.pfm", "--expect-hash", same)
         wrong = right[:-1] + ("1" if right[-1] == "0" else "0")
-        talk = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", wrong, code=1)
-        self.assertEqual(talk, f"clrt: the hash of the pixels is {right}, not the expected {wrong}\n")
-        self.assertEqual((self.work / "a.pfm").read_bytes(), (self.work / "b.pfm").read_bytes())
-        talk = self.clrt(*SMALL, "-o", "b.pfm", "--expect-hash", "abc", code=2)
-        self.assertEqual(talk, "clrt: --expect-hash wants 32 hexadecimal digits, not 'abc'\n")
+        self.refuses(1, f"the hash of the pixels is {right}, not the expected {wrong}",
+                     *SMALL, "-o", "b.pfm", "--expect-hash", wrong)
+        self.assert_same_bytes("a.pfm", "b.pfm")
+        self.refuses(2, "--expect-hash wants 32 hexadecimal digits, not 'abc'",
+                     *SMALL, "-o", "b.pfm", "--expect-hash", "abc")
 
     def test_one_thing_at_most_goes_to_standard_output(self):
         for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--stats=-"], "statistics")):
-            talk = self.clrt(*SMALL, *words, "--hash", code=2)
-            self.assertEqual(talk, f"clrt: the {thing} and the hash cannot both go to standard output\n")
+            self.refuses(2, f"the {thing} and the hash cannot both go to standard output", *SMALL, *words, "--hash")
 
     def test_json_replaces_a_file_whole_or_not_at_all(self):
-        (self.work / "a.json").write_text("what was there")
+        self.write(a_json="what was there")
         (self.work / "other.json").hardlink_to(self.work / "a.json")
         self.clrt(*SMALL, "-o", "a.pfm", "--stats=a.json")
-        self.assertEqual((self.work / "other.json").read_text(), "what was there")
-        self.assertEqual(json.loads((self.work / "a.json").read_text())["schema"], 1)
+        self.assertEqual(self.bytes_of("other.json"), b"what was there")
+        self.assertEqual(self.json_of("a.json")["schema"], 1)
         self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "a.pfm", "other.json"])
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(2)

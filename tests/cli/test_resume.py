@@ -1,26 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Kills or stops pictures at any time, and resumes them. The final file must be the same, and must
-# never be incomplete. Usage: test_resume.py CLRT FORMATS [--kills N] [TEST...]
+# Pictures that were killed or stopped and go on: the same file in the end, whenever it was, and
+# never a half one under the final name.
+# Usage: [CLRT_KILLS=N] test_resume.py CLRT FORMATS [TEST...]
 import json
 import os
-import pathlib
 import random
 import shutil
 import signal
-import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
-from read_exr import read_exr, read_header
+from pictures import read_exr, read_header
+from work import HAS_EXR, SCENE, Work, main, needs_exr
 
-CLRT = pathlib.Path(sys.argv[1]).resolve()
-HAS_EXR = "exr" in sys.argv[2]
-KILLS = int(sys.argv[sys.argv.index("--kills") + 1]) if "--kills" in sys.argv else 10
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = str(ROOT / "scenes/reflections.scn")
+KILLS = int(os.environ.get("CLRT_KILLS", "10"))
 NAME = "a.exr" if HAS_EXR else "a.pfm"
 # LONG has many small tiles and takes some seconds. ONE_TILE takes as long with a single tile.
 WIDTH, HEIGHT, TILE = 400, 300, 20
@@ -31,37 +25,14 @@ SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
 OTHER = "is of another scene, other settings or another version of clrt: remove it to begin again"
 
 
-class Resume(unittest.TestCase):
+class Resume(Work):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
+        super().setUp()
         self.journal = self.work / f"{NAME}.part"
-
-    def start(self, *words):
-        process = subprocess.Popen([CLRT, *words], cwd=self.work, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.stderr.close)
-        return process
-
-    def clrt(self, *words, code=0):
-        process = self.start(*words)
-        talk = process.communicate(timeout=600)[1]
-        self.assertEqual(process.returncode, code, talk)
-        return talk
-
-    def bytes_of(self, name):
-        return (self.work / name).read_bytes()
 
     def whole(self, *words):
         self.clrt(*words, "-o", f"whole-{NAME}")
         return self.bytes_of(f"whole-{NAME}")
-
-    def wait_for(self, condition):
-        end = time.monotonic() + 300
-        while not condition():
-            self.assertLess(time.monotonic(), end, "it never happens")
-            time.sleep(0.002)
 
     def kill_in_the_middle(self, *words, tiles=40):
         """Kills a run when its journal has at least that many tiles."""
@@ -73,8 +44,8 @@ class Resume(unittest.TestCase):
         self.assertEqual(process.wait(), -signal.SIGKILL)
 
     def resumed_tiles(self, *words):
-        """Resumes and finishes the picture. Returns the number of tiles found."""
-        talk = self.clrt(*words, "-o", NAME, "--resume", "-v")
+        """Continues to the end and returns the number of tiles found."""
+        talk = self.run_clrt(*words, "-o", NAME, "--resume", "-v").stderr
         line = next(line for line in talk.splitlines() if line.startswith("resumed: "))
         return int(line.split()[1])
 
@@ -130,7 +101,7 @@ class Kills(Resume):
             self.assertEqual(self.resumed_tiles(*LONG), 0)
             (self.work / NAME).unlink()
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_with_channels_parts_and_crops_too(self):
         for more in (["--aov", "depth,primitive,certainty"], ["--part", "2/3"],
                      ["--crop", "30,20,390,290"], ["--precision", "fp64"]):
@@ -142,25 +113,20 @@ class Kills(Resume):
             (self.work / NAME).unlink()
 
     def test_statistics_count_what_this_run_draws(self):
-        def statistics(*words):
-            self.clrt(*LONG, "--stats=a.json", *words)
-            return json.loads((self.work / "a.json").read_text())
-
-        whole = statistics("-o", f"whole-{NAME}")
+        whole = self.statistics(*LONG, "-o", f"whole-{NAME}")
         self.assertEqual(whole["tiles"], {"total": TILES, "found": 0, "drawn": TILES})
         self.kill_in_the_middle(*LONG)
-        rest = statistics("-o", NAME, "--resume")
-        self.assertTrue(self.bytes_of(NAME) == self.bytes_of(f"whole-{NAME}"))
+        rest = self.statistics(*LONG, "-o", NAME, "--resume")
+        self.assert_same_bytes(NAME, f"whole-{NAME}")
         drawn = rest["tiles"]["drawn"]
         self.assertEqual(rest["tiles"], {"total": TILES, "found": TILES - drawn, "drawn": drawn})
         self.assertLess(drawn, TILES - 39)
-        self.assertEqual(rest["rays"]["camera"], drawn * TILE * TILE * 64)
-        self.assertEqual(rest["samples"]["total"], rest["rays"]["camera"])
-        self.assertEqual(rest["samples"]["per_pixel"], 64)
+        samples = drawn * TILE * TILE * 64
+        self.expect(rest, rays__camera=samples, samples__total=samples, samples__per_pixel=64)
 
     def test_statistics_as_text_say_what_they_leave_out(self):
         self.clrt(*SMALL, "-o", NAME)
-        talk = self.clrt(*SMALL, "-o", NAME, "--resume", "--stats").splitlines()
+        talk = self.run_clrt(*SMALL, "-o", NAME, "--resume", "--stats").stderr.splitlines()
         found = 24 if HAS_EXR else 0
         self.assertEqual(talk[0], f"{found} of 24 tiles were there: time and counts are of the others")
         self.assertIn(f"{0 if HAS_EXR else 2623} samples, ", talk[2])
@@ -174,7 +140,7 @@ class Kills(Resume):
             process.wait()
             self.assertFalse((self.work / name).exists())
             self.clrt(*LONG, "-o", name, "--resume")
-            self.assertTrue(self.bytes_of(name) == self.bytes_of(f"whole-{name}"))
+            self.assert_same_bytes(name, f"whole-{name}")
 
 
 class Stops(Resume):
@@ -187,7 +153,7 @@ class Stops(Resume):
         process.communicate(timeout=600)
         self.assertEqual(process.returncode, 128 + number)
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_the_first_signal_writes_whole_tiles_marked_incomplete(self):
         self.whole(*LONG)
         whole = read_exr(self.work / f"whole-{NAME}")[1]
@@ -205,7 +171,7 @@ class Stops(Resume):
             self.journal.unlink()
             (self.work / NAME).unlink()
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_a_stopped_exr_is_gone_on_with_where_there_is_no_journal(self):
         for more in [], ["--part", "1/2"], ["--crop", "30,20,390,290"], ["--aov", "depth,samples"]:
             whole = self.whole(*LONG, *more)
@@ -216,7 +182,7 @@ class Stops(Resume):
             self.assertTrue(self.bytes_of(NAME) == whole, more)
             (self.work / NAME).unlink()
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_a_whole_exr_is_all_there(self):
         whole = self.whole(*SMALL)
         shutil.copy(self.work / f"whole-{NAME}", self.work / NAME)
@@ -225,12 +191,15 @@ class Stops(Resume):
         self.assertTrue(self.bytes_of(NAME) == whole)
 
     def test_the_second_signal_ends_it_at_once_and_writes_nothing(self):
-        process = self.start(*ONE_TILE, "-o", NAME, "-v")
-        while "kernels:" not in process.stderr.readline():
-            self.assertIsNone(process.poll())
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        time.sleep(0.2)
+        for moment in 0.5, 2, 8:  # busy machines begin the tile later
+            process = self.start(*ONE_TILE, "-o", NAME, "-v")
+            while "kernels:" not in process.stderr.readline():
+                self.assertIsNone(process.poll())
+            time.sleep(moment)
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.2)
+            if process.poll() is None:
+                break
         self.assertIsNone(process.poll(), "a tile takes longer")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20)
@@ -245,44 +214,34 @@ class Refusals(Resume):
         (self.work / "own.scn").write_text("light 0 0 5 1\nsphere 0 0 0 1\n")
         for words in (LONG + ["--aa=11"], LONG + ["--view", "2"], LONG + ["--tile", "40x20"],
                       LONG + ["--max-level", "1"], LONG + ["--precision", "fp64"], ["own.scn", *LONG[1:]]):
-            self.assertEqual(self.clrt(*words, "-o", NAME, "--resume", code=3),
-                             f"clrt: {NAME}.part: {OTHER}\n")
+            self.refuses(3, f"{NAME}.part: {OTHER}", *words, "-o", NAME, "--resume")
             self.assertTrue(self.journal.read_bytes() == journal)
         self.journal.write_bytes(b"something else, of some length")
-        self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
-                         f"clrt: {NAME}.part: is no journal of clrt\n")
+        self.refuses(3, f"{NAME}.part: is no journal of clrt", *LONG, "-o", NAME, "--resume")
 
     def test_a_pipe_in_the_journals_place_is_refused(self):
         os.mkfifo(self.journal)
-        process = self.start(*SMALL, "-o", NAME, "--resume")
-        self.addCleanup(process.kill)
-        self.assertEqual(process.communicate(timeout=20)[1], f"clrt: {NAME}.part: is no journal of clrt\n")
-        self.assertEqual(process.returncode, 3)
+        self.refuses(3, f"{NAME}.part: is no journal of clrt", *SMALL, "-o", NAME, "--resume")
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_an_exr_that_was_drawn_otherwise_is_refused(self):
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
         self.clrt(*SMALL, "-o", "aa.exr", "--aa")
         for name in "bare.exr", "aa.exr":
             before = self.bytes_of(name)
-            self.assertEqual(self.clrt(*SMALL, "-o", name, "--resume", code=3),
-                             f"clrt: {name}: {OTHER}\n")
+            self.refuses(3, f"{name}: {OTHER}", *SMALL, "-o", name, "--resume")
             self.assertTrue(self.bytes_of(name) == before)
             self.assertFalse((self.work / f"{name}.part").exists())
 
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
-        process.send_signal(signal.SIGSTOP)  # otherwise it might end before the other begins
-        self.assertEqual(self.clrt(*LONG, "-o", NAME, "--resume", code=3),
-                         f"clrt: {NAME}.part: another process draws this picture\n")
-        process.kill()
-        process.wait()
+        process.send_signal(signal.SIGSTOP)  # or it might be done before the other begins
+        self.refuses(3, f"{NAME}.part: another process draws this picture", *LONG, "-o", NAME, "--resume")
 
     def test_a_journal_that_cannot_grow_is_exit_5(self):
-        words = f"ulimit -f 1200; exec '{CLRT}' {' '.join(LONG)} -o {NAME} -q --resume"
-        done = subprocess.run(["bash", "-c", f"trap '' XFSZ; {words}"], cwd=self.work,
-                              capture_output=True, text=True, timeout=300)
+        limit = ["bash", "-c", "trap '' XFSZ; ulimit -f 1200; exec \"$@\"", "bash"]
+        done = self.run_clrt(*LONG, "-o", NAME, "-q", "--resume", before=limit)
         self.assertEqual((done.returncode, done.stderr),
                          (5, f"clrt: {NAME}.part: cannot be written: File too large\n"))
         self.assertFalse((self.work / NAME).exists())
@@ -293,14 +252,11 @@ class Refusals(Resume):
             (["-o", "a.pfm", "--aa-adaptive"],
              "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as a "
              "whole: give --aa"),
-            (["-o", "a.pfm", "--repeat", "2"], "--repeat times whole pictures: leave out --resume"),
         ):
-            self.assertEqual(self.clrt(*SMALL, "--resume", *words, code=2), f"clrt: {sentence}\n")
+            self.refuses(2, sentence, *SMALL, "--resume", *words)
         os.mkfifo(self.work / "pipe.pfm")
-        self.assertEqual(self.clrt(*SMALL, "--resume", "-o", "pipe.pfm", code=3),
-                         "clrt: pipe.pfm: cannot be resumed: not a regular file\n")
+        self.refuses(3, "pipe.pfm: cannot be resumed: not a regular file", *SMALL, "--resume", "-o", "pipe.pfm")
 
 
 if __name__ == "__main__":
-    words = [word for word in sys.argv[3:] if word not in ("--kills", str(KILLS))]
-    unittest.main(argv=[sys.argv[0], *words], verbosity=2)
+    main(2)

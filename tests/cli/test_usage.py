@@ -1,19 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests arguments that exclude each other, and notes about probable mistakes. Usage: test_usage.py
-# CLRT FORMATS WINDOW, with WINDOW ON for a build with a window
-import json
+# Words that a command line must not contain together, and notes on what a user may not have meant.
+# Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
 import os
-import pathlib
-import subprocess
 import sys
 import unittest
 
-from work import CLRT, Work
+from work import ROOT, SCENE, Work, main, needs_exr
 
-HAS_EXR, HAS_WINDOW = "exr" in sys.argv[2], sys.argv[3] == "ON"
-SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
-SCENE = str(SCENES / "reflections.scn")
+HAS_WINDOW = sys.argv[3] == "ON"
+SCENES = ROOT / "scenes"
 SMALL = [SCENE, "-s", "8x6"]
 PICTURE = SMALL + ["-o", "a.pfm"]
 NO_MESH = (
@@ -26,7 +22,7 @@ DARK = "it has no lights: its surfaces show ambient light only"
 
 class Combinations(Work):
     def refuses(self, sentence, *words):
-        self.assertEqual(self.clrt(*words, code=2), f"clrt: {sentence}\n", words)
+        super().refuses(2, sentence, *words)
         self.assertEqual(os.listdir(self.work), [], words)
 
     def test_a_file_is_named_once(self):
@@ -41,7 +37,7 @@ class Combinations(Work):
     def test_the_last_of_two_settings_counts(self):
         self.clrt(*SMALL, "-s", "4x4", "--view", "2", "--view", "1", "-o", "a.pfm")
         self.clrt(*SMALL, "-s", "4x4", "-o", "b.pfm")
-        self.assertEqual(self.bytes_of("a.pfm"), self.bytes_of("b.pfm"))
+        self.assert_same_bytes("a.pfm", "b.pfm")
 
     def test_quiet_and_verbose_exclude_each_other(self):
         sentence = "--quiet and --verbose contradict each other: give one"
@@ -53,7 +49,7 @@ class Combinations(Work):
         for channels in "depth,depth", "depth,normal,depth":
             self.refuses("--aov names 'depth' twice", *SMALL, "-o", "a.exr", "--aov", channels)
 
-    @unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+    @needs_exr
     def test_merge_may_be_quiet(self):
         for part in 1, 2:
             self.clrt(*SMALL, "--tile", "4x4", "--part", f"{part}/2", "-o", f"{part}.exr")
@@ -89,17 +85,14 @@ class Combinations(Work):
     def test_a_precision_that_is_asked_for_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
         for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
-            picture = ["a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json"]
-            self.run_clrt(*picture, "--error", "0.015%", *words)
-            settings = json.loads(self.bytes_of("a.json"))["settings"]
-            self.assertEqual(settings["precision"], precision)
+            self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json", "--error", "0.015%", *words)
+            self.expect(self.json_of("a.json"), settings__precision=precision)
 
     def test_references_have_an_even_number_of_samples(self):
         for number in "3", "1", "0", "65537", "2.5", "many":
             self.refuses(f"--reference-samples wants an even number between 2 and 65536, not '{number}'",
                          *PICTURE, "--reference-samples", number)
-        self.clrt(*PICTURE, "--reference-samples", "4", "--stats=a.json")
-        self.assertEqual(json.loads(self.bytes_of("a.json"))["reference"]["samples"], 4)
+        self.expect(self.statistics(*PICTURE, "--reference-samples", "4"), reference__samples=4)
 
 
 class Notes(Work):
@@ -137,7 +130,7 @@ class Notes(Work):
             done = self.run_clrt("check", name, "--json=a.json")
             self.assertIn(f"  note: {note}\n", done.stdout)
             self.assertEqual((done.stderr, done.returncode), ("", 0))
-            findings = json.loads(self.bytes_of("a.json"))["findings"]
+            findings = self.json_of("a.json")["findings"]
             self.assertEqual([f["kind"] for f in findings if f["mesh"] is None], [kind])
         text = self.clrt("check", SCENE)
         self.assertFalse([note for note in (BLANK, DARK) if note in text])
@@ -156,12 +149,9 @@ class Notes(Work):
 
     @unittest.skipUnless(HAS_WINDOW, "this build has no window")
     def test_a_missing_scene_is_told_before_a_missing_display(self):
-        there = {name: value for name, value in os.environ.items() if name != "WAYLAND_DISPLAY"}
         for name, reason in (("typo.scn", "cannot be opened: No such file or directory"),
                              (".", "cannot be read: it is not a file")):
-            done = subprocess.run([CLRT, name], cwd=self.work, env=there | {"DISPLAY": ":12345"},
-                                  capture_output=True, text=True, timeout=60)
-            self.assertEqual((done.stderr, done.returncode), (f"clrt: {name}: {reason}\n", 3))
+            self.refuses(3, f"{name}: {reason}", name, WAYLAND_DISPLAY=None, DISPLAY=":12345")
 
     def test_explain_counts_the_nodes_that_verbose_counts(self):
         scene = str(SCENES / "simple.scn")
@@ -176,4 +166,4 @@ class Notes(Work):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main(3)

@@ -1,13 +1,44 @@
 # SPDX-License-Identifier: MIT
-# Runs of clrt in a separate folder for each test. The first argument of these tests is CLRT.
+# A folder for each test and runs of clrt in it, for tests whose first word is CLRT.
+import json
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 CLRT = pathlib.Path(sys.argv[1]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
+# The second word of tests that depend on them; empty for other tests.
+FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
+HAS_EXR = "exr" in FORMATS
+NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
+
+needs_exr = unittest.skipUnless(HAS_EXR, "this build writes no EXR")
+
+
+def main(words):
+    """Runs the tests that the words after the test's own words name, or all."""
+    unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[words + 1 :]], verbosity=2)
+
+
+def no_fp64(library):
+    """The environment of a device without double arithmetic; library is tests/cli/no_fp64.c, built."""
+    # AddressSanitizer accepts libraries that are preloaded before its own.
+    sanitizer = "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")
+    return {"LD_PRELOAD": os.path.abspath(library), "ASAN_OPTIONS": sanitizer}
+
+
+def has_private_disks():
+    command = ["unshare", "-m", "mount", "-t", "tmpfs", "clrt-test", "/mnt"]
+    try:
+        return subprocess.run(command, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
 
 
 class Work(unittest.TestCase):
@@ -26,27 +57,87 @@ class Work(unittest.TestCase):
     def bytes_of(self, name):
         return (self.work / name).read_bytes()
 
-    def run_clrt(self, *words, **environment):
-        return subprocess.run(
-            [CLRT, *words],
-            cwd=self.work,
-            capture_output=True,
-            text=True,
-            env=dict(os.environ, **environment),
-            timeout=300,
-        )
+    def json_of(self, name):
+        return json.loads(self.bytes_of(name))
+
+    def assert_same_bytes(self, one, other, words=()):
+        """Compares two files without printing their bytes."""
+        self.assertTrue(self.bytes_of(one) == self.bytes_of(other), f"{one} and {other} differ: {words}")
+
+    def start(self, *words, **settings):
+        settings = {"cwd": self.work, "stderr": subprocess.PIPE, "text": True, **settings}
+        for stream in "stdin", "stdout":
+            settings.setdefault(stream, subprocess.DEVNULL)
+        process = subprocess.Popen([CLRT, *words], **settings)
+        self.addCleanup(process.__exit__, None, None, None)  # closes the streams and waits
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for(self, condition, seconds=300):
+        end = time.monotonic() + seconds
+        while not condition():
+            self.assertLess(time.monotonic(), end, "the condition never holds")
+            time.sleep(0.002)
+
+    def run_clrt(self, *words, before=(), content="", **environment):
+        """Runs clrt, by the program before it if there is one, with content as its standard input.
+        Variables of the environment that are None are unset."""
+        text = isinstance(content, str)
+        environment = {**os.environ, **environment}
+        kept = {name: value for name, value in environment.items() if value is not None}
+        return subprocess.run([*before, CLRT, *words], cwd=self.work, env=kept, input=content, text=text,
+                              capture_output=True, timeout=600)
 
     def clrt(self, *words, code=0, **environment):
-        """Runs clrt. Returns its standard output, or its standard error if it must fail with
-        code."""
+        """Returns standard output or, if clrt shall fail with that code, standard error."""
         done = self.run_clrt(*words, **environment)
-        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.returncode, code, (words, done.stderr))
         return done.stderr if code else done.stdout
+
+    def report(self, *words, code=0, **environment):
+        """Returns the JSON on standard output."""
+        done = self.run_clrt(*words, **environment)
+        self.assertEqual(done.returncode, code, (words, done.stderr))
+        return json.loads(done.stdout)
+
+    def statistics(self, *words, code=0, **environment):
+        self.clrt(*words, "--stats=stats.json", code=code, **environment)
+        return self.json_of("stats.json")
+
+    def expect(self, report, **values):
+        """Compares parts of a report, in whose names two underscores stand between the keys."""
+        for name, expected in values.items():
+            found = report
+            for key in name.split("__"):
+                found = found[key]
+            self.assertEqual(found, expected, name)
 
     def picture(self, scene, *words, says=""):
         done = self.run_clrt(scene, "-o", "picture.pfm", "-s", "96x64", *words)
         self.assertEqual((done.stderr, done.returncode), (says, 0))
         return self.bytes_of("picture.pfm")
 
+    def expect_same(self, one, other, *words):
+        """Two scenes give the same picture."""
+        self.assertTrue(self.picture(one, *words) == self.picture(other, *words), (one, other, words))
+
+    def refuses(self, code, sentence, *words, **environment):
+        """clrt fails with the exit status and prints only that message."""
+        self.assertEqual(self.clrt(*words, code=code, **environment), f"clrt: {sentence}\n", words)
+
     def fails(self, sentence, *words):
-        self.assertEqual(self.clrt(*words, "-o", "picture.pfm", code=3), f"clrt: {sentence}\n")
+        self.refuses(3, sentence, *words, "-o", "picture.pfm")
+
+
+class SharedWork(Work):
+    """All tests of a class work in one folder, in which prepare() first writes files that they read."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.work = pathlib.Path(folder.name)
+        cls("prepare").prepare()
+
+    def setUp(self):
+        """The folder is there."""

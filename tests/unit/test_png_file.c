@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests the errors that libpng reports by longjmp. cli/check_png.py checks the contents of files.
-#include "image/formats.h"
+// The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
+// cli/test_files.py.
+#include "image/png_file.h"
 
 #include "unit/cmocka_all.h"
 

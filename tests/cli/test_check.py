@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# clrt check and --bad-geometry: findings as text and JSON, exit statuses, and what pictures leave out.
+# Usage: test_check.py CLRT
+from models import ply
+from work import NO_OPENCL, ROOT, SharedWork, main
+
+CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+CLOSED = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+STEP = 16777216  # floats are 2 apart here
+MESHES = {
+    "closed": (CORNERS, CLOSED),
+    "open": (CORNERS, CLOSED[:3]),
+    "turned": (CORNERS, [*CLOSED[:3], (1, 3, 2)]),
+    "equal": (CORNERS, [*CLOSED[:2], (0, 0, 2), *CLOSED[2:], (1, 1, 1)]),
+    "line": ([*CORNERS, (2, 0, 0)], [*CLOSED[:2], (0, 1, 4)]),
+    "nan": ([*CORNERS[:2], (0, float("nan"), 0), (0, 0, 1), (1, 1, 1)], [*CLOSED[:3], (1, 4, 3)]),
+    "twice": (CORNERS, [*CLOSED, (2, 3, 1)]),
+    "far": ([(STEP, 0, 0), (STEP + 2, 0, 0), (STEP, 2, 0), (STEP, 0, 2)], CLOSED),
+    "inside": (CORNERS, [(a, c, b) for a, b, c in CLOSED]),
+}
+SCENES = {
+    "scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
+    "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
+    "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n",
+}
+# Each file with its exit status and parts of its report.
+FINDINGS = [
+    ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed",
+                       "of its 10 edges and points: 0 hidden by other parts, 0 pass through", "\nfine\n"]),
+    ("open.ply", 0, ["note: 3 edges of a single triangle, the first at triangle 0",
+                     "open.ply: 3 triangles, 4 vertices, not closed"]),
+    ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides, the first at triangle 0"]),
+    ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners, left out, the first triangle 2",
+                      "\n1 of 1 findings are faults\n"]),
+    ("line.ply", 1, ["FAULT: 1 triangles of no area, their corners on a line, the first triangle 2"]),
+    ("nan.ply", 1, ["FAULT: 1 vertices with a coordinate that is not finite or past 1e30, the first vertex 2",
+                    "FAULT: 2 triangles at such a vertex, left out, the first triangle 0"]),
+    ("twice.ply", 1, ["FAULT: 1 triangles with the corners of another, the first triangle 4"]),
+    ("far.ply", 0, ["note: recenter it before it is written"]),
+    ("mixed.scn", 0, ["note: the scale is too mixed"]),
+    ("apart.scn", 1, ["FAULT: it cannot be drawn: sphere 1 is more than 1e12 times"]),
+    ("scene.scn", 1, ["FAULT: 1 spheres that are the same as another", "note: its fronts face inwards",
+                      "note: 1 materials that are defined and not used"]),
+]
+
+
+class Meshes(SharedWork):
+    def prepare(self):
+        for name, mesh in MESHES.items():
+            (self.work / f"{name}.ply").write_bytes(ply(*mesh))
+        for name, text in SCENES.items():
+            (self.work / f"{name}.scn").write_text(text)
+        # Announces more vertices than there are; noise.
+        self.write(lie_ply="ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n",
+                   noise_ply=b"\0\xffply")
+
+    def mesh(self, *words, code=0, **environment):
+        """Returns the report and its first mesh."""
+        found = self.report("check", *words, "--json", code=code, **environment)
+        return found, found["meshes"][0]
+
+
+class Check(Meshes):
+    def prepare(self):
+        super().prepare()
+        type(self).done = {name: self.run_clrt("check", name, f"--json={name}.json") for name, _, _ in FINDINGS}
+
+    def test_each_finding_is_reported_beside_json_and_faults_are_exit_1(self):
+        for name, code, parts in FINDINGS:
+            done = self.done[name]
+            self.assertEqual((done.returncode, done.stderr), (code, ""), name)
+            for part in parts:
+                self.assertIn(part, done.stdout)
+
+    def test_options_may_stand_before_the_command_and_quiet_prints_nothing(self):
+        self.assertEqual(self.clrt("-j", "1", "check", "closed.ply", "-q"), "")
+
+    def test_a_scene_called_check_is_reached_by_its_path(self):
+        self.write(check=SCENES["mixed"])
+        self.clrt("./check", "-s", "4x4", "-o", "a.pfm", "-q")
+
+    def test_no_form_of_the_kernels_leaks(self):
+        for form in ("--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet",
+                     "--precision fp64", "--bvh midpoint", "--no-bvh"):
+            mesh = self.mesh("closed.ply", *form.split())[1]
+            self.expect(mesh, leak_test__leaks__count=0, leak_test__aimed_at=10)
+
+    def test_models_are_closed_and_leak_nothing(self):
+        for name in "creature", "figure", "coral":
+            path = ROOT / f"scenes/models/{name}.ply"
+            with self.subTest(name):
+                if not path.exists():
+                    self.skipTest(f"{path.name} is missing")
+                mesh = self.mesh(path)[1]
+                self.expect(mesh, closed=True, leak_test__leaks__count=0)
+                self.assertGreater(mesh["leak_test"]["aimed_at"], 13000)
+
+    def test_json_has_every_count_a_verdict_and_the_findings(self):
+        found = self.json_of("equal.ply.json")
+        self.expect(found, schema=1, fine=False)
+        (mesh,) = found["meshes"]
+        self.expect(mesh, closed=True, faults__equal_corners={"count": 2, "first": 2},
+                    faults__open_edges={"count": 0, "first": None})
+        self.assertEqual([f["kind"] for f in found["findings"] if f["fails"]], ["equal_corners"])
+
+    def test_json_counts_edges_and_rays_through_gaps_and_lengths_in_steps_of_float(self):
+        (mesh,) = self.json_of("open.ply.json")["meshes"]
+        self.expect(mesh, edges=6, faults__open_edges__count=3, closed=False, leak_test__cap=1048576)
+        self.assertGreaterEqual(mesh["leak_test"]["leaks"]["count"], 3)
+        (mesh,) = self.json_of("far.ply.json")["meshes"]
+        self.expect(mesh, shortest_written_edge__steps=1)
+        self.assertGreater(mesh["shortest_edge"]["steps"], 1e6)
+
+    def test_without_a_device_the_rest_is_checked(self):
+        done = self.run_clrt("check", "equal.ply", "--json=none.json", **NO_OPENCL)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("leaks were not looked for: ", done.stdout)
+        found = self.json_of("none.json")
+        self.assertIsNone(found["device"])
+        self.expect(found["meshes"][0], leak_test=None, closed=True)
+
+    def test_what_cannot_be_read_or_written_is_one_message(self):
+        self.refuses(3, "nowhere.scn: cannot be opened: No such file or directory", "check", "nowhere.scn")
+        for name in "lie.ply", "noise.ply":
+            self.assertRegex(self.clrt("check", name, code=3), rf"^clrt: {name}.*\n$")
+        self.refuses(5, "/dev/full: cannot be written: No space left on device",
+                     "check", "closed.ply", "--json=/dev/full")
+
+
+class BadGeometry(Meshes):
+    def test_drop_is_the_default_and_reported_once_unless_quiet(self):
+        done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "a.pfm")
+        told = "clrt: equal.ply: triangle 2, the first of 2 such, has two equal corners and is left out\n"
+        self.assertEqual((done.returncode, done.stderr), (0, told))
+        done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "b.pfm", "-q", "--bad-geometry", "drop")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assert_same_bytes("a.pfm", "b.pfm")
+
+    def test_fail_draws_only_what_is_sound(self):
+        words = ["-s", "8x8", "--bad-geometry", "fail", "-o"]
+        for name, fault in (("equal", "2 such, has two equal corners"),
+                            ("line", "1 such, has its corners on a line")):
+            self.refuses(3, f"{name}.ply: triangle 2, the first of {fault}", f"{name}.ply", *words, "c.pfm")
+            self.assertFalse((self.work / "c.pfm").exists())
+        self.clrt("closed.ply", *words, "d.pfm")
+
+    def test_a_vertex_that_is_not_finite_is_refused_either_way(self):
+        for choice in "drop", "fail":
+            self.clrt("nan.ply", "-s", "8x8", "-o", "e.pfm", "--bad-geometry", choice, code=3)
+
+    def test_another_word_is_refused(self):
+        self.refuses(2, "--bad-geometry wants drop or fail, not 'keep'", "closed.ply", "--bad-geometry", "keep")
+
+
+if __name__ == "__main__":
+    main(1)

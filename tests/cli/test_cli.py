@@ -1,0 +1,316 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# The command line: usage, devices, pictures that no option changes, samples, statistics, compiled kernels.
+# Usage: test_cli.py CLRT FORMATS WINDOW NO_FP64, the third ON for a build with a window
+import os
+import subprocess
+import sys
+
+from work import FORMATS, NO_OPENCL, ROOT, SCENE, SharedWork, Work, main, no_fp64
+
+HAS_WINDOW, NO_FP64 = sys.argv[3] == "ON", no_fp64(sys.argv[4])
+CUBE = str(ROOT / "scenes/cube.ply")
+SMALL = [SCENE, "-s", "48x32", "-o"]
+FILE = [SCENE, "-o", "a.pfm"]
+ONE_SCENE = "one scene at a time: '{}' comes after 'a.scn' (values of --aa and --stats need an equals sign)"
+KEYS = "--keys and --quit-after are for the window: leave out -o"
+NO_FILE = "cannot be opened: No such file or directory"
+REFUSALS = [
+    (2, "no scene is named; clrt --help shows the usage", []),
+    (2, KEYS, [*FILE, "--keys", "q"]),
+    (2, KEYS, [*FILE, "--quit-after", "1"]),
+    (2, "--quit-after wants an integer between 1 and 1000000, not '0'", [SCENE, "--quit-after", "0"]),
+    (2, "unknown option '--sise', perhaps --size", [*FILE, "--sise", "4x4"]),
+    (2, "unknown option '-z'; clrt --help lists them", ["-z"]),
+    (2, "--size wants a value", [SCENE, "--size"]),
+    (2, "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '0x5'", [*FILE, "--size", "0x5"]),
+    (2, ONE_SCENE.format("b.scn"), ["a.scn", "b.scn", "-o", "a.pfm"]),
+    (2, ONE_SCENE.format("4"), ["a.scn", "--aa", "4", "-o", "a.pfm"]),
+    (2, f"a.xyz: the ending names no format; this build writes {', '.join(FORMATS)}", ["none.scn", "-o", "a.xyz"]),
+    (2, "--aa, --aa-adaptive, --error and --time each choose the samples: give one",
+     [*FILE, "--aa=3", "--aa-adaptive"]),
+    (2, "--aa-adaptive wants a number above 0 and up to 1, not '2'", [*FILE, "--aa-adaptive=2"]),
+    (2, "--error wants a number above 0 and up to 1, or 100%, not 'low'", [*FILE, "--error", "low"]),
+    (2, "--time wants seconds above 0 and up to 1000000, not '0'", [*FILE, "--time", "0"]),
+    (2, "--max-level wants auto or an integer between 0 and 1000, not 'all'", [*FILE, "--max-level", "all"]),
+    (2, "--precision wants fp32 or fp64, not 'fp16'", [*FILE, "--precision", "fp16"]),
+    (2, "--precision fp64 traces rays one by one: leave out --kernel packet",
+     [*FILE, "--kernel", "packet", "--precision", "fp64"]),
+    (2, "--precision fp64 uses binary nodes: leave out --nodes wide",
+     [*FILE, "--precision", "fp64", "--nodes", "wide"]),
+    (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
+    (3, f"none.scn: {NO_FILE}", ["none.scn", "--warm"]),
+    (3, f"{ROOT}: cannot be read: it is not a file", [str(ROOT), "-o", "a.pfm"]),
+    (3, "bad.scn:1:1: unknown statement (did you mean 'sphere'?): found 'spheer'", ["bad.scn", "-o", "a.pfm"]),
+    (3, f"{SCENE} has 6 viewpoints, so there is no view 7", [*FILE, "--view", "7"]),
+    # Before any work, such as reading the scene.
+    (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
+    (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
+]
+# Options that change no bit, with parts of the statistics.
+SAME = {
+    "-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize never": None,
+    "--no-bvh": {"tests__box": 0, "bvh__builder": "none"}, "--bvh midpoint": {"bvh__builder": "midpoint"},
+    "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
+    "--specialize always": {"settings__specialized": True},
+    "--precision fp32": {"settings__precision": "fp32"}, "--device 0:0": None, "--device cpu": None,
+}
+SAME_IN_FP64 = ["--no-bvh", "--bvh midpoint", "-j 1", "--tile 16x8", "--work-group 4x2",
+                "--specialize always", "--kernel ray", "--nodes pair"]
+
+
+class Usage(Work):
+    def test_refusals(self):
+        self.write(bad_scn="spheer 0 0 0 1\n")
+        for code, sentence, words in REFUSALS:
+            self.refuses(code, sentence, *words)
+
+    def test_without_a_file_there_must_be_a_window(self):
+        if not HAS_WINDOW:
+            self.refuses(2, "this build has no window: write the picture with -o FILE", SCENE)
+            return
+        told = self.clrt(SCENE, code=2, WAYLAND_DISPLAY=None, DISPLAY=":12345")
+        self.assertRegex(told, r"^clrt: no window can be opened \(.*\): write the picture with -o FILE\n$")
+
+    def test_a_mesh_that_lies_about_its_size_is_exit_3(self):
+        self.write(lie_ply="ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n")
+        self.clrt("lie.ply", "-o", "a.pfm", code=3)
+
+    def test_help_lists_options_keys_and_exit_statuses(self):
+        told = self.clrt("--help")
+        self.assertIn("--list-devices", told)
+        self.assertIn("1 check found faults", told)
+        self.assertEqual("\n  q, Esc  quit\n" in told, HAS_WINDOW)
+
+    def test_the_version_is_a_name_and_a_number(self):
+        self.assertRegex(self.clrt("--version"), r"^clrt [0-9]+\.[0-9]+\.[0-9]+\n$")
+
+    def test_a_device_that_is_not_there_is_exit_4_and_lists_the_others(self):
+        told = self.clrt(*FILE, "--device", "nosuchdevice", code=4)
+        self.assertIn("no device matches 'nosuchdevice'; there are:", told)
+        self.assertIn("Platform #0: ", told)
+        self.clrt("--warm", "--device", "9:9", code=4)
+
+    def test_without_opencl_it_is_exit_4_and_names_what_to_install(self):
+        self.assertIn("install pocl-opencl-icd", self.clrt(*FILE, code=4, **NO_OPENCL))
+
+    def test_without_kernels_it_is_exit_4(self):
+        self.clrt(*FILE, code=4, CLRT_KERNEL_DIR="/nonexistent")
+
+
+class SamePictures(SharedWork):
+    def prepare(self):
+        self.assertEqual(self.run_clrt(*SMALL, "plain.pfm", "-q").stderr, "")
+        type(self).fp64 = self.run_clrt(*SMALL, "fp64.pfm", "--precision", "fp64", "-v", "--stats=fp64.json").stderr
+
+    def expect_same(self, words, values=None):
+        words = [*SMALL, "same.pfm", *words]
+        if values:
+            self.expect(self.statistics(*words), **values)
+        else:
+            self.clrt(*words)
+        self.assert_same_bytes("plain.pfm", "same.pfm", words)
+
+    def test_options_of_speed_and_devices_change_no_bit(self):
+        for words, values in SAME.items():
+            self.expect_same(words.split(), values)
+        devices = self.clrt("--list-devices")
+        self.assertRegex(devices, "(?m)^Platform #0: ")
+        self.expect_same(["--device", devices.split("Device #0: ")[1][:5]])
+        self.assertEqual(list(self.work.glob("*.pfm.*")), [], "files that clrt left unfinished")
+
+    def test_kernels_from_a_folder_draw_the_same(self):
+        self.clrt(*SMALL, "folder.pfm", CLRT_KERNEL_DIR=str(ROOT / "kernels"))
+        self.assert_same_bytes("plain.pfm", "folder.pfm")
+
+    def test_fp64_draws_another_picture_by_rays_and_pairs(self):
+        self.assertNotEqual(self.bytes_of("plain.pfm"), self.bytes_of("fp64.pfm"))
+        self.assertIn("kernels: ray, pair nodes, fp64", self.fp64)
+        self.expect(self.json_of("fp64.json"), settings__precision="fp64", settings__kernel="ray",
+                    settings__nodes="pair")
+
+    def test_options_of_speed_change_no_bit_of_fp64(self):
+        for words in SAME_IN_FP64:
+            self.clrt(*SMALL, "same64.pfm", "--precision", "fp64", *words.split())
+            self.assert_same_bytes("fp64.pfm", "same64.pfm", words)
+
+    def test_a_device_without_fp64_draws_in_fp32_alone(self):
+        self.clrt(*SMALL, "b.pfm", **NO_FP64)
+        told = self.clrt(*FILE, "--precision", "fp64", code=4, **NO_FP64)
+        self.assertIn("has no double arithmetic, which --precision fp64 needs", told)
+        self.clrt("check", CUBE, "--precision", "fp64", code=4, **NO_FP64)
+
+    def test_few_triangles_have_no_tree_unless_one_is_requested(self):
+        words = [CUBE, "-s", "16x16", "--kernel", "packet", "-o"]
+        self.expect(self.statistics(*words, "none.pfm"), tests__box=0, bvh__builder="none")
+        self.expect(self.statistics(*words, "tree.pfm", "--bvh", "sah"), bvh__builder="sah")
+        self.assert_same_bytes("none.pfm", "tree.pfm")
+
+    def test_repeated_pictures_are_timed_each_and_counted_once(self):
+        found = self.statistics(*SMALL, "repeat.pfm", "--repeat", "3")
+        times = found["frame_seconds"]
+        self.assertEqual((len(times), found["seconds"]["trace"]), (3, times[0]))
+        self.assertGreater(min(times), 0)
+        self.expect(found, rays__camera=1536)
+        self.assert_same_bytes("plain.pfm", "repeat.pfm")
+
+    def test_processes_that_start_at_once_on_an_empty_cache_all_draw(self):
+        environment = dict(os.environ, XDG_CACHE_HOME=str(self.work / "cold"))
+        environment.pop("POCL_CACHE_DIR", None)
+        names = [f"cold{number}.pfm" for number in range(12)]
+        running = [self.start(*SMALL, name, "-q", env=environment) for name in names]
+        for name, process in zip(names, running):
+            self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
+            self.assert_same_bytes("plain.pfm", name)
+
+
+class Statistics(Work):
+    def test_text_has_rays_samples_and_tests(self):
+        told = self.run_clrt(*SMALL, "a.pfm", "--stats", "-v", "-j", "1").stderr
+        for line in ("rays: 1536 camera,", "(?m)^1536 samples, 1.00 per pixel$", "box tests, .* per ray",
+                     ", 1 compute units"):
+            self.assertRegex(told, line)
+
+    def test_json_has_rays_and_the_time_of_each_stage(self):
+        found = self.statistics(*SMALL, "a.pfm")
+        self.expect(found, rays__camera=1536, schema=1)
+        stages = "parse load build device upload kernel_build trace write total"
+        self.assertEqual(sorted(found["seconds"]), sorted(stages.split()))
+
+
+class Samples(Work):
+    def test_each_number_of_samples_and_each_contrast_draws_another_picture(self):
+        pictures = set()
+        for words in ([], ["--aa"], ["--aa=3"], ["--aa-adaptive"]):
+            self.clrt(*SMALL, "a.pfm", *words)
+            pictures.add(self.bytes_of("a.pfm"))
+        found = self.statistics(*SMALL, "a.pfm", "--aa-adaptive=0.001")
+        pictures.add(self.bytes_of("a.pfm"))
+        self.assertEqual(len(pictures), 5)
+        total = found["samples"]["total"]
+        self.assertGreater(total, 1536)
+        self.expect(found, rays__camera=total, samples__contrast=0.001, samples__per_pixel=total / 1536)
+        self.clrt(*SMALL, "b.pfm", "--aa-adaptive=0.001", "-j", "1", "--kernel", "ray", "--nodes", "pair")
+        self.assert_same_bytes("a.pfm", "b.pfm")
+
+    def test_an_error_is_held_within_its_estimate_with_enough_levels(self):
+        found = self.statistics(*SMALL, "a.pfm", "--error", "0.5%")
+        self.assertTrue(found["samples"]["goal_reached"])
+        self.assertTrue(0 < found["samples"]["error_estimate"] < found["samples"]["error_bound"] <= 0.005)
+        self.assertLessEqual(found["settings"]["truncation_bound"], 0.00125)
+        told = self.run_clrt(*SMALL, "a.pfm", "--error", "0.005", "--stats").stderr
+        self.assertRegex(told, "(?m)with 95 % confidence, of which at most 0.098 % for 5 levels$")
+
+    def test_a_smaller_error_takes_more_samples(self):
+        samples = self.statistics(*SMALL, "a.pfm", "--error", "0.001")["samples"]
+        self.assertGreater(samples["total"], 1600)
+        self.assertLessEqual(samples["error_bound"], 0.001)
+
+    def test_an_error_that_no_levels_hold_is_exit_1(self):
+        self.write(mirror_scn="define it matte reflectivity 1\nmaterial it\nsphere 0 0 0 1\n")
+        told = self.clrt("mirror.scn", "-s", "8x8", "--error", "1%", "-o", "a.pfm", code=1)
+        self.assertIn("clrt: the error may be 1e+02 %, more than --error allows", told)
+
+    def test_an_error_too_small_for_the_ladder_is_exit_1_in_doubles(self):
+        words = [*SMALL, "a.pfm", "--error", "0.01%", "--stats=a.json"]
+        self.assertRegex(self.clrt(*words, code=1), r"clrt: the error may be 0\.0[0-9]* %, more than --error allows")
+        found = self.json_of("a.json")
+        self.expect(found, samples__goal_reached=False, settings__precision="fp64")
+        self.assertGreater(found["samples"]["error_bound"], 0.0001)
+
+    def test_time_is_spent_on_samples_and_no_more(self):
+        found = self.statistics(*SMALL, "a.pfm", "--time", "0.5")
+        self.expect(found, samples__goal_reached=True)
+        self.assertGreater(found["samples"]["total"], 10000)
+        self.assertLess(found["seconds"]["trace"], 2)
+
+    def test_too_little_time_is_exit_1(self):
+        self.assertRegex(self.clrt(*FILE, "--time", "1e-9", code=1), "longer than --time allows\n$")
+
+    def test_max_level_auto_is_the_least_that_the_file_can_show(self):
+        bytes_alone = self.statistics(*SMALL, "a.ppm", "--format", "png", "--max-level", "auto")
+        self.expect(bytes_alone, settings__max_level=5, settings__truncation_bound=0.25**5)
+        self.assertLess(0.25**5, 1 / 510)
+        floats = self.statistics(*SMALL, "a.pfm", "--max-level", "auto")
+        self.expect(floats, settings__max_level=13, settings__truncation_bound=0.25**13)
+        self.clrt(*SMALL, "b.pfm", "--max-level", "40")
+        self.assert_same_bytes("a.pfm", "b.pfm")
+
+
+class Compiled(Work):
+    """Each test begins with an empty kernel cache."""
+
+    def setUp(self):
+        super().setUp()
+        self.cache = {"XDG_CACHE_HOME": str(self.work), "POCL_CACHE_DIR": None}
+
+    def draws_by(self, kernels, *words, size="48x32"):
+        done = self.run_clrt(SCENE, "-s", size, "-o", "a.pfm", "-v", *words, **self.cache)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, rf"(?m)^kernels: {kernels} nodes", words)
+
+    def test_warm_compiles_ahead_and_nothing_twice(self):
+        for words, line in (
+            ([], "general kernels, ray, .* nodes, fp32: compiled in"),
+            ([SCENE, "--stats"], "special kernels, ray, .* nodes, fp32: compiled in"),
+            (["--precision", "fp64"], "general kernels, ray, pair nodes, fp64: compiled in"),
+            ([], "general kernels, ray, .* nodes, fp32: were compiled, ready in"),
+        ):
+            self.assertRegex(self.clrt("--warm", "--kernel", "ray", *words, **self.cache), f"(?m)^{line}")
+        found = self.statistics(*SMALL, "a.pfm", "--kernel", "ray", **self.cache)
+        self.expect(found, settings__specialized=True)
+
+    def test_small_pictures_are_drawn_by_what_is_compiled_sooner(self):
+        self.draws_by("ray, pair")
+        expected = self.run_clrt(*SMALL, "b.pfm", "--kernel", "packet")
+        self.assertEqual(expected.returncode, 0)
+        self.assert_same_bytes("a.pfm", "b.pfm")
+        # No run changes the kernels of the next, unless it compiles the same ones.
+        self.draws_by("ray, pair")
+        for words in ["--lanes", "4"], ["--stats"]:
+            self.draws_by("packet, wide", *words)
+        self.draws_by("ray, pair")
+
+    def test_small_pictures_are_drawn_by_packets_after_a_large_one_that_compiles_them(self):
+        self.draws_by("packet, wide", "-j", "1", size="1300x1300")
+        self.draws_by("packet, wide")
+
+    def test_small_pictures_are_drawn_by_packets_that_are_compiled_ahead(self):
+        self.clrt("--warm", **self.cache)
+        self.draws_by("packet, wide")
+
+
+class Endings(Work):
+    """Inputs and outputs that end early or late."""
+
+    def test_a_reader_that_leaves_early_is_exit_5(self):
+        os.mkdir(self.work / "temporary")
+        words = [SCENE, "-s", "800x800", "-o", "-", "--format", "pfm"]
+        process = self.start(*words, stdout=subprocess.PIPE, text=False,
+                             env=dict(os.environ, TMPDIR=str(self.work / "temporary")))
+        process.stdout.read(9)
+        process.stdout.close()
+        self.assertIn(b"clrt: standard output: cannot be written: Broken pipe", process.stderr.read())
+        self.assertEqual(process.wait(), 5)
+        self.assertEqual(os.listdir(self.work / "temporary"), [])
+
+    def test_a_pipe_is_a_scene(self):
+        os.mkfifo(self.work / "late.scn")
+        process = self.start("late.scn", "-s", "8x8", "-o", "a.pfm")
+        (self.work / "late.scn").write_text("sphere 0 0 0 1\n")
+        self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
+
+    def test_a_folder_that_vanishes_is_exit_5(self):
+        # The scene comes late: clrt opens its pipe after it has looked at the folder.
+        os.mkdir(self.work / "gone")
+        os.mkfifo(self.work / "late.scn")
+        process = self.start("late.scn", "-s", "8x8", "-o", "gone/a.png")
+        with open(self.work / "late.scn", "w") as scene:
+            os.rmdir(self.work / "gone")
+            scene.write("sphere 0 0 0 1\n")
+        self.assertIn("clrt: gone/a.png: cannot be written", process.communicate()[1])
+        self.assertEqual(process.returncode, 5)
+
+
+if __name__ == "__main__":
+    main(4)

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Picture files: their pixels, that they depend on nothing else, channels, and devices that take no more.
+# Usage: test_files.py CLRT FORMATS
+import math
+import unittest
+
+from pictures import read_exr, read_pfm, read_png, read_png_chunks
+from work import FORMATS, HAS_EXR, ROOT, SCENE, SharedWork, main, needs_exr
+
+SMALL = [SCENE, "-s", "48x32", "-o"]
+SIMPLE = str(ROOT / "scenes/simple.scn")
+FULL = "/dev/full: cannot be written: No space left on device"
+NAMES = "R G B Z N.X N.Y N.Z P.X P.Y P.Z primitive material shadow bounces samples boxtests tritests"
+CHANNELS = "depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,tritests"
+NOTHING = 2**32 - 1
+
+
+def srgb(value):
+    return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+
+
+class Files(SharedWork):
+    def prepare(self):
+        for name in "plain.pfm", "plain.png":
+            self.clrt(*SMALL, name)
+
+    def expect_png(self, png, pfm, encode=float):
+        expected = [[int(encode(value) * 255 + 0.5) for value in row] for row in read_pfm(self.work / pfm)]
+        self.assertTrue(read_png(self.bytes_of(png)) == expected, png)
+
+    def test_png_holds_the_picture_in_either_encoding(self):
+        self.expect_png("plain.png", "plain.pfm")
+        self.clrt(*SMALL, "srgb.png", "--encode", "srgb")
+        self.expect_png("srgb.png", "plain.pfm", srgb)
+
+    def test_png_of_one_pixel_and_of_many_chunks_hold_the_picture(self):
+        for name, words in (("one", ["-s", "1x1"]), ("many", ["-s", "801x603", "--aa"])):
+            for ending in "png", "pfm":
+                self.clrt(SCENE, *words, "-o", f"{name}.{ending}")
+            self.expect_png(f"{name}.png", f"{name}.pfm")
+        kinds = [kind for kind, _ in read_png_chunks(self.bytes_of("many.png"))]
+        self.assertGreater(kinds.count(b"IDAT"), 1)
+
+    def test_the_format_is_that_of_the_ending_unless_it_is_given(self):
+        self.assertEqual(self.run_clrt(*SMALL, "-", content=b"").stdout, self.bytes_of("plain.png"))
+        self.clrt(*SMALL, "odd.bin", "--format", "png")
+        self.assert_same_bytes("odd.bin", "plain.png")
+
+    def test_each_format_is_the_same_file_each_time(self):
+        for ending in FORMATS:
+            for name in "a", "b":
+                self.clrt(*SMALL, f"{name}.{ending}")
+            self.assert_same_bytes(f"a.{ending}", f"b.{ending}")
+
+    def test_devices_take_pictures_or_are_full(self):
+        words = [SCENE, "-s", "8x8", "-o"]
+        self.clrt(*words, "/dev/null", "--format", "png")
+        for ending in FORMATS[:1] + FORMATS[-1:]:
+            self.refuses(5, FULL, *words, "/dev/full", "--format", ending)
+        for ending in FORMATS[1:-1]:
+            self.clrt(*words, "/dev/full", "--format", ending, code=5)
+
+    @unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")
+    def test_pictures_too_large_for_the_process_beside_are_whole(self):
+        self.clrt(SIMPLE, "-s", "2400x2400", "-o", "large.tif", "--format", "hdr")
+        self.assertIn(b"-Y 2400 +X 2400", self.bytes_of("large.tif")[:400])
+        self.clrt(SIMPLE, "-s", "1600x1600", "-o", "large.exr", "--aov", "primitive,normal,position")
+        channels = read_exr(self.work / "large.exr", 1590)[1]
+        self.assertGreater(len(set(channels["primitive"])), 1)
+        self.assertEqual(len(channels["P.Z"]) % 1600, 0)
+
+    @needs_exr
+    def test_encodings_leave_floats_alone(self):
+        for encode in "raw", "srgb":
+            self.clrt(*SMALL, f"{encode}.exr", "--encode", encode)
+        self.assertEqual(read_exr(self.work / "raw.exr"), read_exr(self.work / "srgb.exr"))
+
+    @needs_exr
+    def test_a_jpeg_past_its_size_is_refused(self):
+        self.refuses(5, "a JPEG has at most 65500 pixels a side", SCENE, "-s", "65536x1", "-o", "a.jpg")
+
+
+@needs_exr
+class Channels(SharedWork):
+    def prepare(self):
+        self.clrt(*SMALL, "all.exr", "--aa", "--bvh", "sah", "--aov", CHANNELS)
+        type(self).types, type(self).all = read_exr(self.work / "all.exr")
+
+    def draw(self, *words):
+        self.clrt(*SMALL, "a.exr", *words)
+        return read_exr(self.work / "a.exr")[1]
+
+    def test_names_follow_conventions_and_only_names_of_things_are_integers(self):
+        self.assertEqual(sorted(self.types), sorted(NAMES.split()))
+        integers = {name for name, kind in self.types.items() if kind == "uint"}
+        self.assertEqual(integers, {"primitive", "material"})
+
+    def test_every_channel_has_an_effect(self):
+        for name, values in self.all.items():
+            self.assertEqual(len(set(values)) > 1, name != "samples", name)
+        self.assertEqual(set(self.all["samples"]), {4})
+
+    def test_the_background_is_infinitely_far_and_otherwise_zero(self):
+        first = {name: values[0] for name, values in self.all.items()}
+        self.assertEqual((first["Z"], first["primitive"], first["material"]), (math.inf, NOTHING, NOTHING))
+        for name in "N.X N.Y N.Z P.X P.Y P.Z shadow bounces".split():
+            self.assertEqual(first[name], 0, name)
+
+    def test_colors_beside_them_are_the_same(self):
+        plain = self.draw("--aa", "--bvh", "sah")
+        self.assertTrue(all(plain[name] == self.all[name] for name in "RGB"))
+
+    def test_they_are_those_of_one_sample_whatever_aa(self):
+        single = self.draw("--aov", "depth,primitive,normal")
+        self.assertTrue(all(single[name] == self.all[name] for name in ("Z", "primitive", "N.X")))
+
+    def test_they_are_the_same_in_every_form_of_the_kernels(self):
+        words = ["--aa", "--nodes", "wide", "--aov", "normal,position,bounces,tritests"]
+        expected = self.draw(*words)
+        for form in "-j 1", "--tile 16x8", "--kernel packet", "--kernel ray --nodes wide":
+            self.assertTrue(self.draw(*words, *form.split()) == expected, form)
+
+    def test_adaptive_samples_are_counted_pixel_by_pixel(self):
+        samples = self.draw("--aa-adaptive", "--aov", "samples", "--stats=a.json")["samples"]
+        self.assertLessEqual({1, 9}, set(samples))
+        self.expect(self.json_of("a.json"), samples__total=sum(samples))
+
+    def test_refusals(self):
+        self.refuses(2, "--aov boxtests and tritests count a grid of samples: leave out --aa-adaptive, --error and "
+                     "--time", SCENE, "-o", "a.exr", "--aa-adaptive", "--aov", "tritests")
+        self.refuses(2, "--aov needs an EXR file (-o FILE.exr): png holds colors alone",
+                     SCENE, "-o", "a.png", "--aov", "depth")
+
+
+if __name__ == "__main__":
+    main(2)
