@@ -37,32 +37,6 @@ static bool keep_child(ChildProcess *child, pid_t id, const int ends[2])
     return id > 0;
 }
 
-static _Noreturn void run_fork(pid_t parent, int socket, ChildWork *work, const void *context)
-{
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(0);
-    const int nothing = open("/dev/null", O_RDWR);
-    dup2(nothing, STDIN_FILENO);
-    dup2(nothing, STDOUT_FILENO);
-    work(socket, context);
-    _exit(0);
-}
-
-bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause)
-{
-    int ends[2];
-    const pid_t parent = getpid();
-    if (!open_sockets(ends))
-        return error_set(cause, "no sockets are left");
-    const pid_t id = fork();
-    if (id == 0) {
-        close(ends[END_PARENT]);
-        run_fork(parent, ends[END_CHILD], work, context);
-    }
-    return keep_child(child, id, ends) || error_set(cause, "no process can be started");
-}
-
 static int spawn(pid_t *id, const char *program, const char *argument, int output)
 {
     posix_spawn_file_actions_t actions;

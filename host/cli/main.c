@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The program: runs the command and prints its error.
+#include "base/processors.h"
 #include "cli/commands.h"
 #include "cli/options/options.h"
 #include "cli/process.h"
-#include "device/device.h"
 
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 static ExitCode show(Run *run, Error *error)
@@ -19,6 +20,20 @@ static ExitCode check(Run *run, Error *error)
     return check_scene(run->options, &run->cache, error);
 }
 
+// Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
+// control group's quota, which PoCL ignores. The user's environment variables take precedence
+// unless count is given. PoCL 3.1 and 6.0 read different variables.
+static void limit_threads(uint32_t count)
+{
+    char text[16];
+    const uint32_t usable = processors_usable();
+    if (count == 0 && usable >= processors_present())
+        return;
+    snprintf(text, sizeof text, "%u", count > 0 ? count : usable);
+    setenv("POCL_MAX_PTHREAD_COUNT", text, count > 0);
+    setenv("POCL_CPU_MAX_CU_COUNT", text, count > 0);
+}
+
 static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
                             Error *error)
 {
@@ -26,7 +41,7 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
     run.report.options = options;
     run.report.settings = &run.settings;
     cache_open(&run.cache);
-    threads_limit(options->threads);
+    limit_threads(options->threads);
     const ExitCode code = perform_stages(&run, error);
     run_free(&run);
     cache_close(&run.cache);

@@ -226,18 +226,6 @@ uint32_t threads_allowed(uint32_t count)
     return count > 0 ? count : processors_usable();
 }
 
-// PoCL 3.1 and 6.0 read different variables; both are set.
-void threads_limit(uint32_t count)
-{
-    char text[16];
-    const uint32_t usable = processors_usable();
-    if (count == 0 && usable >= processors_present())
-        return;
-    snprintf(text, sizeof text, "%u", count > 0 ? count : usable);
-    setenv("POCL_MAX_PTHREAD_COUNT", text, count > 0);
-    setenv("POCL_CPU_MAX_CU_COUNT", text, count > 0);
-}
-
 // OpenCL has no empty buffers, so an empty array gets a few bytes.
 bool upload_array(const Device *device, const void *data, size_t size, cl_mem *buffer, Error *error)
 {

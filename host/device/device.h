@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses an OpenCL device, opens a context and a queue on it, limits its threads and makes
-// buffers.
+// Chooses an OpenCL device, opens a context and a queue on it, and makes buffers.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -53,12 +52,8 @@ bool cl_succeeded(cl_int status, const char *attempt, Error *error);
 // Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
 const char *cl_error_name(cl_int status);
 
-// Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
-// control group's quota, which PoCL ignores. The user's environment variables take precedence
-// unless count is given. Only main may call it, before the first OpenCL call.
-void threads_limit(uint32_t count);
-
-// Returns the number of threads for the program itself: count or, if count is 0, the limit above.
+// Returns the number of threads for the program itself: count or, if count is 0, the process's
+// usable processors.
 uint32_t threads_allowed(uint32_t count);
 
 // Makes *buffer from `size` bytes at data, which must outlive it. An empty array also gives a

@@ -79,7 +79,7 @@ class Usage(Work):
     def test_help_lists_options_keys_and_exit_statuses(self):
         told = self.clrt("--help")
         self.assertIn("--list-devices", told)
-        self.assertIn("1 check found faults", told)
+        self.assertIn("faults found by check", told)
         self.assertEqual("\n  q, Esc  quit\n" in told, HAS_WINDOW)
 
     def test_the_version_is_a_name_and_a_number(self):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
 // cli/test_files.py.
-#include "image/png_file.h"
+#include "image/formats.h"
 
 #include "unit/cmocka_all.h"
 

@@ -11,7 +11,8 @@ __extension__ typedef __float128 Quad;
 // of the largest distance between the origin and a corner.
 #define DOUBT (34 * 0x1p-24)
 
-// Errors of depth, by triangle_depth_error of kernels/triangle.inc.cl, where division is at its worst.
+// Errors of depth, by triangle_depth_error of kernels/triangle.inc.cl, where division is at its
+// worst.
 #define DEPTH_DOUBT (27 * 0x1p-24)
 
 typedef struct {
