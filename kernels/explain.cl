@@ -84,11 +84,10 @@ static inline Real hit_error(const Tracer *tracer, const Ray *ray, const Hit *hi
     return triangle_error(tracer, ray, hit->index);
 }
 
-// Records a light's contribution to the surface, as receive_light computes it.
+// Records a light's contribution to the surface, as shade computes it.
 static inline void note_light(const Notes *notes, const Tracer *tracer, uint index,
                               const Lighting *lighting)
 {
-    Lighting received = *lighting;
     const LightSample light = sample_light(tracer, index, lighting->surface, lighting->wanted);
     note(notes, LIGHT_COSINE, light.cosine);
     note_count(notes, LIGHT_STATE,
@@ -98,7 +97,7 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
         return;
     const Ray ray = ray_to_light(tracer, lighting->surface, &light);
     const Hit blocker = blocking_hit(tracer, &ray);
-    receive_light(tracer, index, &received);
+    const Received received = receive_light(tracer, index, lighting);
     note_count(notes, LIGHT_STATE,
                blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
@@ -124,14 +123,14 @@ static inline void note_ray(const Notes *notes, const Tracer *tracer, const Path
 // Records the last surface of the path and each light's contribution to it.
 static inline void note_surface(const Notes *notes, const Tracer *tracer, const Path *path)
 {
-    const Lighting dark = lighting_of(&path->surface, &path->material, path->met);
+    const Lighting lighting = lighting_of(&path->surface, &path->material, path->met);
     note3(notes, LEVEL_POINT, path->surface.point);
     note3(notes, LEVEL_NORMAL, path->surface.normal);
     note(notes, LEVEL_SHARE, path_share(path));
     note_count(notes, LEVEL_MATERIAL, path->surface.material);
-    for (uint index = 0; any_lane(dark.wanted) && index < tracer->frame->light_count; index++) {
+    for (uint index = 0; any_lane(lighting.wanted) && index < tracer->frame->light_count; index++) {
         const Notes light = light_notes(notes, index);
-        note_light(&light, tracer, index, &dark);
+        note_light(&light, tracer, index, &lighting);
     }
 }
 

@@ -73,59 +73,65 @@ static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                  RAY_SHADOW,  light->faces};
 }
 
-// The lit surface, its active lanes, and the light received so far.
+// A surface to light, and its active lanes.
 typedef struct {
     const Surface *surface;
     const MaterialLanes *material;
     Mask wanted;
-    Real diffuse, specular;
 } Lighting;
 
-// Adds a light's contribution. Surfaces turned away from the light get nothing and need no shadow
-// ray.
-static inline void receive_light(const Tracer *tracer, uint index, Lighting *lighting)
+static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
+{
+    return (Lighting){surface, material, met && material->shader != SHADER_SILHOUETTE};
+}
+
+// The light that a surface receives: intensity times cosine, and intensity times highlight.
+typedef struct {
+    Real diffuse, specular;
+} Received;
+
+// Returns a light's contribution. Surfaces turned away from the light get nothing and need no
+// shadow ray.
+static inline Received receive_light(const Tracer *tracer, uint index, const Lighting *lighting)
 {
     const Surface *surface = lighting->surface;
     const LightSample light = sample_light(tracer, index, surface, lighting->wanted);
+    Received received = {0.0f, 0.0f};
     if (!any_lane(light.faces))
-        return;
+        return received;
     if (CLRT_STATISTICS)
         tracer->tally->shadow_rays += lane_count(light.faces);
     const Ray ray = ray_to_light(tracer, surface, &light);
     const Mask is_lit = light.faces && !is_blocked(tracer, &ray);
     sign_lanes(tracer->tally, is_lit, (UInt)(index));
-    const Real diffuse = lighting->diffuse + light.intensity * light.cosine;
-    lighting->diffuse = is_lit ? diffuse : lighting->diffuse;
+    received.diffuse = is_lit ? light.intensity * light.cosine : (Real)(0.0f);
     const Mask shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!any_lane(shines))
-        return;
+        return received;
     const Real3 half_vector = half_vector_of(surface, light.toward);
     const Real shine =
         light.intensity * highlight(lighting->material, surface->normal, half_vector);
-    lighting->specular = shines ? lighting->specular + shine : lighting->specular;
-}
-
-// Returns the state before any light is added, for the surfaces in lanes `met`.
-static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
-{
-    const Mask wanted = met && material->shader != SHADER_SILHOUETTE;
-    return (Lighting){surface, material, wanted, 0.0f, 0.0f};
+    received.specular = shines ? shine : (Real)(0.0f);
+    return received;
 }
 
 // Returns the color of the surfaces given to lighting_of. The values of other lanes are
 // unspecified.
-static inline Real3 shade(const Tracer *tracer, Lighting lighting)
+static inline Real3 shade(const Tracer *tracer, const Lighting *lighting)
 {
-    const MaterialLanes *material = lighting.material;
+    const MaterialLanes *material = lighting->material;
     const Mask is_flat = material->shader == SHADER_SILHOUETTE;
-    if (!CLRT_SHADED || !any_lane(lighting.wanted))
+    if (!CLRT_SHADED || !any_lane(lighting->wanted))
         return material->diffuse;
-    for (uint index = 0; index < tracer->frame->light_count; index++)
-        receive_light(tracer, index, &lighting);
-    const Real diffuse = tracer->frame->ambient + material->kd * min(lighting.diffuse, BRIGHTEST);
+    Received sum = {0.0f, 0.0f};
+    for (uint index = 0; index < tracer->frame->light_count; index++) {
+        const Received received = receive_light(tracer, index, lighting);
+        sum.diffuse += received.diffuse;
+        sum.specular += received.specular;
+    }
+    const Real diffuse = tracer->frame->ambient + material->kd * min(sum.diffuse, BRIGHTEST);
     Real3 color = scaled3(diffuse, material->diffuse);
-    const Real3 shine =
-        scaled3(material->ks * min(lighting.specular, BRIGHTEST), material->specular);
+    const Real3 shine = scaled3(material->ks * min(sum.specular, BRIGHTEST), material->specular);
     color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
     return choose3(is_flat, material->diffuse, color);

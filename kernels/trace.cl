@@ -98,8 +98,8 @@ static inline Real path_share(const Path *path)
 // Adds the surface's own color, and returns it.
 static inline Real3 path_shade(const Tracer *tracer, Path *path)
 {
-    const Lighting dark = lighting_of(&path->surface, &path->material, path->met);
-    const Real3 shaded = shade(tracer, dark);
+    const Lighting lighting = lighting_of(&path->surface, &path->material, path->met);
+    const Real3 shaded = shade(tracer, &lighting);
     const Real3 color = sum3(path->color, scaled3(path_share(path), shaded));
     const Real reflected = path->reflects ? path->weight * path->material.reflectivity : 0.0f;
     path->color = choose3(path->met, color, path->color);

@@ -68,7 +68,7 @@ bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double int
         !check_vector(error, "the position", position, COORDINATE_MOST) ||
         !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST))
         return false;
-    const Light light = {vector_of(position), intensity};
+    const Light light = light_white(vector_of(position), intensity);
     const bool ok = array_push(&scene->scene.lights, light, &cause);
     return scene_handle_changed(scene, ok, &cause, error);
 }

@@ -51,8 +51,8 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
 {
     const Vec3 key = vec3_add(center, vec3_scale(vec3(5, -7, 8), radius));
     const Vec3 fill = vec3_add(center, vec3_scale(vec3(-8, 1, 6), radius));
-    return array_push(&scene->lights, ((Light){key, 0.7}), error) &&
-           array_push(&scene->lights, ((Light){fill, 0.3}), error);
+    return array_push(&scene->lights, light_white(key, 0.7), error) &&
+           array_push(&scene->lights, light_white(fill, 0.3), error);
 }
 
 // A mesh that replaces a scene file is visible from both sides.

@@ -19,6 +19,11 @@ typedef struct {
     double intensity; // 0 or more; lights are white and do not attenuate
 } Light;
 
+static inline Light light_white(Vec3 position, double intensity)
+{
+    return (Light){position, intensity};
+}
+
 typedef struct {
     Vec3 center;
     double radius; // above 0

@@ -31,7 +31,8 @@ static bool read_light(Parser *parser)
     return tokens_numbers(&parser->tokens, 3, position) &&
            tokens_number_within(&parser->tokens, &intensity, 0, INTENSITY_MOST) &&
            array_push(&parser->scene->lights,
-                      ((Light){{position[0], position[1], position[2]}, intensity}), parser->error);
+                      light_white(vec3(position[0], position[1], position[2]), intensity),
+                      parser->error);
 }
 
 static uint32_t plain_material(const Parser *parser)

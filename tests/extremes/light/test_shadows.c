@@ -15,7 +15,7 @@
 static void add_light(Scene *scene, Vec3 position, double intensity)
 {
     Error error = {0};
-    const Light light = {position, intensity};
+    const Light light = light_white(position, intensity);
     require(array_push(&scene->lights, light, &error), &error);
 }
 

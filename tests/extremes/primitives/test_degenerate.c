@@ -65,7 +65,7 @@ static void triangles_with_equal_corners_are_dropped_and_counted_t11(void **stat
 static Scene room_corner(const Viewpoint *viewpoint)
 {
     Error error = {0};
-    const Light light = {{-3, -4, 5}, 1};
+    const Light light = light_white(vec3(-3, -4, 5), 1);
     Scene scene = shape_scene(shape_plane(vec3(-2, -2, -2), vec3(4, 0, 0), vec3(0, 4, 0), 8));
     shape_add(&scene, shape_plane(vec3(-2, 2, -2), vec3(4, 0, 0), vec3(0, 0, 4), 8), 3);
     require(array_push(&scene.viewpoints, *viewpoint, &error) &&
