@@ -85,7 +85,8 @@ static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *
     return (Lighting){surface, material, met && material->shader != SHADER_SILHOUETTE};
 }
 
-// The light that a surface receives: intensity times cosine, and intensity times highlight.
+// The light that a surface receives before its color: intensity times cosine, and intensity times
+// highlight.
 typedef struct {
     Real diffuse, specular;
 } Received;
@@ -115,6 +116,14 @@ static inline Received receive_light(const Tracer *tracer, uint index, const Lig
     return received;
 }
 
+// Returns (ambient + weight * received) * color for each component.
+static inline Real3 reflected_light(Real weight, Real3 received, Real ambient, Real3 color)
+{
+    return real3_of((ambient + weight * min(received.x, BRIGHTEST)) * color.x,
+                    (ambient + weight * min(received.y, BRIGHTEST)) * color.y,
+                    (ambient + weight * min(received.z, BRIGHTEST)) * color.z);
+}
+
 // Returns the color of the surfaces given to lighting_of. The values of other lanes are
 // unspecified.
 static inline Real3 shade(const Tracer *tracer, const Lighting *lighting)
@@ -123,15 +132,15 @@ static inline Real3 shade(const Tracer *tracer, const Lighting *lighting)
     const Mask is_flat = material->shader == SHADER_SILHOUETTE;
     if (!CLRT_SHADED || !any_lane(lighting->wanted))
         return material->diffuse;
-    Received sum = {0.0f, 0.0f};
+    Real3 diffuse = real3_of(0.0f, 0.0f, 0.0f), specular = diffuse;
     for (uint index = 0; index < tracer->frame->light_count; index++) {
         const Received received = receive_light(tracer, index, lighting);
-        sum.diffuse += received.diffuse;
-        sum.specular += received.specular;
+        const Real3 light = load3(tracer->lights[index].color);
+        diffuse = sum3(diffuse, scaled3(received.diffuse, light));
+        specular = sum3(specular, scaled3(received.specular, light));
     }
-    const Real diffuse = tracer->frame->ambient + material->kd * min(sum.diffuse, BRIGHTEST);
-    Real3 color = scaled3(diffuse, material->diffuse);
-    const Real3 shine = scaled3(material->ks * min(sum.specular, BRIGHTEST), material->specular);
+    const Real3 shine = reflected_light(material->ks, specular, 0.0f, material->specular);
+    Real3 color = reflected_light(material->kd, diffuse, tracer->frame->ambient, material->diffuse);
     color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
     return choose3(is_flat, material->diffuse, color);

@@ -48,8 +48,10 @@ CLRT_SAME_SIZE(Material, 48)
 typedef struct {
     float position[3];
     float intensity;
+    float color[3];
+    float unused;
 } PointLight;
-CLRT_SAME_SIZE(PointLight, 16)
+CLRT_SAME_SIZE(PointLight, 32)
 
 // Center and radius as unevaluated sums high + low, with 48 bits each.
 typedef struct {

@@ -36,6 +36,9 @@ static void flatten_light(PointLight *data, const Light *light, const Normalizat
     data->position[1] = (float)position.y;
     data->position[2] = (float)position.z;
     data->intensity = (float)light->intensity;
+    data->color[0] = (float)light->color.x;
+    data->color[1] = (float)light->color.y;
+    data->color[2] = (float)light->color.z;
 }
 
 static bool allocate(FlatScene *flat, const Scene *scene, Error *error)

@@ -21,17 +21,19 @@ static json_t *primitive_json(const Scene *scene, uint32_t id)
                      (json_int_t)id);
 }
 
-static json_t *light_json(const ExplainReport *report, const ExplainedLight *light,
+static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, size_t index,
                           const Material *material)
 {
+    const ExplainedLight *light = &ray->lights[index];
     static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
     const bool blocked = light->state == LIGHT_BLOCKED;
-    return json_pack("{s:s, s:f, s:f, s:o, s:o, s:f, s:f}", "state", states[light->state], "cosine",
-                     light->cosine, "distance", light->distance, "blocker",
+    return json_pack("{s:s, s:f, s:f, s:o, s:o, s:f, s:f, s:o}", "state", states[light->state],
+                     "cosine", light->cosine, "distance", light->distance, "blocker",
                      blocked ? primitive_json(report->scene, light->blocker) : json_null(),
                      "blocker_distance", blocked ? json_real(light->blocker_distance) : json_null(),
                      "diffuse", light->diffuse * (double)material->kd, "highlight",
-                     light->specular * (double)material->ks);
+                     light->specular * (double)material->ks, "color",
+                     vector_json(report->scene->lights.data[index].color));
 }
 
 static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
@@ -39,8 +41,8 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
     json_t *list = json_array();
     const Scene *scene = report->scene;
     for (size_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
-        json_array_append_new(
-            list, light_json(report, &ray->lights[i], &scene->materials.data[ray->material]));
+        json_array_append_new(list,
+                              light_json(report, ray, i, &scene->materials.data[ray->material]));
     return list;
 }
 

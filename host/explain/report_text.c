@@ -47,6 +47,11 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
         fprintf(stream, "; diffuse %.6g", light->diffuse * (double)material->kd);
     if (light->state == LIGHT_SEEN && material->shader == SHADER_BLINN_PHONG)
         fprintf(stream, "; highlight %.6g", light->specular * (double)material->ks);
+    const Vec3 color = report->scene->lights.data[number - 1].color;
+    if (light->state == LIGHT_SEEN && (color.x < 1 || color.y < 1 || color.z < 1)) {
+        fprintf(stream, "; light color ");
+        write_vector(color, stream);
+    }
     fprintf(stream, "\n");
 }
 

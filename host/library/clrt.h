@@ -104,6 +104,11 @@ CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtEr
 CLRT_API bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double intensity,
                                    ClrtError *error);
 
+// Adds a point light of that color, each component in [0, 1].
+CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3],
+                                           double intensity, const double color[3],
+                                           ClrtError *error);
+
 typedef struct {
     size_t size;
     double eye[3], look_at[3];

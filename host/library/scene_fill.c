@@ -63,12 +63,20 @@ bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], double radi
 bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double intensity,
                           ClrtError *error)
 {
+    const double white[3] = {1, 1, 1};
+    return clrt_scene_add_colored_light(scene, position, intensity, white, error);
+}
+
+bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3], double intensity,
+                                  const double color[3], ClrtError *error)
+{
     Error cause = {0};
     if (!check_given(error, "the scene", scene) ||
         !check_vector(error, "the position", position, COORDINATE_MOST) ||
-        !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST))
+        !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST) ||
+        !check_color(error, "the light's color", color))
         return false;
-    const Light light = light_white(vector_of(position), intensity);
+    const Light light = {vector_of(position), intensity, vector_of(color)};
     const bool ok = array_push(&scene->scene.lights, light, &cause);
     return scene_handle_changed(scene, ok, &cause, error);
 }

@@ -16,12 +16,13 @@
 
 typedef struct {
     Vec3 position;
-    double intensity; // 0 or more; lights are white and do not attenuate
+    double intensity; // 0 or more; lights do not attenuate
+    Vec3 color;       // each component in [0, 1]
 } Light;
 
 static inline Light light_white(Vec3 position, double intensity)
 {
-    return (Light){position, intensity};
+    return (Light){position, intensity, {1, 1, 1}};
 }
 
 typedef struct {

@@ -27,12 +27,17 @@ typedef struct {
 
 static bool read_light(Parser *parser)
 {
-    double position[3], intensity;
-    return tokens_numbers(&parser->tokens, 3, position) &&
-           tokens_number_within(&parser->tokens, &intensity, 0, INTENSITY_MOST) &&
-           array_push(&parser->scene->lights,
-                      light_white(vec3(position[0], position[1], position[2]), intensity),
-                      parser->error);
+    double position[3], intensity, color[3] = {1, 1, 1};
+    Tokens *tokens = &parser->tokens;
+    bool ok = tokens_numbers(tokens, 3, position) &&
+              tokens_number_within(tokens, &intensity, 0, INTENSITY_MOST);
+    Tokens ahead = *tokens;
+    const bool is_colored = ok && tokens_next(&ahead).text != NULL;
+    for (int i = 0; is_colored && ok && i < 3; i++)
+        ok = tokens_number_within(tokens, &color[i], 0, 1);
+    const Light light = {vec3(position[0], position[1], position[2]), intensity,
+                         vec3(color[0], color[1], color[2])};
+    return ok && array_push(&parser->scene->lights, light, parser->error);
 }
 
 static uint32_t plain_material(const Parser *parser)
@@ -169,7 +174,7 @@ static const struct {
     {"background", "background R G B", read_background},
     {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES", read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
-    {"light", "light X Y Z INTENSITY", read_light},
+    {"light", "light X Y Z INTENSITY [R G B]", read_light},
     {"material", "material NUMBER|NAME|own", read_material},
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},

@@ -167,6 +167,8 @@ static void write_lights(const Writer *writer)
         fputs("light", writer->stream);
         write_vector(writer->stream, light->position);
         write_number(writer->stream, light->intensity);
+        if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)
+            write_vector(writer->stream, light->color);
         fputc('\n', writer->stream);
     }
 }

@@ -15,9 +15,9 @@
 
 static unsigned wanted_size, most_views = 99;
 
-static const char *const own_scenes[] = {"silhouette",  "matte",  "blinn_phong",
-                                         "reflections", "simple", "creature",
-                                         "figure",      "coral",  "showcase"};
+static const char *const own_scenes[] = {"silhouette", "matte",    "blinn_phong", "reflections",
+                                         "simple",     "creature", "figure",      "coral",
+                                         "showcase",   "lamps"};
 static const char *const course_scenes[] = {"silhouette", "matte", "blinn_phong", "reflections",
                                             "simple",     "cow",   "buddha"};
 

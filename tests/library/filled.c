@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const double background[3] = {0.25, 0.5, 0.75}, ambient = 0.125;
-static const double lights[2][4] = {{3, -4, 6, 0.8}, {-5, -2, 4.1, 0.4}};
+static const double lights[2][7] = {{3, -4, 6, 0.8, 1, 1, 1}, {-5, -2, 4.1, 0.4, 0.2, 1, 0.5}};
 static const double spheres[2][4] = {{0, 0, 1.1, 1}, {1.5, -0.5, 0.4, 0.4}};
 static const uint32_t sphere_materials[2] = {4, CLRT_MATERIAL_MIRROR};
 
@@ -76,7 +76,8 @@ ClrtScene *filled_make(void)
     assert_true(clrt_scene_set_background(scene, background, NULL));
     assert_true(clrt_scene_set_ambient(scene, ambient, NULL));
     for (uint32_t i = 0; i < 2; i++) {
-        assert_true(clrt_scene_add_light(scene, lights[i], lights[i][3], NULL));
+        assert_true(
+            clrt_scene_add_colored_light(scene, lights[i], lights[i][3], &lights[i][4], NULL));
         assert_true(clrt_scene_add_camera(scene, &filled_cameras[i], NULL));
         assert_true(clrt_scene_add_material(scene, &materials[i], &number, NULL));
         assert_int_equal(number, 4 + i);
@@ -146,7 +147,7 @@ static void write_scene(FILE *file)
     write_numbers(file, "ambient", &ambient, 1);
     fputs("max_level 5\n", file); // in the library, max_level belongs to the picture
     for (int i = 0; i < 2; i++) {
-        write_numbers(file, "light", lights[i], 4);
+        write_numbers(file, "light", lights[i], 7);
         write_camera(file, &filled_cameras[i]);
         write_material(file, &materials[i], (char)('a' + i));
     }

@@ -52,6 +52,8 @@ static void what_is_null_is_named(void **state)
     ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, NULL, &error), "the mesh is NULL");
     ASSERT_ARGUMENT(clrt_scene_add_light(NULL, three, 1, &error), "the scene is NULL");
     ASSERT_ARGUMENT(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
+    ASSERT_ARGUMENT(clrt_scene_add_colored_light(scene, three, 1, NULL, &error),
+                    "the light's color is NULL");
     ASSERT_ARGUMENT(clrt_scene_add_camera(NULL, &filled_cameras[0], &error), "the scene is NULL");
     ASSERT_ARGUMENT(clrt_scene_add_camera(scene, NULL, &error), "the camera is NULL");
     ASSERT_ARGUMENT(clrt_scene_set_background(NULL, three, &error), "the scene is NULL");

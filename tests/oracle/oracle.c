@@ -107,7 +107,7 @@ static void sign(OracleDecisions *decisions, uint64_t word)
 }
 
 typedef struct {
-    double diffuse, specular;
+    Vec3 diffuse, specular;
 } Received;
 
 static Received light_received(const Oracle *oracle, const OracleSurface *surface,
@@ -115,18 +115,19 @@ static Received light_received(const Oracle *oracle, const OracleSurface *surfac
 {
     const Scene *scene = oracle->scene;
     const Material *material = &scene->materials.data[surface->material];
-    Received received = {0, 0};
+    Received received = {{0, 0, 0}, {0, 0, 0}};
     for (size_t i = 0; i < scene->lights.count; i++) {
-        const double intensity = scene->lights.data[i].intensity;
+        const Vec3 power = vec3_scale(scene->lights.data[i].color, scene->lights.data[i].intensity);
         const OracleLight light = see_light(oracle, surface, &scene->lights.data[i]);
         sign(decisions, light.shines);
         if (light.cosine > 0 && fabs(vec3_dot(surface->face, light.toward)) < HORIZON)
             decisions->grazes = true;
         if (!light.shines)
             continue;
-        received.diffuse += intensity * light.cosine;
+        received.diffuse = vec3_add(received.diffuse, vec3_scale(power, light.cosine));
         if (material->shader == SHADER_BLINN_PHONG)
-            received.specular += intensity * highlight(material, surface, light.toward);
+            received.specular = vec3_add(
+                received.specular, vec3_scale(power, highlight(material, surface, light.toward)));
     }
     return received;
 }
@@ -146,10 +147,12 @@ static Vec3 shade(const Oracle *oracle, const OracleSurface *surface, OracleDeci
     const Received received = light_received(oracle, surface, decisions);
     const Vec3 gloss = {(double)material->specular[0], (double)material->specular[1],
                         (double)material->specular[2]};
-    const Vec3 color =
-        vec3_add(vec3_scale(body, oracle->scene->ambient + (double)material->kd * received.diffuse),
-                 vec3_scale(gloss, (double)material->ks * received.specular));
-    return vec3(clamped(color.x), clamped(color.y), clamped(color.z));
+    const double ambient = oracle->scene->ambient, kd = (double)material->kd,
+                 ks = (double)material->ks;
+    const Vec3 lit = received.diffuse, shine = received.specular;
+    return vec3(clamped(body.x * (ambient + kd * lit.x) + gloss.x * ks * shine.x),
+                clamped(body.y * (ambient + kd * lit.y) + gloss.y * ks * shine.y),
+                clamped(body.z * (ambient + kd * lit.z) + gloss.z * ks * shine.z));
 }
 
 static Vec3 reflected(const OracleSurface *surface)

@@ -84,6 +84,16 @@ static void the_last_line_needs_no_line_end(void **state)
     scene_free(&scene);
 }
 
+static void lights_are_white_or_have_a_color(void **state)
+{
+    (void)state;
+    Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0\n");
+    const Vec3 white = scene.lights.data[0].color, color = scene.lights.data[1].color;
+    assert_true(white.x == 1 && white.y == 1 && white.z == 1);
+    assert_true(color.x == 0.25 && color.y == 1 && color.z == 0);
+    scene_free(&scene);
+}
+
 static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
 {
     (void)state;
@@ -197,7 +207,7 @@ static void faults_name_line_column_and_the_statement(void **state)
 {
     (void)state;
     expect_error("\nlight 1 2\n", "2:10: expected a number: found the end of the line; the "
-                                  "statement is 'light X Y Z INTENSITY'");
+                                  "statement is 'light X Y Z INTENSITY [R G B]'");
     expect_error("sphere 0 0 zero 1", "1:12: expected a number: found 'zero'; the statement is "
                                       "'sphere X Y Z RADIUS'");
     expect_error("sphere 0 0 0 1 5", "1:16: expected nothing more: found '5'; the statement is "
@@ -207,9 +217,15 @@ static void faults_name_line_column_and_the_statement(void **state)
     expect_error("sphere 0 0 0 3e-31", "1:14: expected a number between 1e-30 and 1e+30: found "
                                        "'3e-31'; the statement is 'sphere X Y Z RADIUS'");
     expect_error("light 0 0 0 nan", "1:13: expected a number: found 'nan'; the statement is 'light "
-                                    "X Y Z INTENSITY'");
+                                    "X Y Z INTENSITY [R G B]'");
     expect_error("light 1e39 0 0 1", "1:7: expected a number between -1e+30 and 1e+30: found "
-                                     "'1e39'; the statement is 'light X Y Z INTENSITY'");
+                                     "'1e39'; the statement is 'light X Y Z INTENSITY [R G B]'");
+    expect_error("light 0 0 0 1 1 0", "1:18: expected a number: found the end of the line; the "
+                                      "statement is 'light X Y Z INTENSITY [R G B]'");
+    expect_error("light 0 0 0 1 1 0 1.5", "1:19: expected a number between 0 and 1: found '1.5'; "
+                                          "the statement is 'light X Y Z INTENSITY [R G B]'");
+    expect_error("light 0 0 0 1 1 1 1 1", "1:21: expected nothing more: found '1'; the statement "
+                                          "is 'light X Y Z INTENSITY [R G B]'");
 }
 
 static void unknown_words_get_the_nearest_one(void **state)
@@ -309,6 +325,7 @@ int main(void)
         cmocka_unit_test(the_six_viewpoints_are_the_courses),
         cmocka_unit_test(spheres_take_the_material_before_them),
         cmocka_unit_test(the_last_line_needs_no_line_end),
+        cmocka_unit_test(lights_are_white_or_have_a_color),
         cmocka_unit_test(own_materials_are_the_silhouette_where_a_file_has_none),
         cmocka_unit_test(course_material_three_is_matte_and_a_quarter_mirror),
         cmocka_unit_test(a_definition_starts_from_its_kind),

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-static int store_lights(float lights[LIGHT_LIMIT][4], const Scene *scene,
-                        const Normalization *normalization)
+static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][3],
+                        const Scene *scene, const Normalization *normalization)
 {
     size_t count = 0;
     for (; count < scene->lights.count && count < LIGHT_LIMIT; count++) {
@@ -15,6 +15,9 @@ static int store_lights(float lights[LIGHT_LIMIT][4], const Scene *scene,
         lights[count][1] = (float)place.y;
         lights[count][2] = (float)place.z;
         lights[count][3] = (float)light->intensity;
+        colors[count][0] = (float)light->color.x;
+        colors[count][1] = (float)light->color.y;
+        colors[count][2] = (float)light->color.z;
     }
     return (int)count;
 }
@@ -22,11 +25,12 @@ static int store_lights(float lights[LIGHT_LIMIT][4], const Scene *scene,
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program)
 {
-    float lights[LIGHT_LIMIT][4];
-    const int count = store_lights(lights, scene, normalization);
+    float lights[LIGHT_LIMIT][4], colors[LIGHT_LIMIT][3];
+    const int count = store_lights(lights, colors, scene, normalization);
     const float background[3] = {(float)scene->background.x, (float)scene->background.y,
                                  (float)scene->background.z};
     glUniform4fv(glGetUniformLocation(program, "lights"), count, lights[0]);
+    glUniform3fv(glGetUniformLocation(program, "light_colors"), count, colors[0]);
     shader_set_integer(program, "light_count", count);
     shader_set_vector(program, "background", background);
     shader_set_number(program, "ambient", scene->ambient);

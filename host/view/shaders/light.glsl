@@ -7,6 +7,7 @@
 #define BLINN_PHONG  1.5
 
 uniform vec4 lights[LIGHTS]; // position and intensity
+uniform vec3 light_colors[LIGHTS];
 uniform int light_count;
 uniform vec3 background;
 uniform float ambient, gain;
@@ -28,7 +29,7 @@ vec3 encoded(vec3 color)
 
 vec3 shaded(Surface surface)
 {
-    float diffuse = 0.0, specular = 0.0;
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     for (int i = 0; i < light_count; i++) {
         vec3 toward_light = normalize(lights[i].xyz - surface.place);
         float cosine = dot(surface.normal, toward_light);
@@ -36,8 +37,8 @@ vec3 shaded(Surface surface)
             continue;
         vec3 half_vector = normalize(toward_light + surface.toward_viewer);
         float shine = max(dot(surface.normal, half_vector), 0.0);
-        diffuse += lights[i].w * cosine;
-        specular += lights[i].w * pow(shine, surface.look.z);
+        diffuse += lights[i].w * cosine * light_colors[i];
+        specular += lights[i].w * pow(shine, surface.look.z) * light_colors[i];
     }
     vec3 color = (ambient + surface.diffuse.w * diffuse) * surface.diffuse.rgb;
     if (surface.look.x > BLINN_PHONG)
