@@ -21,26 +21,21 @@
 //      an edge across the axis. The triangle then winds around the axis as often as before, in the
 //      same direction.
 //   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
-//   are
-//      common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
+//      are common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
 //      longest axis, hence 25u of the size of the triangle's farthest corner along the ray. The
 //      tracer's own `error` (pair.cl) is below 64u of that size.
 //   4. Point of a triangle: 5u common to all weights, 3u per weight, 3u for the interpolation. Off
-//   the
-//      plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane the
-//      point slides by the blur over the sine at which the ray arrives.
+//      the plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane
+//      the point slides by the blur over the sine at which the ray arrives.
 //   5. Triangle normal: edges carry u and their products 2u each: 4u E + 3u |n_k| per axis, where E
-//   is
-//      the product of the largest edge components. In all: 7u E + 3u |n|. Unit vectors add 4u.
+//      is the product of the largest edge components. In all: 7u E + 3u |n|. Unit vectors add 4u.
 //   6. Interpolated normal: 3u per weight, 3u for the interpolation, and the change of the weights
-//   by
-//      sliding. A factor common to all weights does not turn the normal.
+//      by sliding. A factor common to all weights does not turn the normal.
 //   7. Directions to lights: u for the difference, 4u for the unit vector. A shadow ray ends within
-//   u
-//      of its length from the light. The side of a face that a light is on depends only on stored
+//      u of its length from the light. The side of a face that a light is on depends only on stored
 //      numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and rounds
 //      by 12u.
-//  8. Spheres: certify_sphere.cl.
+//   8. Spheres: certify_sphere.cl.
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
