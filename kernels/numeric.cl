@@ -51,6 +51,11 @@ static inline Real3 load3(global const float *components)
     return real3_of(components[0], components[1], components[2]);
 }
 
+static inline Real3 load_private3(const float *components)
+{
+    return real3_of(components[0], components[1], components[2]);
+}
+
 static inline Real3 sum3(Real3 a, Real3 b)
 {
     return real3_of(a.x + b.x, a.y + b.y, a.z + b.z);

@@ -55,16 +55,19 @@ static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
 {
     const Scene *scene = explainer->scene;
     const Material *material = &scene->materials.data[ray->material];
-    double diffuse = scene->ambient, specular = 0;
+    double diffuse[3] = {scene->ambient, scene->ambient, scene->ambient}, specular[3] = {0, 0, 0};
     for (size_t i = 0; ray->uses_lights && i < scene->lights.count; i++) {
-        diffuse += (double)material->kd * ray->lights[i].diffuse;
-        specular += (double)material->ks * ray->lights[i].specular;
+        for (int axis = 0; axis < 3; axis++) {
+            const double part = component(scene->lights.data[i].color, axis);
+            diffuse[axis] += part * (double)material->kd * ray->lights[i].diffuse;
+            specular[axis] += part * (double)material->ks * ray->lights[i].specular;
+        }
         assert_true((ray->lights[i].blocker != NOTHING) == (ray->lights[i].state == LIGHT_BLOCKED));
         assert_true((ray->lights[i].cosine > 0) == (ray->lights[i].state != LIGHT_BEHIND));
     }
     for (int axis = 0; axis < 3; axis++) {
-        const double lit =
-            (double)material->diffuse[axis] * diffuse + (double)material->specular[axis] * specular;
+        const double lit = (double)material->diffuse[axis] * diffuse[axis] +
+                           (double)material->specular[axis] * specular[axis];
         const double color =
             material->shader == SHADER_SILHOUETTE ? (double)material->diffuse[axis] : clamped(lit);
         assert_true(fabs(color - component(ray->shaded, axis)) < 1e-5);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The rays of a pinhole camera (host/scene/camera.h).
+#ifndef CLRT_CAMERA_CL
+#define CLRT_CAMERA_CL
+#include "ray.cl"
+
+// x and y are positions in the whole picture, in halves of a sub-pixel.
+static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
+{
+    const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
+    const Real along = to_real(to_int(y) - (int)(frame->height * frame->samples));
+    const Real3 eye = load_private3(frame->camera.eye);
+    const Real3 right = load_private3(frame->camera.right_step);
+    const Real3 down = load_private3(frame->camera.down_step);
+    const Real3 forward = load_private3(frame->camera.forward);
+    const Real3 direction = {fma(across, right.x, fma(along, down.x, forward.x)),
+                             fma(across, right.y, fma(along, down.y, forward.y)),
+                             fma(across, right.z, fma(along, down.z, forward.z))};
+    return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, active};
+}
+
+// sample_x and sample_y count sub-pixels across the whole picture.
+static inline Ray camera_ray(const FrameData *frame, UInt sample_x, UInt sample_y, Mask active)
+{
+    return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);
+}
+
+#endif
