@@ -13,6 +13,5 @@ typedef struct {
     ThreadPool *pool; // shares the work; NULL for none
 } CompileSource;
 
-// Fills flat, which the caller frees.  Leaves the tree in *bvh, which the caller frees too, unless
-// bvh is NULL.
+// Fills flat. Stores the tree in *bvh unless bvh is NULL. The caller frees both.
 bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error *error);

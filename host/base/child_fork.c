@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Apart from child_process.c, because libclrt must not contain fork.
+// Starts a copy of this process. libclrt must not contain fork, so child_fork has its own file.
 #include "base/child_process.h"
 
 #include <fcntl.h>

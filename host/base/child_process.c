@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Starting, messages, collecting an output, and limits, in this order.
+// Starts programs, exchanges messages with them, collects their output, and limits this process.
 #include "base/child_process.h"
 
 #include "base/array.h"
@@ -84,7 +84,8 @@ int child_end(ChildProcess *child)
     return status;
 }
 
-// Signals and full buffers split messages, which these functions join.
+// Signals and full buffers interrupt transfers. child_send and child_receive repeat them until all
+// bytes are transferred.
 bool child_send(int socket, const void *bytes, size_t size)
 {
     const char *next = bytes;
@@ -115,7 +116,7 @@ bool child_receive(int socket, void *bytes, size_t size)
     return true;
 }
 
-// Waits until there is something to read, including the end of the output.
+// Waits until the socket has data or ends (CHILD_DONE), or until the deadline (CHILD_LATE).
 static ChildFate await(int socket, double deadline)
 {
     for (;;) {
@@ -169,7 +170,7 @@ ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *ou
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
 }
 
-// Results are ignored: setting a limit only fails if the system already has a lower one.
+// Ignores failures, because setting a limit only fails if the system already has a lower one.
 void confine_resource(int resource, rlim_t most)
 {
     const struct rlimit both = {most, most};

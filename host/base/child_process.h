@@ -14,16 +14,17 @@ typedef struct {
     int socket; // to the child
 } ChildProcess;
 
-// Runs in the child, which ends when it returns.
+// Runs in the child. When it returns, the child exits.
 typedef void ChildWork(int socket, const void *context);
 
-// Starts a copy of this process that calls work(socket, context) and ends with this one. Its
-// standard input and output are empty. Only main may call it, before other threads start. On
-// failure, returns false and the reason alone.
+// Starts a copy of this process that calls work(socket, context) and is killed when this process
+// ends. Its standard input and output are empty. Only main may call child_fork, before other
+// threads start. On failure, returns false, and *cause receives the reason without a file name.
 bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
 
-// Starts a program with one argument. Its standard output is the socket, and it inherits nothing
-// else. Any thread may call it. On failure, returns false and the reason alone.
+// Starts a program with one argument. Its standard output is the socket, and it inherits no other
+// file. Any thread may call child_spawn. On failure, returns false, and *cause receives the reason
+// without a file name.
 bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause);
 
 // Kills the child and closes the socket. A child that has ended by itself keeps its status.
@@ -54,11 +55,10 @@ typedef enum {
 ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
                         Error *error);
 
-// Limits of a process that reads possibly hostile files, for the rest of its life. Nothing that it
-// reads later can lift them.
+// The following limits are for processes that read possibly hostile files. They cannot be lifted.
 
-// Ends this process with the thread that started it, and after this many seconds of processor or
-// wall time. It then gains no privileges, writes no file and dumps no core.
+// Ends this process when the thread that started it ends, and after this many seconds of processor
+// or wall time. From now on, the process gains no privileges, writes no file and dumps no core.
 void confine_process(unsigned seconds);
 
 // Limits a resource, such as RLIMIT_AS, to `most`, unless the system's limit is lower.

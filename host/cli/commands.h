@@ -52,8 +52,8 @@ ExitCode convert_scene(const Options *options, Error *error);
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
-// Fails if an output would replace an input or another output.  Programs call it twice: before any
-// work, and again once the scene names its meshes.
+// Fails if an output would replace an input or another output. Commands call it twice: before any
+// work, and again when the scene's meshes are known.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);
 
 // Writes the text of --help.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The steps of a picture in a file: drawing it with as many samples per pixel as it needs,
-// certifying it, and measuring its error against a reference.
+// The steps of a picture in a file: rendering, certifying, and measuring the error against a
+// reference.
 #pragma once
 
 #include "cli/run.h"
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
-// A picture while it is made, or one frame after another.  {0} is a valid empty value.
+// A picture in progress; frames use one Picture in turn. {0} is a valid empty value.
 typedef struct {
     Run *run;         // the scene, the renderer and the report
-    const char *path; // of its file
+    const char *path; // of the output file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
     Framebuffer reference;  // empty without --reference
@@ -21,10 +21,10 @@ typedef struct {
     int stopped_by;         // a signal; 0 if the picture is complete
 } Picture;
 
-// Warns of an error goal that may be meant as a percentage.
+// Prints a note if the error goal is so large that the user may have meant a percentage.
 void picture_warn_of_goal(const Options *options);
 
-// With --verbose, print the scene, the device and the kernels; and where a picture starts.
+// With --verbose, print the scene, the device and the kernels, and the start of each picture.
 void picture_print_setup(const Run *run);
 void picture_print_beginning(const Picture *picture);
 
@@ -32,25 +32,25 @@ void picture_print_beginning(const Picture *picture);
 ExitCode picture_fail_goal(const Run *run, Error *error);
 ExitCode picture_fail_stopped(const Picture *picture, Error *error);
 
-// A reference is the same view drawn again in fp64, with many samples different from the picture's.
-
-// Adds the channel of each pixel's error, the largest difference of its colors, after the others.
-// Does nothing unless the options request it and the file's format supports it.
+// Adds the channel of each pixel's error, which is the largest difference of its colors from the
+// reference, after the other channels. Does nothing unless the options request a reference and the
+// file's format has channels.
 void reference_name_layer(const Options *options, Layers *layers);
 
-// Draws the reference of a picture into its reference, measures the difference and fills the
-// error channel.  Its rays reach the level of the scene or of the picture's settings, whichever is
-// higher.  If the picture or its reference is stopped, nothing is measured.
+// Renders the view again in fp64, with many other samples, into picture->reference. Measures the
+// difference and fills the error channel. The reference's rays reach the level of the scene or of
+// the settings, whichever is higher. Measures nothing if a signal stops the picture or the
+// reference.
 bool reference_measure(Picture *picture, Error *error);
 
-// Writes the reference, in the format of the path's ending.
+// Writes the reference in the format of the path's ending.
 bool reference_write(const Picture *picture, const char *path, Error *error);
 
-// Draws the picture and stores its cost in the report.
+// Renders the picture with --aa-adaptive, --error or --time, and stores the number of samples in
+// the report.
 bool refined_picture_draw(Picture *picture, const CameraData *camera,
                           const RenderObserver *observer, Error *error);
 
-// Computes the certainty of each pixel and repairs pixels in fp64: fills the run's certainty,
-// repairs its finished picture and stores the counts in its report.  A stopped picture stays
-// unchanged, without any certified pixel.
+// Computes the certainty of each pixel of a finished picture, repairs pixels in fp64, and stores
+// the counts in the report. A stopped picture stays unchanged, without certified pixels.
 bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error);

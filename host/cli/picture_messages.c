@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages about a picture: notes on standard error, and the errors of a picture that falls short.
+// Prints notes about a picture, and describes pictures that miss a goal or are stopped.
 #include "cli/picture.h"
 
 #include "render/tile.h"

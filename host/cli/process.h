@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program arranges for itself: signals that stop it, crashes, and stacks.
+// Prepares the process for signals that stop it, for crashes of drivers, and for small stacks.
 #pragma once
 
 // The signals that stop rendering. Before the first tile there is nothing to write, so a signal
@@ -19,13 +19,13 @@ int stop_signal(void);
 
 // Crashes of drivers and libraries: one message and EXIT_DEVICE instead of a signal.
 //
-// Installs handlers for crash signals, and for exit(), which LLVM calls on a full disk.  A crash in
-// clrt's own code still ends it by its signal, after a message.  From here on main must end by
-// _exit.
+// Installs handlers for crash signals, and for exit(), which LLVM calls on a full disk. A crash in
+// clrt's own code prints a message and ends the process by its signal. After this call, main must
+// end with _exit.
 void crash_watch(void);
 
 // Stacks large enough for compilers, regardless of `ulimit -s`.
 //
-// Calls work(context) and returns when it does.  If the stack limit is below the usual one, work
-// runs on a new thread, and threads that drivers start get larger stacks, too.
+// Calls work(context) and returns after it. If the stack limit is below the usual one, work runs on
+// a new thread, and threads that drivers start also get larger stacks.
 void stack_run(void (*work)(void *context), void *context);

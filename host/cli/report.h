@@ -72,9 +72,9 @@ void report_write_text(const Report *report, FILE *stream);
 // Writes versioned JSON with sorted keys to path ("-": standard output).
 bool report_write_json(const Report *report, const char *path, Error *error);
 
-// Fills in the texts that the picture's file stores.
+// Fills the texts that the picture's file stores.
 void report_fill_provenance(Provenance *provenance, const Report *report);
 
-// Prints the hash of the pixels if the options ask for it.  Fails if it differs from the expected
-// hash.
+// Prints the hash of the pixels if the options request it. Fails if the hash differs from the
+// expected hash.
 bool report_print_hash(const Options *options, const char *hash, Error *error);

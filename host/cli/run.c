@@ -192,9 +192,9 @@ void run_free(Run *run)
     scene_free(&run->scene);
 }
 
-// Only the program reads "-" as standard input.  The library treats it as a file name.
-//
-// The name used in messages.  Without a slash, it makes meshes relative to the current folder.
+// The name of a scene on standard input, in messages. It has no slash, so paths of meshes are
+// relative to the current folder. Only the program reads "-" as standard input; for the library it
+// is a file name.
 #define INPUT_NAME "standard input"
 
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)

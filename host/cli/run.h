@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What lasts for a whole run, and its first stages, which all commands share.  Each stage borrows
-// the earlier ones' values and fills its own.  A zeroed Run is valid and freeing it is harmless, so
-// there is one cleanup path.
+// The state of a whole run, and the stages that commands share. Each stage borrows the results of
+// earlier stages. run_free accepts a Run after any stage, even a zeroed one, so that errors need
+// one cleanup path.
 #pragma once
 
 #include "accel/flat.h"

@@ -44,8 +44,8 @@ double difference_psnr(const Difference *difference);
 // Returns the difference of one color: the second picture's value minus the first's.
 double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
 
-// Makes a picture of the difference of two pictures. All have the same scale, so that two maps can
-// be compared.  Each color is the absolute difference for float files. With for_the_eye it is the
-// square root: 1/255 maps to 1/8, 4/255 to 1/4, and everything from 64/255 to 1.
+// Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is the
+// square root of its difference over 64/255, at most 1. All pictures have this scale, so that users
+// can compare them.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);

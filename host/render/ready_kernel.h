@@ -36,16 +36,16 @@ void ready_kernel_free(ReadyKernel *ready);
 bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
                      const SceneTraits *traits, const uint32_t group[2]);
 
-// Kernels that compile faster than packets draw small pictures of small scenes while packets are
-// not compiled yet.  The first picture then takes 0.8 s instead of 1.3 s.
+// Until packets are compiled, kernels that compile faster render small pictures of small scenes.
+// The first picture then takes 0.8 s instead of 1.3 s.
 
-// The facts known before anything is built.
+// The size of a run.
 typedef struct {
     double samples; // of all pictures
     uint64_t triangles;
 } QuickKernelRun;
 
-// Returns whether the run should replace setup's packets by faster-compiling kernels, and stores
-// these in *choice.  It returns false if the packets are already compiled.
+// Returns whether the run should replace setup's packets with faster-compiling kernels, and stores
+// their choice in *choice. Returns false if the packets are already compiled.
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice);

@@ -62,7 +62,7 @@ typedef struct {
     void *context;
 } RenderObserver;
 
-// Returns whether to continue after a finished tile.  Both pointers of the observer may be NULL.
+// Returns whether to continue after a finished tile. observer and its function may be NULL.
 static inline bool render_observer_continues(const RenderObserver *observer,
                                              const RenderProgress *progress)
 {

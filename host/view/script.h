@@ -13,8 +13,8 @@ typedef struct {
 // Returns whether keys or frames remain, so that the window must draw without events.
 bool script_is_running(const Script *script);
 
-// Takes the next key; returns 0 for none.
+// Removes and returns the next key, or 0 if none is left.
 int script_take_key(Script *script);
 
-// Counts a displayed frame once all keys are played.  Returns true for the last one.
+// Counts a displayed frame after all keys are played. Returns true for the last frame.
 bool script_count_frame(Script *script);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target for scene text.  Meshes resolve beside a folder that is not there, so that
+// libFuzzer target for scene text. Meshes resolve beside a folder that is not there, so that
 // only the text is under test; PLY has a target of its own.
 #include "scene/normalize.h"
 #include "scene/scn.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the course's scenes and reference pictures lie.  They are no part of clrt; the environment
+// Where the course's scenes and reference pictures lie. They are no part of clrt; the environment
 // variable CLRT_COURSE names their folder, beside the sources where it is unset.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The faults that libpng reports by a jump.  Whether its files hold the picture is checked by
+// The faults that libpng reports by a jump. Whether its files hold the picture is checked by
 // cli/test_files.py.
 #include "image/formats.h"
 

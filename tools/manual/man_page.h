@@ -6,5 +6,5 @@
 #include <stdio.h>
 
 // Copies the template at path and fills the lines %SYNOPSIS%, %COMMANDS%, %OPTIONS%, %CHANNELS%,
-// %CLASSES% and %KEYS%.  False where the template cannot be read.
+// %CLASSES% and %KEYS%. Returns false if the template cannot be read.
 bool man_page_write(FILE *stream, const char *path);

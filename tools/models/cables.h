@@ -4,5 +4,6 @@
 
 #include "surface.h"
 
-// About 72 thousand triangles, closed, with normals.  False only when memory runs out.
+// Makes a closed surface of about 72 thousand triangles with normals. Returns false only if memory
+// runs out.
 bool cables_make(Surface *surface, Error *error);

@@ -5,6 +5,6 @@
 
 #include "surface.h"
 
-// Writes vertices (x y z nx ny nz, float) and two triangles for each quad.  False when the file
-// cannot be written in full; the message names it and the system's reason.
+// Writes vertices (x y z nx ny nz, float) and two triangles per quad. If the file cannot be written
+// completely, prints its name and the system's reason, and returns false.
 bool ply_file_write(const Surface *surface, const char *path, Error *error);

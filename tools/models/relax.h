@@ -4,7 +4,7 @@
 
 #include "surface.h"
 
-// Evens the vertices out along the field's surface, puts them onto it, takes the normals from its
-// gradient, and turns each quad so that it is cut along its better diagonal.  False only when
+// Distributes the vertices evenly on the field's surface, computes normals from the field's
+// gradient, and turns each quad so that it is cut along its better diagonal. Returns false only if
 // memory runs out.
 bool relax_surface(Surface *surface, const Model *model, Error *error);

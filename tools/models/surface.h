@@ -13,7 +13,7 @@ typedef struct {
     size_t vertex_count, quad_count;
 } Surface;
 
-// Polygonizes the grid's surface.  False only when memory runs out.
+// Polygonizes the grid's surface. Returns false only if memory runs out.
 bool surface_extract(Surface *surface, const Grid *grid, Error *error);
 
 void surface_free(Surface *surface);

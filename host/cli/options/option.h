@@ -87,8 +87,8 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
 // Rejects options that exclude each other, for any command.
 bool options_check_conflicts(const Options *options, Error *error);
 
-// Determines whether the picture goes to a file, and in which format, or to the window.  Rejects
-// options of the other.
+// Determines whether the picture goes to a file or to the window, and the file's format. Rejects
+// options that apply only to the other.
 bool options_check_purpose(Options *options, Error *error);
 
 // The same for clrt compare, whose picture is optional.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shader text -> OpenGL program.  One text holds both stages; VERTEX is defined in the first.
+// Builds OpenGL programs. One text contains both stages; VERTEX is defined only in the first.
 #pragma once
 
 #include "base/error.h"
@@ -10,11 +10,11 @@
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// Compiles and links a program.  attributes ends with NULL, and its names get the locations 0, 1,
-// ...  Returns 0 with the driver's message on failure.
+// Compiles and links a program. attributes ends with NULL, and its names get the locations 0, 1 and
+// so on. On failure, returns 0, and error receives the driver's message.
 GLuint shader_build(const char *text, const char *const *attributes, Error *error);
 
-// Set uniforms of the current program by name.  Names unknown to the program are ignored.
+// Set uniforms of the current program by name. Ignore names that the program does not use.
 void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
