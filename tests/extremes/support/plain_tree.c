@@ -2,7 +2,7 @@
 // Children take the next two free nodes.  Recursion is as deep as the tree.
 #include "plain_tree.h"
 
-#include "accel/box.h"
+#include "box_around.h"
 #include "check.h"
 
 // Triangles [first, first + count) become a node and all below it.

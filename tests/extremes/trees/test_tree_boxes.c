@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The boxes of the device's nodes hold all that lies below them, with the room to spare that
 // culling needs.
+#include "support/box_around.h"
 #include "support/check.h"
 #include "support/report.h"
 #include "support/shapes.h"
 #include "support/stage.h"
 #include "support/tree_scenes.h"
 
-#include "accel/box.h"
 #include "device/kernel_choice.h"
 
 // The triangle test accepts a triangle up to 34 units of rounding beside the ray where division is
