@@ -5,7 +5,6 @@
 #include "certainty/extreme_scenes.h"
 #include "certainty/real_draw.h"
 #include "extremes/support/check.h"
-#include "extremes/support/tier.h"
 #include "image/inline_scenes.h"
 #include "scene/scn.h"
 

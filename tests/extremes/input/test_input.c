@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // clrt rejects faulty files with the position of the fault, or repairs them as documented, and
 // never crashes. Coordinates with many digits keep them.
-#include "support/check.h"
 #include "support/random.h"
-#include "support/report.h"
 #include "support/scene_text.h"
-#include "support/tier.h"
 
 #include "accel/triangles.h"
 #include "base/file.h"
@@ -14,7 +11,6 @@
 
 #include <dirent.h>
 #include <locale.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void spheres_without_a_size_are_refused_t36(void **state)
@@ -23,7 +19,7 @@ static void spheres_without_a_size_are_refused_t36(void **state)
         "sphere 0 0 0 0\n",   "sphere 0 0 0 -1\n",  "sphere 0 0 0 nan\n",    "sphere 0 0 0 inf\n",
         "sphere nan 0 0 1\n", "sphere 0 inf 0 1\n", "\n\nsphere 0 0 0 -0\n", NULL};
     (void)state;
-    assert_int_equal(scene_text_report("T-36", "refused", refused), 0);
+    outcome_report(scene_text_refusals("T-36", refused), "refused");
 }
 
 #define VERTICES(first)                                                                            \
@@ -67,28 +63,8 @@ static const struct {
      true},
 };
 
-static void meshes_that_are_wrong_are_refused_with_a_place_t61(void **state)
-{
-    size_t wrong = 0;
-    const size_t count = sizeof meshes / sizeof *meshes;
-    (void)state;
-    for (size_t i = 0; i < count; i++) {
-        Mesh mesh;
-        Error error = {0};
-        const char *text = meshes[i].text;
-        const bool readable = ply_parse(&mesh, text, strlen(text), "extremes.ply", &error);
-        if (readable)
-            mesh_free(&mesh);
-        const bool placed = readable || strncmp(error.text, "extremes.ply:", 13) == 0;
-        if (readable != meshes[i].readable || !placed)
-            print_message("%s: %s\n", meshes[i].name, readable ? "read" : error.text);
-        wrong += readable != meshes[i].readable || !placed;
-    }
-    report_case("T-61", "corpus", count, wrong);
-    assert_int_equal(wrong, 0);
-}
-
-typedef bool (*Reading)(const char *bytes, size_t size, Error *error);
+// Reads a file and frees the result. Returns false and fills error if clrt rejects it.
+typedef bool Reading(const char *bytes, size_t size, Error *error);
 
 static bool read_ply(const char *bytes, size_t size, Error *error)
 {
@@ -108,7 +84,23 @@ static bool read_scn(const char *bytes, size_t size, Error *error)
     return ok;
 }
 
-// Changes, removes, repeats or swaps a few bytes; the new size.
+static void meshes_that_are_wrong_are_refused_with_a_place_t61(void **state)
+{
+    size_t wrong = 0;
+    (void)state;
+    for (size_t i = 0; i < COUNT(meshes); i++) {
+        Error error = {0};
+        const bool readable = read_ply(meshes[i].text, strlen(meshes[i].text), &error);
+        const bool has_place = strncmp(error.text, "extremes.ply:", 13) == 0;
+        const bool right = readable == meshes[i].readable && (readable || has_place);
+        if (!right)
+            print_message("%s: %s\n", meshes[i].name, readable ? "read" : error.text);
+        wrong += !right;
+    }
+    outcome_report(outcome_of("T-61", COUNT(meshes), wrong), "corpus");
+}
+
+// Changes, flips or repeats bits of a few bytes, or truncates the file. Returns the new size.
 static size_t damage(char *bytes, size_t size, Random *random)
 {
     const uint32_t faults = 1 + random_below(random, 4);
@@ -131,66 +123,62 @@ static size_t damage(char *bytes, size_t size, Random *random)
     return size;
 }
 
-// Reads damaged copies of the file; the number of those refused without a reason.
-static size_t damage_file(const File *file, size_t copies, Reading read, Random *random)
+// Reads damaged copies of a file. Returns how many clrt rejects without a reason.
+static Outcome read_damaged(const char *test, const char *path, size_t copies, Reading *read)
 {
     Error error = {0};
-    size_t silent = 0;
-    char *bytes = memory_raw(file->size + 1, 1, &error);
-    require(bytes != NULL, &error);
-    for (size_t copy = 0; copy < copies; copy++) {
+    File file = {0};
+    Random random = {61};
+    Outcome outcome = {.test = test};
+    require(file_read(&file, path, &error), &error);
+    char *bytes = require_memory(file.size + 1, 1);
+    for (; file.size > 0 && outcome.count < copies; outcome.count++) {
         Error fault = {0};
-        memcpy(bytes, file->bytes, file->size);
-        const size_t size = damage(bytes, file->size, random);
-        silent += !read(bytes, size, &fault) && fault.text[0] == 0;
+        memcpy(bytes, file.bytes, file.size);
+        const size_t size = damage(bytes, file.size, &random);
+        outcome.failures[BY_CLRT] += !read(bytes, size, &fault) && fault.text[0] == 0;
     }
     free(bytes);
-    return silent;
+    file_free(&file);
+    return outcome;
 }
 
-static size_t fuzz(const char *test, const char *format, Reading read)
+static int is_visible(const struct dirent *entry)
 {
-    char folder[512], details[64];
-    size_t seeds = 0, silent = 0, copies = 0;
-    Random random = {61};
-    const size_t all = tier() == 0 ? 2000 : tier() == 1 ? 20000 : 100000;
-    snprintf(folder, sizeof folder, CLRT_SOURCE_FOLDER "/tests/fuzz/corpus/%s", format);
-    DIR *corpus = opendir(folder);
-    assert_non_null(corpus);
-    size_t files = 0;
-    for (struct dirent *entry; (entry = readdir(corpus)) != NULL;)
-        files += entry->d_name[0] != '.';
-    rewinddir(corpus);
-    for (struct dirent *entry; (entry = readdir(corpus)) != NULL;) {
-        char path[1024];
-        Error error = {0};
-        File file = {0};
-        if (entry->d_name[0] == '.')
-            continue;
-        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        require(file_read(&file, path, &error), &error);
-        const size_t share = file.size > 0 ? all / files + 1 : 0;
-        silent += damage_file(&file, share, read, &random);
-        copies += share;
-        seeds++;
-        file_free(&file);
+    return entry->d_name[0] != '.';
+}
+
+// Damages the files of the fuzzers' corpus for a format.
+static void fuzz(const char *test, const char *format, Reading *read)
+{
+    static const size_t copies[3] = {2000, 20000, 100000};
+    struct dirent **entries;
+    char path[1024];
+    Outcome sum = {0};
+    const int folder =
+        snprintf(path, sizeof path, CLRT_SOURCE_FOLDER "/tests/fuzz/corpus/%s/", format);
+    const int files = scandir(path, &entries, is_visible, alphasort);
+    assert_in_range(files, 1, 100000);
+    for (int i = 0; i < files; i++) {
+        snprintf(path + folder, sizeof path - (size_t)folder, "%s", entries[i]->d_name);
+        outcome_add(&sum, read_damaged(test, path, copies[tier()] / (size_t)files + 1, read));
+        free(entries[i]);
     }
-    closedir(corpus);
-    assert_in_range(copies, all, 2 * all);
-    snprintf(details, sizeof details, "damaged seeds=%zu", seeds);
-    return report_case(test, details, copies, silent);
+    free(entries);
+    assert_in_range(sum.count, copies[tier()], 2 * copies[tier()]);
+    outcome_report(sum, "damaged seeds=%d", files);
 }
 
 static void damaged_meshes_never_crash_the_reader_t61(void **state)
 {
     (void)state;
-    assert_int_equal(fuzz("T-61", "ply", read_ply), 0);
+    fuzz("T-61", "ply", read_ply);
 }
 
 static void damaged_scenes_never_crash_the_reader_t62(void **state)
 {
     (void)state;
-    assert_int_equal(fuzz("T-62", "scn", read_scn), 0);
+    fuzz("T-62", "scn", read_scn);
 }
 
 static void scenes_that_are_wrong_are_refused_with_a_place_t62(void **state)
@@ -212,49 +200,59 @@ static void scenes_that_are_wrong_are_refused_with_a_place_t62(void **state)
                                           "spheer 0 0 0 1\n",
                                           NULL};
     (void)state;
-    size_t accepted = scene_text_report("T-62", "refused", refused);
-    // Where a comma is the decimal point, numbers still have a point.
-    const char *const locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "nl_NL.UTF-8"};
-    for (size_t i = 0; i < 3; i++)
+    outcome_report(scene_text_refusals("T-62", refused), "refused");
+}
+
+static void numbers_have_a_point_where_a_comma_is_usual_t62(void **state)
+{
+    static const char *const locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "nl_NL.UTF-8"};
+    (void)state;
+    for (size_t i = 0; i < COUNT(locales); i++)
         if (setlocale(LC_ALL, locales[i]) != NULL)
             break;
     Scene scene = scene_text_parse("sphere 1.5 2 3 0.25\n");
-    accepted += scene.spheres.data[0].center.x != 1.5 || scene.spheres.data[0].radius != 0.25;
-    scene_free(&scene);
     setlocale(LC_ALL, "C");
-    assert_int_equal(accepted, 0);
+    assert_true(scene.spheres.data[0].center.x == 1.5);
+    assert_true(scene.spheres.data[0].radius == 0.25);
+    scene_free(&scene);
 }
 
 #define PLACES 3000
 
-// Coordinates like those of maps: a million and nine decimals.
-static void places_of_many_digits_are_kept_to_the_last_bit_t63(void **state)
+// Fills a mesh's text with coordinates of maps: a million and nine decimals. exact gets the
+// coordinates. The caller frees the text.
+static char *write_places(long double exact[PLACES][3], size_t *size)
 {
-    Error error = {0};
-    Random random = {63};
-    size_t wrong = 0, size = 0;
-    static long double exact[PLACES][3];
     char *text = NULL;
-    Scene scene;
-    MeshObject object = {.two_sided = true};
-    FILE *stream = open_memstream(&text, &size);
-    (void)state;
+    Random random = {63};
+    FILE *stream = open_memstream(&text, size);
     fprintf(stream,
             ASCII "element vertex %d\nproperty double x\nproperty double y\nproperty double z\n"
                   "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
             PLACES, PLACES / 3);
-    for (int i = 0; i < PLACES; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            char number[32];
-            snprintf(number, sizeof number, "%d.%09u", 1000000 + axis * 5000,
-                     random_below(&random, 1000000000));
-            exact[i][axis] = strtold(number, NULL);
-            fprintf(stream, "%s%s", number, axis == 2 ? "\n" : " ");
-        }
+    for (int i = 0; i < 3 * PLACES; i++) {
+        char number[32];
+        snprintf(number, sizeof number, "%d.%09u", 1000000 + i % 3 * 5000,
+                 random_below(&random, 1000000000));
+        exact[i / 3][i % 3] = strtold(number, NULL);
+        fprintf(stream, "%s%s", number, i % 3 == 2 ? "\n" : " ");
+    }
     for (int i = 0; i < PLACES; i += 3)
         fprintf(stream, "3 %d %d %d\n", i, i + 1, i + 2);
     fclose(stream);
+    return text;
+}
+
+static void places_of_many_digits_are_kept_to_the_last_bit_t63(void **state)
+{
+    static long double exact[PLACES][3];
+    Error error = {0};
+    size_t wrong = 0, size = 0;
+    Scene scene;
+    MeshObject object = {.two_sided = true};
     Triangles triangles = {0};
+    char *text = write_places(exact, &size);
+    (void)state;
     require(scene_init(&scene, &error) &&
                 ply_parse(&object.mesh, text, size, "extremes.ply", &error) &&
                 array_push(&scene.objects, object, &error),
@@ -262,29 +260,29 @@ static void places_of_many_digits_are_kept_to_the_last_bit_t63(void **state)
     const Normalization frame = normalization_of(&scene);
     require(triangles_make(&triangles, &scene, &frame, NULL, &error), &error);
     const long double center[3] = {frame.center.x, frame.center.y, frame.center.z};
-    for (int i = 0; i < PLACES; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            const long double place = (exact[i][axis] - center[axis]) * frame.scale;
-            const long double unit = scalbnl(1, ilogbl(place) - 23);
-            const long double parsed = 0x1p-53L * exact[i][axis] * frame.scale;
-            wrong += fabsl(triangles.points[i][axis] - place) > 0.5L * unit + parsed;
-        }
-    report_case("T-63", "offset=1e6 decimals=9", 3 * PLACES, wrong);
+    for (int i = 0; i < 3 * PLACES; i++) {
+        const int axis = i % 3;
+        const long double place = (exact[i / 3][axis] - center[axis]) * frame.scale;
+        const long double unit = scalbnl(1, ilogbl(place) - 23);
+        const long double parsed = 0x1p-53L * exact[i / 3][axis] * frame.scale;
+        wrong += fabsl(triangles.points[i / 3][axis] - place) > 0.5L * unit + parsed;
+    }
+    outcome_report(outcome_of("T-63", 3 * PLACES, wrong), "offset=1e6 decimals=9");
     triangles_free(&triangles);
     scene_free(&scene);
     free(text);
-    assert_int_equal(wrong, 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres_without_a_size_are_refused_t36),
-        cmocka_unit_test(meshes_that_are_wrong_are_refused_with_a_place_t61),
-        cmocka_unit_test(damaged_meshes_never_crash_the_reader_t61),
-        cmocka_unit_test(damaged_scenes_never_crash_the_reader_t62),
-        cmocka_unit_test(scenes_that_are_wrong_are_refused_with_a_place_t62),
-        cmocka_unit_test(places_of_many_digits_are_kept_to_the_last_bit_t63),
+        REPORTING_TEST(spheres_without_a_size_are_refused_t36),
+        REPORTING_TEST(meshes_that_are_wrong_are_refused_with_a_place_t61),
+        REPORTING_TEST(damaged_meshes_never_crash_the_reader_t61),
+        REPORTING_TEST(damaged_scenes_never_crash_the_reader_t62),
+        REPORTING_TEST(scenes_that_are_wrong_are_refused_with_a_place_t62),
+        REPORTING_TEST(numbers_have_a_point_where_a_comma_is_usual_t62),
+        REPORTING_TEST(places_of_many_digits_are_kept_to_the_last_bit_t63),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,130 +1,54 @@
 // SPDX-License-Identifier: MIT
-// The built-in functions that the kernels call, under the names that clang gives them, and a loop
-// over the work-items.
+// Defines the built-in functions that the kernels call, under clang's mangled names, and loops over
+// the work-items.
 #include "host_kernel.h"
 
 #include <math.h>
 
 typedef float Float2 __attribute__((vector_size(8)));
+typedef unsigned long Ulong;
 
 static size_t work_item[2];
 
-#define BUILTIN(result, name, parameters, symbol) result name parameters __asm__(symbol)
+#define BUILTIN(result, name, parameters, value)                                                   \
+    result name parameters;                                                                        \
+    result name parameters                                                                         \
+    {                                                                                              \
+        return value;                                                                              \
+    }
 
-BUILTIN(size_t, item_id, (uint), "_Z13get_global_idj");
-BUILTIN(float, float_fma, (float, float, float), "_Z3fmafff");
-BUILTIN(Float2, pair_fma, (Float2, Float2, Float2), "_Z3fmaDv2_fS_S_");
-BUILTIN(float, float_max, (float, float), "_Z3maxff");
-BUILTIN(Float2, pair_max, (Float2, Float2), "_Z3maxDv2_fS_");
-BUILTIN(float, float_min, (float, float), "_Z3minff");
-BUILTIN(Float2, pair_min, (Float2, Float2), "_Z3minDv2_fS_");
-BUILTIN(uint, uint_min, (uint, uint), "_Z3minjj");
-BUILTIN(float, float_abs, (float), "_Z4fabsf");
-BUILTIN(float, float_rint, (float), "_Z4rintf");
-BUILTIN(float, float_sqrt, (float), "_Z4sqrtf");
-BUILTIN(float, float_clamp, (float, float, float), "_Z5clampfff");
-BUILTIN(float, float_sign, (float, float), "_Z8copysignff");
-BUILTIN(int, int_of_float, (float), "_Z11convert_intf");
-BUILTIN(int, int_of_uint, (uint), "_Z11convert_intj");
-BUILTIN(uint, uint_of_int, (int), "_Z12convert_uinti");
-BUILTIN(float, float_of_int, (int), "_Z13convert_floati");
-BUILTIN(float, float_of_ulong, (unsigned long), "_Z13convert_floatm");
-BUILTIN(unsigned long, ulong_of_float, (float), "_Z13convert_ulongf");
-
-size_t item_id(uint dimension)
-{
-    return work_item[dimension];
-}
-
-float float_fma(float a, float b, float c)
-{
-    return fmaf(a, b, c);
-}
-
-Float2 pair_fma(Float2 a, Float2 b, Float2 c)
-{
-    return (Float2){fmaf(a[0], b[0], c[0]), fmaf(a[1], b[1], c[1])};
-}
-
-float float_max(float a, float b)
+static float larger(float a, float b)
 {
     return a < b ? b : a;
 }
 
-Float2 pair_max(Float2 a, Float2 b)
-{
-    return (Float2){float_max(a[0], b[0]), float_max(a[1], b[1])};
-}
-
-float float_min(float a, float b)
+static float smaller(float a, float b)
 {
     return b < a ? b : a;
 }
 
-Float2 pair_min(Float2 a, Float2 b)
-{
-    return (Float2){float_min(a[0], b[0]), float_min(a[1], b[1])};
-}
-
-uint uint_min(uint a, uint b)
-{
-    return b < a ? b : a;
-}
-
-float float_abs(float value)
-{
-    return fabsf(value);
-}
-
-float float_rint(float value)
-{
-    return rintf(value);
-}
-
-float float_sqrt(float value)
-{
-    return sqrtf(value);
-}
-
-float float_clamp(float value, float low, float high)
-{
-    return float_min(float_max(value, low), high);
-}
-
-float float_sign(float size, float sign)
-{
-    return copysignf(size, sign);
-}
-
-int int_of_float(float value)
-{
-    return (int)value;
-}
-
-int int_of_uint(uint value)
-{
-    return (int)value;
-}
-
-uint uint_of_int(int value)
-{
-    return (uint)value;
-}
-
-float float_of_int(int value)
-{
-    return (float)value;
-}
-
-float float_of_ulong(unsigned long value)
-{
-    return (float)value;
-}
-
-unsigned long ulong_of_float(float value)
-{
-    return (unsigned long)value;
-}
+BUILTIN(size_t, _Z13get_global_idj, (uint dimension), work_item[dimension])
+BUILTIN(float, _Z3fmafff, (float a, float b, float c), fmaf(a, b, c))
+BUILTIN(Float2, _Z3fmaDv2_fS_S_, (Float2 a, Float2 b, Float2 c),
+        ((Float2){fmaf(a[0], b[0], c[0]), fmaf(a[1], b[1], c[1])}))
+BUILTIN(float, _Z3maxff, (float a, float b), larger(a, b))
+BUILTIN(Float2, _Z3maxDv2_fS_, (Float2 a, Float2 b),
+        ((Float2){larger(a[0], b[0]), larger(a[1], b[1])}))
+BUILTIN(float, _Z3minff, (float a, float b), smaller(a, b))
+BUILTIN(Float2, _Z3minDv2_fS_, (Float2 a, Float2 b),
+        ((Float2){smaller(a[0], b[0]), smaller(a[1], b[1])}))
+BUILTIN(uint, _Z3minjj, (uint a, uint b), b < a ? b : a)
+BUILTIN(float, _Z4fabsf, (float value), fabsf(value))
+BUILTIN(float, _Z4rintf, (float value), rintf(value))
+BUILTIN(float, _Z4sqrtf, (float value), sqrtf(value))
+BUILTIN(float, _Z5clampfff, (float value, float low, float high), smaller(larger(value, low), high))
+BUILTIN(float, _Z8copysignff, (float size, float sign), copysignf(size, sign))
+BUILTIN(int, _Z11convert_intf, (float value), (int)value)
+BUILTIN(int, _Z11convert_intj, (uint value), (int)value)
+BUILTIN(uint, _Z12convert_uinti, (int value), (uint)value)
+BUILTIN(float, _Z13convert_floati, (int value), (float)value)
+BUILTIN(float, _Z13convert_floatm, (Ulong value), (float)value)
+BUILTIN(Ulong, _Z13convert_ulongf, (float value), (Ulong)value)
 
 void render_tile(FrameData frame, const PointLight *lights, const Material *materials,
                  const SphereData *spheres, const BvhPair *nodes, const TriangleData *triangles,

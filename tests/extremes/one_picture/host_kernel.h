@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The kernels of the ray family as clang compiles them for the host, without OpenCL: the same
-// source, another compiler and another library beneath it.
+// The kernels of the ray family, compiled for the host by clang without OpenCL.
 #pragma once
 
 #include "accel/flat.h"
 #include "image/framebuffer.h"
 
-// Draws all of the picture that frame describes, of a scene laid out in pairs, as one tile.
+// Draws the picture that frame describes, as one tile. flat has the layout of pairs.
 void host_kernel_draw(const FrameData *frame, const FlatScene *flat, Framebuffer *picture);

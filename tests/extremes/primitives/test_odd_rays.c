@@ -1,198 +1,149 @@
 // SPDX-License-Identifier: MIT
-// Rays that no picture should have: without a direction, not a number, infinite, from very far.
-// They meet nothing or what is there, end in time, and leave the rays beside them alone.
-#include "support/aim.h"
-#include "support/check.h"
+// Rays that no picture should have: without direction, NaN, infinite, and from very far. They must
+// end in time and leave the rays beside them undisturbed.
 #include "support/exact.h"
+#include "support/rig.h"
 #include "support/shapes.h"
-#include "support/tier.h"
-#include "support/trial.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#define FIELDS 6 // three of the origin and three of the direction
+// A field is one of three coordinates of the origin or three of the direction. The last field means
+// the whole direction.
+#define FIELDS 7
 
 static Scene globe(void)
 {
     return shape_scene(shape_sphere(20, vec3(0, 0, 0)));
 }
 
-static void set_field(TestRay *ray, int field, float value)
+// Stores value in a field of every fourth ray.
+static void spoil(Rays rays, float value, int field)
 {
-    if (field < 3)
-        ray->origin[field] = value;
-    else
-        ray->direction[field - 3] = value;
+    for (size_t i = 0; i < rays.count; i += 4)
+        for (int axis = 0; axis < 3; axis++) {
+            if (field == axis)
+                rays.data[i].origin[axis] = value;
+            if (field == 3 + axis || field == FIELDS - 1)
+                rays.data[i].direction[axis] = value;
+        }
 }
 
-// Every fourth ray has the value in one of its fields; a field past the last is all of the
-// direction.
-static void spoil(TestRay *rays, size_t count, float value, int field)
+// Returns how many spoiled rays hit anything, or other rays no longer hit what they did.
+static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size_t count)
 {
-    for (size_t i = 0; i < count; i += 4)
-        for (int component = 0; component < FIELDS; component++)
-            if (component == field || (field == FIELDS && component >= 3))
-                set_field(&rays[i], component, value);
+    size_t disturbed = 0;
+    const TestHit nothing = {INFINITY, NOTHING};
+    for (size_t i = 0; i < count; i++)
+        disturbed += memcmp(&hits[i], i % 4 == 0 ? &nothing : &expected[i], sizeof *hits) != 0;
+    return disturbed;
 }
 
-// The answers to the sound rays that are to be expected.
-typedef struct {
-    const TestHit *expected;
-    double seconds;
-} Sound;
-
-// Wrong is a spoiled ray that meets anything, or another that no longer meets what it did.
-static size_t count_disturbed(void *context, const TestRay *rays, const TestHit *hits, size_t count)
+// Returns the hits and the least of five times in seconds. The time of all processors together does
+// not depend on other processes.
+static TestHit *trace_timed(const RayBatch *batch, Rays rays, double *seconds)
 {
-    size_t wrong = 0;
-    const Sound *sound = context;
-    (void)rays;
-    for (size_t i = 0; i < count; i++) {
-        const TestHit nothing = {INFINITY, NOTHING};
-        const TestHit *expected = i % 4 == 0 ? &nothing : &sound->expected[i];
-        wrong += memcmp(&hits[i], expected, sizeof *expected) != 0;
-    }
-    return wrong;
-}
-
-// Returns the time of all processors together, which other processes do not increase.
-static double seconds_of(RayBatch *batch, const TestRay *rays, size_t count, TestHit *hits)
-{
-    double least = INFINITY;
+    TestHit *hits = NULL;
+    *seconds = INFINITY;
     for (int run = 0; run < 5; run++) {
+        free(hits);
         const clock_t start = clock();
-        ray_batch_trace(batch, BATCH_NEAREST, rays, count, hits);
-        least = fmin(least, (double)(clock() - start) / CLOCKS_PER_SEC);
+        hits = ray_batch_trace(batch, BATCH_NEAREST, rays);
+        *seconds = fmin(*seconds, (double)(clock() - start) / CLOCKS_PER_SEC);
     }
-    return least;
+    return hits;
 }
 
-// Embree's own rule: spoiled rays take no more than 2.5 times as long as sound ones.  At tier 0,
-// among other tests, time says nothing.
+// Embree's rule: spoiled rays take at most 2.5 times as long as sound rays.
 #define SLOWEST 2.5
 
-static size_t judge_spoiled(RayBatch *batch, const TestRay *rays, size_t count, Sound *sound,
-                            float value)
+static void judge_spoiled(const RayBatch *batch, Rays rays, float value)
 {
-    size_t wrong = 0;
-    char details[64];
-    double slowest = 0;
-    Error error = {0};
-    TestRay *spoiled = aim_make_rays(count);
-    TestHit *hits = memory_raw(count, sizeof *hits, &error);
-    require(hits != NULL, &error);
-    for (int field = 0; field <= FIELDS; field++) {
-        memcpy(spoiled, rays, count * sizeof *rays);
-        spoil(spoiled, count, value, field);
-        const double seconds = seconds_of(batch, spoiled, count, hits);
-        slowest = fmax(slowest, seconds / sound->seconds);
-        // A single zero is sound; only all of them are not.
-        if (value != 0 || field == FIELDS)
-            wrong += count_disturbed(sound, spoiled, hits, count);
+    size_t disturbed = 0;
+    double usual, seconds, slowest = 0;
+    const Rays spoiled = rays_make(rays.count);
+    TestHit *expected = trace_timed(batch, rays, &usual);
+    for (int field = 0; field < FIELDS; field++) {
+        memcpy(spoiled.data, rays.data, rays.count * sizeof *rays.data);
+        spoil(spoiled, value, field);
+        TestHit *hits = trace_timed(batch, spoiled, &seconds);
+        slowest = fmax(slowest, seconds / usual);
+        // A single zero is sound. Only a direction of zeros is not.
+        if (value != 0 || field == FIELDS - 1)
+            disturbed += count_disturbed(hits, expected, rays.count);
+        free(hits);
     }
-    free(spoiled);
-    free(hits);
-    snprintf(details, sizeof details, "value=%g times=%.2f", (double)value, slowest);
-    return report_case("T-23", details, (FIELDS + 1) * count,
-                       wrong + (tier() > 0 && slowest > SLOWEST));
+    free(spoiled.data);
+    free(expected);
+    // Times at tier 0 mean nothing, because other tests run beside this one.
+    disturbed += tier() > 0 && slowest > SLOWEST;
+    outcome_report(outcome_of("T-23", FIELDS * rays.count, disturbed), "value=%g times=%.2f",
+                   (double)value, slowest);
 }
 
 static void rays_of_no_direction_or_no_number_meet_nothing_and_end_t23(void **state)
 {
-    Stage stage;
-    Error error = {0};
+    static const float values[] = {0, NAN, -NAN, INFINITY, -INFINITY, 0x1p100f};
     Random random = {23};
-    size_t wrong = 0;
-    const size_t count = tier_size(8192, 65536);
-    const float values[] = {0, NAN, -NAN, INFINITY, -INFINITY, 0x1p100f};
-    TestRay *rays = aim_make_rays(count);
-    TestHit *hits = memory_raw(count, sizeof *hits, &error);
-    require(hits != NULL, &error);
-    Scene scene = globe();
-    stage_make(&stage, &scene, TREE_SAH);
-    const Room room = room_inside(&stage, vec3(0, 0, 0), 1);
-    ray_batch_upload(*state, &stage.flat);
-    aim_randomly(rays, count, &room, &random);
-    Sound sound = {hits, seconds_of(*state, rays, count, hits)};
-    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
-        wrong += judge_spoiled(*state, rays, count, &sound, values[i]);
-    stage_free(&stage);
-    scene_free(&scene);
-    free(rays);
-    free(hits);
-    assert_int_equal(wrong, 0);
+    const Rays rays = rays_make(tier_size(8192, 65536));
+    Rig rig = rig_open("T-23", *state, globe());
+    const Room room = room_inside(&rig.stage, vec3(0, 0, 0), 1);
+    rays_aim(rays, AIM_RANDOM, &room, &rig.stage.triangles, &random);
+    for (size_t i = 0; i < COUNT(values); i++)
+        judge_spoiled(*state, rays, values[i]);
+    rig_close(&rig);
+    free(rays.data);
 }
 
-typedef struct {
-    const Triangles *triangles;
-    float distance;
-} Far;
-
-// Wrong is another triangle than the exact one, nothing where there is one, or a distance that is
-// no number; from beyond 2^46 of the frame, where no ray is followed, nothing is right.
-static size_t count_invalid(void *context, const TestRay *rays, const TestHit *hits, size_t count)
+// The hit must be the exact one, and its distance not NaN. clrt does not follow rays from beyond
+// 2^46, which may hit nothing.
+static bool judge_far(void *triangles, const Traced *traced)
 {
-    const Far *far = context;
-    size_t wrong = 0;
-    for (size_t i = 0; i < count; i++) {
-        const Verdict verdict = exact_nearest(far->triangles, &rays[i]);
-        const bool valid = verdict.id == hits[i].id || !verdict.clear;
-        const bool unfollowed = far->distance > 0x1p46f && hits[i].id == NOTHING;
-        wrong += !(hits[i].t > 0) || !(valid || unfollowed);
-    }
-    return wrong;
+    const float *origin = traced->ray->origin;
+    const bool is_followed = vec3_extent(vec3_of(origin)) <= 0x1p46;
+    if (!(traced->hit->t > 0))
+        return true;
+    return judge_exactly(triangles, traced) && (is_followed || traced->hit->id != NOTHING);
 }
 
-// From afar along an axis, every other a little slanted.
-static void aim_from(TestRay *rays, size_t count, float distance, Random *random)
+// Aims from this distance along an axis. Every second ray is slightly slanted.
+static void aim_from(Rays rays, float distance, Random *random)
 {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < rays.count; i++) {
+        TestRay *ray = &rays.data[i];
         const uint32_t axis = random_below(random, 3);
         const float side = random_below(random, 2) == 0 ? 1 : -1;
-        rays[i] = aim_at(random_in_cube(random, 0.5), vec3(0, 0, 0));
-        rays[i].origin[axis] = side * distance;
+        *ray = ray_between(random_in_cube(random, 0.5), vec3(0, 0, 0));
+        ray->origin[axis] = side * distance;
         for (uint32_t other = 0; other < 3; other++)
-            rays[i].direction[other] = i % 2 == 0 ? 0 : 0.5f * rays[i].direction[other];
-        rays[i].direction[axis] = -side;
+            ray->direction[other] *= i % 2 == 0 ? 0 : 0.5f;
+        ray->direction[axis] = -side;
     }
 }
 
 static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
 {
     static const float distances[] = {1e3f, 1e6f, 1e9f, 1e12f, 1e18f, 1e24f, 1e30f, 3e38f};
-    Stage stage;
-    Trial trial;
     Random random = {24};
-    size_t wrong = 0;
-    const size_t count = tier_size(200, 2000);
-    TestRay *rays = aim_make_rays(count);
-    Scene scene = globe();
-    stage_make(&stage, &scene, TREE_SAH);
-    trial_open(&trial, "T-24", *state, &stage);
-    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
-        char details[32];
-        aim_from(rays, count, distances[i], &random);
-        // Embree 3.13.5 ends in a segmentation fault.
+    const Rays rays = rays_make(tier_size(200, 2000));
+    Rig rig = rig_open("T-24", *state, globe());
+    for (size_t i = 0; i < COUNT(distances); i++) {
+        aim_from(rays, distances[i], &random);
+        // Embree 3.13.5 crashes with a segmentation fault.
         if (distances[i] > 1e12f)
-            peers_close(&trial.peers);
-        snprintf(details, sizeof details, "distance=%g", (double)distances[i]);
-        Far far = {&stage.triangles, distances[i]};
-        wrong += trial_judge(&trial, details, rays, count, &(Judgment){count_invalid, &far});
+            peers_close(&rig.peers);
+        outcome_report(rig_judge(&rig, rays, judge_far, &rig.stage.triangles), "distance=%g",
+                       (double)distances[i]);
     }
-    trial_close(&trial);
-    stage_free(&stage);
-    scene_free(&scene);
-    free(rays);
-    assert_int_equal(wrong, 0);
+    rig_close(&rig);
+    free(rays.data);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
-        cmocka_unit_test(rays_from_very_far_meet_what_is_there_or_nothing_t24),
+        REPORTING_TEST(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
+        REPORTING_TEST(rays_from_very_far_meet_what_is_there_or_nothing_t24),
     };
     return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
 }

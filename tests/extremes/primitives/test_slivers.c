@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Triangles a thousand to ten million times as long as they are high: distances stay exact to a few
-// units in the last place, and what is met stays so but for rays on the very outline.
-#include "support/aim.h"
-#include "support/check.h"
+// Triangles a thousand to ten million times as long as they are high. Distances stay exact to a few
+// units in the last place, and hits are right except for rays at the outline.
 #include "support/exact.h"
-#include "support/rotation.h"
+#include "support/rig.h"
 #include "support/shapes.h"
-#include "support/tier.h"
-#include "support/trial.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 #define TRIANGLES  100
 #define ULPS_LIMIT 16
-#define PROGRAMS   3 // clrt and both modes of Embree
 
-// How far the distances are off that each program reports for the rays of a shape.
+// The errors of the distances that each tracer returns.
 typedef struct {
-    float (*corners)[3][3]; // of the triangle each ray is for
-    float *errors[PROGRAMS];
-    size_t met[PROGRAMS], wrong_sides[PROGRAMS];
-    int program;
+    const Triangles *triangle;
+    float *errors[TRACERS]; // in units in the last place
+    size_t met[TRACERS], wrong_sides[TRACERS];
 } Record;
 
 static double unit_in_last_place(double value)
@@ -28,78 +22,52 @@ static double unit_in_last_place(double value)
     return scalbn(1, ilogb(value) - 23);
 }
 
-// Whether rounding may decide: the ray passes the outline by less than 4 units in the last place.
+// Returns whether rounding may decide: the outline is nearer than 4 units in the last place.
 static bool is_on_outline(const ExactMeeting *exact)
 {
     return exact->distance < 4 * unit_in_last_place(exact->size);
 }
 
-static size_t count_inexact(void *context, const TestRay *rays, const TestHit *hits, size_t count)
+static bool judge_distance(void *context, const Traced *traced)
 {
     Record *record = context;
-    size_t inexact = 0;
-    const int program = record->program;
-    for (size_t i = 0; i < count; i++) {
-        const ExactMeeting exact = exact_meeting((const float(*)[3])record->corners[0], &rays[i]);
-        const bool met = hits[i].id != NOTHING;
-        record->wrong_sides[program] += met != exact.met && !is_on_outline(&exact);
-        if (!met || !exact.met)
-            continue;
-        const double error = fabs((double)hits[i].t - exact.t) / unit_in_last_place(exact.t);
-        record->errors[program][record->met[program]++] = (float)error;
-        inexact += !(error <= ULPS_LIMIT);
-    }
-    record->program = (program + 1) % PROGRAMS;
-    return inexact;
+    const RayTracer tracer = traced->tracer;
+    const ExactMeeting exact = exact_meeting(record->triangle, 0, traced->ray);
+    const bool met = traced->hit->id != NOTHING;
+    record->wrong_sides[tracer] += met != exact.met && !is_on_outline(&exact);
+    if (!met || !exact.met)
+        return false;
+    const double error = fabs((double)traced->hit->t - exact.t) / unit_in_last_place(exact.t);
+    record->errors[tracer][record->met[tracer]++] = (float)error;
+    return !(error <= ULPS_LIMIT);
 }
 
-// Along x, a length of 1, and so high, turned at random.
+// Returns a triangle of length 1 and height 1 / aspect, randomly rotated.
 static Scene sliver(double aspect, Random *random)
 {
     Vec3 axes[3];
     random_rotation(random, axes);
-    const Vec3 a = vec3_scale(axes[0], -0.5), b = vec3_scale(axes[0], 0.5);
-    const Vec3 c = vec3_add(vec3_scale(axes[0], random_between(random, -0.5, 0.5)),
-                            vec3_scale(axes[1], 1 / aspect));
-    return shape_scene(shape_triangle(a, b, c));
+    const Vec3 top = vec3(random_between(random, -0.5, 0.5), 1 / aspect, 0);
+    return shape_scene(
+        shape_triangle(vec3_scale(axes[0], -0.5), vec3_scale(axes[0], 0.5), rotated(axes, top)));
 }
 
-static void aim_inside(TestRay *rays, size_t count, const StageTriangle *triangle, Random *random)
+static Outcome judge_sliver(RayBatch *batch, double aspect, Record *record, Random *random)
 {
-    Vec3 origin = {0}, corners[3];
-    for (int i = 0; i < 3; i++)
-        corners[i] = vec3((double)triangle->corners[i][0], (double)triangle->corners[i][1],
-                          (double)triangle->corners[i][2]);
-    for (size_t i = 0; i < count; i++) {
+    Vec3 origin = {0};
+    const Rays rays = rays_make(tier_size(200, 2000));
+    Rig rig = rig_open("T-10", batch, sliver(aspect, random));
+    record->triangle = &rig.stage.triangles;
+    for (size_t i = 0; i < rays.count; i++) {
         const double u = random_between(random, 0, 1), v = random_between(random, 0, 1 - u);
-        if (aim_moves_origin(i, 64))
-            origin = vec3_scale(vec3_normalize(random_in_cube(random, 1)), 3);
-        rays[i] =
-            aim_at(origin,
-                   vec3_add(corners[0], vec3_add(vec3_scale(vec3_sub(corners[1], corners[0]), u),
-                                                 vec3_scale(vec3_sub(corners[2], corners[0]), v))));
+        if (rays_move_origin(i, 64))
+            origin = vec3_scale(random_unit(random), 3);
+        rays.data[i] = ray_between(origin, point_of(record->triangle, 0, u, v));
     }
-}
-
-static Fails trace_sliver(RayBatch *batch, double aspect, size_t count, Record *record,
-                          Random *random)
-{
-    Stage stage;
-    Trial trial;
-    TestRay *rays = aim_make_rays(count);
-    Scene scene = sliver(aspect, random);
-    stage_make(&stage, &scene, TREE_SAH);
-    StageTriangle triangle = stage_triangle(&stage.triangles, 0);
-    record->corners = &triangle.corners;
-    aim_inside(rays, count, &triangle, random);
-    trial_open(&trial, "T-10", batch, &stage);
-    record->program = 0;
-    const Fails fails = trial_fails(&trial, rays, count, &(Judgment){count_inexact, record});
-    trial_close(&trial);
-    stage_free(&stage);
-    scene_free(&scene);
-    free(rays);
-    return fails;
+    const Outcome outcome = rig_judge(&rig, rays, judge_distance, record);
+    rig_close(&rig);
+    free(rays.data);
+    return outcome;
 }
 
 static int compare_floats(const void *first, const void *second)
@@ -108,64 +76,48 @@ static int compare_floats(const void *first, const void *second)
     return (*a > *b) - (*a < *b);
 }
 
-// The value that a part of all errors lie below; sorts them.
-static double percentile(Record *record, int program, double part)
+// Sorts a tracer's errors. Returns the value above the given part of them.
+static double percentile(Record *record, RayTracer tracer, double part)
 {
-    const size_t count = record->met[program];
-    qsort(record->errors[program], count, sizeof(float), compare_floats);
-    return count > 0 ? (double)record->errors[program][(size_t)(part * (double)(count - 1))] : 0;
+    const size_t count = record->met[tracer];
+    qsort(record->errors[tracer], count, sizeof(float), compare_floats);
+    return count > 0 ? (double)record->errors[tracer][(size_t)(part * (double)(count - 1))] : 0;
 }
 
-static size_t report_slivers(double aspect, size_t rays, const Fails *fails, Record *record)
+static void judge_slivers(RayBatch *batch, double aspect)
 {
-    char details[160];
-    int length = snprintf(details, sizeof details, "aspect=%g median_ulp=%.2f p99_ulp=%.2f", aspect,
-                          percentile(record, 0, 0.5), percentile(record, 0, 0.99));
-    if (fails->peers.known)
-        snprintf(details + length, sizeof details - (size_t)length,
-                 " embree_default_p99_ulp=%.3g embree_robust_p99_ulp=%.3g",
-                 percentile(record, 1, 0.99), percentile(record, 2, 0.99));
-    const size_t past = report(
-        &(Case){"T-10", details, record->met[0], fails->ours, record->met[0] / 100, fails->peers});
-    snprintf(details, sizeof details, "aspect=%g sides", aspect);
-    const PeerFails sides = {fails->peers.known, record->wrong_sides[1], record->wrong_sides[2]};
-    return past + report(&(Case){"T-10", details, rays, record->wrong_sides[0], 0, sides});
-}
-
-static size_t judge_slivers(RayBatch *batch, double aspect)
-{
-    Error error = {0};
-    Fails fails = {0};
+    Outcome sum = {0};
     Record record = {0};
     Random random = {10};
-    const size_t each = tier_size(200, 2000), count = TRIANGLES * each;
-    for (int program = 0; program < PROGRAMS; program++) {
-        record.errors[program] = memory_raw(count, sizeof(float), &error);
-        require(record.errors[program] != NULL, &error);
-    }
-    for (int i = 0; i < TRIANGLES; i++) {
-        const Fails more = trace_sliver(batch, aspect, each, &record, &random);
-        fails_add(&fails, &more);
-    }
-    assert_true(record.met[0] > count / 50);
-    const size_t past = report_slivers(aspect, count, &fails, &record);
-    for (int program = 0; program < PROGRAMS; program++)
-        free(record.errors[program]);
-    return past;
+    for (RayTracer tracer = 0; tracer < TRACERS; tracer++)
+        record.errors[tracer] = require_memory(TRIANGLES * tier_size(200, 2000), sizeof(float));
+    for (int i = 0; i < TRIANGLES; i++)
+        outcome_add(&sum, judge_sliver(batch, aspect, &record, &random));
+    assert_true(record.met[BY_CLRT] > sum.count / 50);
+    Outcome sides = sum;
+    memcpy(sides.failures, record.wrong_sides, sizeof sides.failures);
+    sum.count = record.met[BY_CLRT];
+    sum.limit = sum.count / 100;
+    outcome_report(sum, "aspect=%g median_ulp=%.2f p99_ulp=%.2f", aspect,
+                   percentile(&record, BY_CLRT, 0.5), percentile(&record, BY_CLRT, 0.99));
+    outcome_report(sides, "aspect=%g sides embree_default_p99_ulp=%.3g embree_robust_p99_ulp=%.3g",
+                   aspect, percentile(&record, BY_EMBREE_DEFAULT, 0.99),
+                   percentile(&record, BY_EMBREE_ROBUST, 0.99));
+    for (RayTracer tracer = 0; tracer < TRACERS; tracer++)
+        free(record.errors[tracer]);
 }
 
 static void distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10(void **state)
 {
-    size_t past = judge_slivers(*state, 1e3);
-    past += judge_slivers(*state, 1e5);
-    past += judge_slivers(*state, 1e7);
-    assert_int_equal(past, 0);
+    judge_slivers(*state, 1e3);
+    judge_slivers(*state, 1e5);
+    judge_slivers(*state, 1e7);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10),
+        REPORTING_TEST(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10),
     };
     return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
 }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Spheres far away, huge, tiny, around the eye and touched by rays, in quadruple precision's light.
-// They lie in the frame as they are given: nothing is normalized.
-#include "support/aim.h"
-#include "support/check.h"
-#include "support/report.h"
-#include "support/tier.h"
-
-#include <math.h>
-#include <stdlib.h>
+// Spheres that are far away, huge, tiny, around the eye, or touched by rays, compared with
+// quadruple precision. They are given in normalized coordinates.
+#include "support/outcome.h"
+#include "support/rays.h"
+#include "support/shapes.h"
 
 __extension__ typedef __float128 Quad;
 
@@ -15,19 +11,10 @@ __extension__ typedef __float128 Quad;
 
 static SphereData sphere_of(Vec3 center, double radius)
 {
-    const double values[4] = {center.x, center.y, center.z, radius};
-    float high[4], low[4];
-    SphereData data = {0};
-    for (int i = 0; i < 4; i++) {
-        high[i] = (float)values[i];
-        low[i] = (float)(values[i] - (double)high[i]);
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        data.center[axis] = high[axis];
-        data.center_low[axis] = low[axis];
-    }
-    data.radius = high[3];
-    data.radius_low = low[3];
+    SphereData data = {.radius = (float)radius};
+    vec3_store(data.center, center);
+    vec3_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
+    data.radius_low = (float)(radius - (double)data.radius);
     return data;
 }
 
@@ -39,12 +26,8 @@ static Quad root_of(Quad square)
     return root;
 }
 
-typedef struct {
-    bool met;
-    double t;
-} Exact;
-
-static Exact exact_distance(const SphereData *sphere, const TestRay *ray)
+// Returns the distance to the sphere, INFINITY if the ray misses it.
+static double exact_distance(const SphereData *sphere, const TestRay *ray)
 {
     Quad dd = 0, fd = 0, ff = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -57,66 +40,55 @@ static Exact exact_distance(const SphereData *sphere, const TestRay *ray)
     const Quad radius = (Quad)sphere->radius + sphere->radius_low;
     const Quad c = ff - radius * radius, square = fd * fd - dd * c;
     if (square < 0)
-        return (Exact){false, INFINITY};
+        return INFINITY;
     const Quad root = root_of(square);
     const Quad q = fd < 0 ? -fd + root : -fd - root;
     const Quad one = q / dd, other = q != 0 ? c / q : 0;
     const Quad near = one < other ? one : other, far = one < other ? other : one;
     if (!(far > 0))
-        return (Exact){false, INFINITY};
-    return (Exact){true, (double)(near > 0 ? near : far)};
+        return INFINITY;
+    return (double)(near > 0 ? near : far);
 }
 
-// How the device's answers differ from the exact ones.
+// How many hits differ from the exact ones.
 typedef struct {
-    size_t sides, inexact, invalid; // hit for miss or miss for hit; distances; no distances at all
+    size_t sides;   // hits for misses or misses for hits
+    size_t inexact; // distances
+    size_t invalid; // no distance for a hit, or a distance for a miss
     double largest_error;
 } Differences;
 
-static Differences differences_of(const SphereData *sphere, const TestRay *rays,
-                                  const TestHit *hits, size_t count)
+static Differences trace(RayBatch *batch, const SphereData *sphere, Rays rays)
 {
-    Differences differences = {0};
-    for (size_t i = 0; i < count; i++) {
-        const Exact exact = exact_distance(sphere, &rays[i]);
+    Differences found = {0};
+    ray_batch_upload_sphere(batch, sphere);
+    TestHit *hits = ray_batch_trace(batch, BATCH_NEAREST, rays);
+    for (size_t i = 0; i < rays.count; i++) {
+        const double exact = exact_distance(sphere, &rays.data[i]);
         const bool met = hits[i].id != NOTHING;
-        differences.sides += met != exact.met;
-        differences.invalid += !(hits[i].t > 0) || met != (hits[i].t < INFINITY);
-        if (!met || !exact.met)
+        found.sides += met != (exact < INFINITY);
+        found.invalid += !(hits[i].t > 0) || met != (hits[i].t < INFINITY);
+        if (!met || !(exact < INFINITY))
             continue;
-        const double error = fabs((double)hits[i].t - exact.t) / exact.t;
-        differences.inexact += !(error <= ERROR_LIMIT);
-        differences.largest_error = fmax(differences.largest_error, error);
+        const double error = fabs((double)hits[i].t - exact) / exact;
+        found.inexact += !(error <= ERROR_LIMIT);
+        found.largest_error = fmax(found.largest_error, error);
     }
-    return differences;
-}
-
-static Differences trace(RayBatch *batch, const SphereData *sphere, const TestRay *rays,
-                         size_t count)
-{
-    Error error = {0};
-    SphereData data = *sphere;
-    const FlatScene flat = {.layout = batch->choice.nodes, .spheres = &data, .sphere_count = 1};
-    TestHit *hits = memory_raw(count, sizeof *hits, &error);
-    require(hits != NULL, &error);
-    ray_batch_upload(batch, &flat);
-    ray_batch_trace(batch, BATCH_NEAREST, rays, count, hits);
-    const Differences differences = differences_of(sphere, rays, hits, count);
     free(hits);
-    return differences;
+    return found;
 }
 
-// From around the origin at points within 1.2 radii of the center.
-static void aim_around(TestRay *rays, size_t count, Vec3 center, double radius, Random *random)
+// Aims from around the origin at points within 1.2 radii of the center.
+static void aim_around(Rays rays, Vec3 center, double radius, Random *random)
 {
     Vec3 origin = {0};
-    for (size_t i = 0; i < count; i++) {
-        if (aim_moves_origin(i, 64))
+    for (size_t i = 0; i < rays.count; i++) {
+        if (rays_move_origin(i, 64))
             origin = random_in_cube(random, 1);
         Vec3 apart = random_in_cube(random, 1.2);
         while (vec3_dot(apart, apart) > 1.2 * 1.2)
             apart = random_in_cube(random, 1.2);
-        rays[i] = aim_at(origin, vec3_add(center, vec3_scale(apart, radius)));
+        rays.data[i] = ray_between(origin, vec3_add(center, vec3_scale(apart, radius)));
     }
 }
 
@@ -125,22 +97,19 @@ static Vec3 at_distance(double distance)
     return vec3_scale(vec3_normalize(vec3(3, -2, 1.5)), distance);
 }
 
-static void a_sphere_smaller_than_its_places_bits_gives_no_invalid_hit_t31(void **state)
+static void a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31(void **state)
 {
-    char details[64];
     Random random = {31};
-    const size_t count = tier_size(10000, 1000000);
-    TestRay *rays = aim_make_rays(count);
+    const Rays rays = rays_make(tier_size(10000, 1000000));
     const SphereData sphere = sphere_of(at_distance(1e6), 1e-6);
-    aim_around(rays, count, at_distance(1e6), 1e-6, &random);
-    const Differences found = trace(*state, &sphere, rays, count);
-    snprintf(details, sizeof details, "false_hits=%zu", found.sides);
-    const size_t past = report_case("T-31", details, count, found.invalid);
-    free(rays);
-    assert_int_equal(past, 0);
+    aim_around(rays, at_distance(1e6), 1e-6, &random);
+    const Differences found = trace(*state, &sphere, rays);
+    outcome_report(outcome_of("T-31", rays.count, found.invalid), "false_hits=%zu", found.sides);
+    free(rays.data);
 }
 
-// How many rays may be wrong at a distance; past 1e5 the rays' own directions are too coarse.
+// Returns how many rays may be wrong at a distance. Beyond 1e5, the rays' directions are too
+// coarse.
 static size_t limit_at(double distance, size_t count)
 {
     return distance < 0.9e5 ? 0 : distance < 0.9e6 ? (size_t)(2e-5 * (double)count) : count;
@@ -148,138 +117,114 @@ static size_t limit_at(double distance, size_t count)
 
 static void far_spheres_are_met_and_missed_as_exactly_t32(void **state)
 {
-    size_t past = 0;
     Random random = {32};
-    const size_t count = tier_size(10000, 300000);
-    TestRay *rays = aim_make_rays(count);
+    const Rays rays = rays_make(tier_size(10000, 300000));
     for (double distance = 10; distance < 2e6; distance *= 10) {
-        char details[96];
         const SphereData sphere = sphere_of(at_distance(distance), 1);
-        aim_around(rays, count, at_distance(distance), 1, &random);
-        const Differences found = trace(*state, &sphere, rays, count);
-        snprintf(details, sizeof details, "distance=%g sides", distance);
-        past +=
-            report(&(Case){"T-32", details, count, found.sides, limit_at(distance, count), {0}});
-        snprintf(details, sizeof details, "distance=%g largest_error=%.2g", distance,
-                 found.largest_error);
-        past += report_case("T-32", details, count, found.inexact + found.invalid);
+        aim_around(rays, at_distance(distance), 1, &random);
+        const Differences found = trace(*state, &sphere, rays);
+        Outcome sides = outcome_of("T-32", rays.count, found.sides);
+        sides.limit = limit_at(distance, rays.count);
+        outcome_report(sides, "distance=%g sides", distance);
+        outcome_report(outcome_of("T-32", rays.count, found.inexact + found.invalid),
+                       "distance=%g largest_error=%.2g", distance, found.largest_error);
     }
-    free(rays);
-    assert_int_equal(past, 0);
+    free(rays.data);
 }
 
-// Downward from a height of 1 over the top of the sphere.
-static void aim_down(TestRay *rays, size_t count, Random *random)
+// Traces the rays, and reports all differences.
+static void judge_radius(const char *test, RayBatch *batch, const SphereData *sphere, Rays rays)
 {
-    Vec3 origin = {0};
-    for (size_t i = 0; i < count; i++) {
-        if (aim_moves_origin(i, 64))
-            origin = vec3(random_between(random, -1, 1), random_between(random, -1, 1), 1);
-        Vec3 direction = random_in_cube(random, 1);
-        direction.z = -fabs(direction.z) - 0.01;
-        rays[i] = aim_at(origin, vec3_add(origin, direction));
-    }
+    const Differences found = trace(batch, sphere, rays);
+    outcome_report(outcome_of(test, rays.count, found.inexact + found.invalid + found.sides),
+                   "radius=%g largest_error=%.2g", (double)sphere->radius, found.largest_error);
 }
 
+// Rays go downward from a height of 1 above the top of the sphere.
 static void the_ground_may_be_a_sphere_of_any_radius_t33(void **state)
 {
-    size_t past = 0;
     Random random = {33};
-    const size_t count = tier_size(10000, 300000);
-    TestRay *rays = aim_make_rays(count);
+    Vec3 origin = {0};
+    const Rays rays = rays_make(tier_size(10000, 300000));
     for (double radius = 1e3; radius < 2e9; radius *= 10) {
-        char details[96];
         const SphereData sphere = sphere_of(vec3(0, 0, -radius), radius);
-        aim_down(rays, count, &random);
-        const Differences found = trace(*state, &sphere, rays, count);
-        snprintf(details, sizeof details, "radius=%g largest_error=%.2g", radius,
-                 found.largest_error);
-        past += report_case("T-33", details, count, found.inexact + found.invalid + found.sides);
+        for (size_t i = 0; i < rays.count; i++) {
+            if (rays_move_origin(i, 64)) {
+                origin = random_in_cube(&random, 1);
+                origin.z = 1;
+            }
+            Vec3 direction = random_in_cube(&random, 1);
+            direction.z = -fabs(direction.z) - 0.01;
+            rays.data[i] = ray_between(origin, vec3_add(origin, direction));
+        }
+        judge_radius("T-33", *state, &sphere, rays);
     }
-    free(rays);
-    assert_int_equal(past, 0);
+    free(rays.data);
 }
 
 static void an_eye_inside_a_sphere_sees_its_far_wall_t34(void **state)
 {
     static const double radii[] = {1, 1e6};
-    size_t past = 0;
     Random random = {34};
-    const size_t count = tier_size(10000, 300000);
-    TestRay *rays = aim_make_rays(count);
+    Vec3 origin = {0};
+    const Rays rays = rays_make(tier_size(10000, 300000));
     for (int i = 0; i < 2; i++) {
-        char details[96];
-        Vec3 origin = {0};
         const SphereData sphere = sphere_of(vec3(0.1 * radii[i], 0, -0.3 * radii[i]), radii[i]);
-        for (size_t ray = 0; ray < count; ray++) {
-            if (aim_moves_origin(ray, 64))
+        for (size_t ray = 0; ray < rays.count; ray++) {
+            if (rays_move_origin(ray, 64))
                 origin = random_in_cube(&random, 0.35 * radii[i]);
-            rays[ray] = aim_at(origin, vec3_add(origin, random_in_cube(&random, 1)));
+            rays.data[ray] = ray_between(origin, vec3_add(origin, random_in_cube(&random, 1)));
         }
-        const Differences found = trace(*state, &sphere, rays, count);
-        snprintf(details, sizeof details, "radius=%g largest_error=%.2g", radii[i],
-                 found.largest_error);
-        past += report_case("T-34", details, count, found.inexact + found.invalid + found.sides);
+        judge_radius("T-34", *state, &sphere, rays);
     }
-    free(rays);
-    assert_int_equal(past, 0);
+    free(rays.data);
 }
 
-// Pythagorean triples: (a, b) lies on the circle of radius c around the origin.
+// Pythagorean triples: (a, b) is on the circle of radius c around the origin.
 static const int triples[][3] = {{3, 4, 5},    {5, 12, 13},  {8, 15, 17},     {7, 24, 25},
                                  {20, 21, 29}, {9, 40, 41},  {12, 35, 37},    {28, 45, 53},
                                  {16, 63, 65}, {33, 56, 65}, {119, 120, 169}, {696, 697, 985}};
-#define TRIPLES  (sizeof triples / sizeof *triples)
-#define TANGENTS 64 // a triple's rays of each kind
+#define TANGENTS 64 // rays of a triple
 
-// Along the tangent at (a, b), `apart` 2^-20ths of the radius outside of it.
+// Returns a ray along the tangent at (a, b), `apart` 2^-20ths of the radius outside it. With apart
+// 0 the ray is level, and touches the sphere.
 static TestRay tangent(const int *triple, int apart, Random *random)
 {
-    const double a = triple[0], b = triple[1];
-    const double steps = 1 + random_below(random, 7), height = (int)random_below(random, 9) - 4;
-    const double outward = 1 + apart * 0x1p-20;
-    TestRay ray = {.own = NOTHING, .kind = RAY_CAMERA};
-    ray.origin[0] = (float)(a * outward + steps * b);
-    ray.origin[1] = (float)(b * outward - steps * a);
-    ray.origin[2] = (float)height;
-    ray.direction[0] = (float)-b;
-    ray.direction[1] = (float)a;
-    ray.direction[2] = (float)-height / (float)(8 * steps);
+    const double a = triple[0], b = triple[1], outward = 1 + apart * 0x1p-20;
+    const double steps = 1 + random_below(random, 7), slope = (int)random_below(random, 9) - 4;
+    const double height = apart == 0 ? 0 : slope;
+    const TestRay ray = {.origin = {(float)(a * outward + steps * b),
+                                    (float)(b * outward - steps * a), (float)height},
+                         .own = NOTHING,
+                         .direction = {(float)-b, (float)a, (float)-height / (float)(8 * steps)},
+                         .kind = RAY_CAMERA};
     return ray;
 }
 
-// apart 0 touches the sphere only where the ray stays level.
 static void rays_along_a_tangent_are_met_by_the_exact_sign_t35(void **state)
 {
-    size_t past = 0;
     for (int apart = -2; apart <= 2; apart++) {
-        char details[64];
         size_t sides = 0;
         Random random = {35};
-        for (size_t triple = 0; triple < TRIPLES; triple++) {
+        for (size_t triple = 0; triple < COUNT(triples); triple++) {
             TestRay rays[TANGENTS];
             const SphereData sphere = sphere_of(vec3(0, 0, 0), triples[triple][2]);
-            for (int i = 0; i < TANGENTS; i++) {
+            for (int i = 0; i < TANGENTS; i++)
                 rays[i] = tangent(triples[triple], apart, &random);
-                if (apart == 0)
-                    rays[i].origin[2] = rays[i].direction[2] = 0;
-            }
-            sides += trace(*state, &sphere, rays, TANGENTS).sides;
+            sides += trace(*state, &sphere, (Rays){rays, TANGENTS}).sides;
         }
-        snprintf(details, sizeof details, "apart=%d", apart);
-        past += report_case("T-35", details, TRIPLES * TANGENTS, sides);
+        outcome_report(outcome_of("T-35", COUNT(triples) * TANGENTS, sides), "apart=%d", apart);
     }
-    assert_int_equal(past, 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sphere_smaller_than_its_places_bits_gives_no_invalid_hit_t31),
-        cmocka_unit_test(far_spheres_are_met_and_missed_as_exactly_t32),
-        cmocka_unit_test(the_ground_may_be_a_sphere_of_any_radius_t33),
-        cmocka_unit_test(an_eye_inside_a_sphere_sees_its_far_wall_t34),
-        cmocka_unit_test(rays_along_a_tangent_are_met_by_the_exact_sign_t35),
+        REPORTING_TEST(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
+        REPORTING_TEST(far_spheres_are_met_and_missed_as_exactly_t32),
+        REPORTING_TEST(the_ground_may_be_a_sphere_of_any_radius_t33),
+        REPORTING_TEST(an_eye_inside_a_sphere_sees_its_far_wall_t34),
+        REPORTING_TEST(rays_along_a_tangent_are_met_by_the_exact_sign_t35),
     };
     return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Shared by all tests of the extremes: cmocka, and failing with an Error's reason.
+// Shared by all tests of the extremes: cmocka, requirements, and the size of a run.
 #pragma once
 
-#include "base/error.h"
+#include "base/array.h"
+
+#include <stdlib.h>
 
 // clang-format off
 #include <setjmp.h>
@@ -13,9 +15,34 @@
 #include <cmocka.h>
 // clang-format on
 
-// Ends the test where something that is not under test went wrong.
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+// Ends the test with the error's text unless ok.
 static inline void require(bool ok, const Error *error)
 {
     if (!ok)
         fail_msg("%s", error->text);
+}
+
+// Returns uninitialized memory for count elements of size bytes. The caller frees it.
+static inline void *require_memory(size_t count, size_t size)
+{
+    Error error = {0};
+    void *memory = memory_raw(count, size, &error);
+    require(memory != NULL, &error);
+    return memory;
+}
+
+// Returns the tier in CLRT_TEST_TIER: 0 for every change (the default), 1 for minutes, 2 for
+// releases.
+static inline int tier(void)
+{
+    const char *text = getenv("CLRT_TEST_TIER");
+    return text != NULL ? atoi(text) : 0;
+}
+
+// Returns a size for tier 0 or for the other tiers.
+static inline size_t tier_size(size_t small, size_t full)
+{
+    return tier() == 0 ? small : full;
 }

@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Rays go one by one, which Embree's documentation calls the reference for its other calls.
+// Traces single rays, which Embree's documentation calls the reference for its other calls.
 #include "peers.h"
 
-#include "check.h"
+#include "shapes.h"
 
 #include <embree3/rtcore.h>
-#include <stdlib.h>
 
-// Lengths in the file's coordinates.
-static float in_file(const Normalization *normalization, double length)
-{
-    return (float)(length / normalization->scale);
-}
-
-static float place_in_file(double coordinate, double center, const Normalization *normalization)
-{
-    return (float)(coordinate / normalization->scale + center);
-}
-
+// Returns the scene coordinates of a normalized point.
 static void fill_point(float place[3], const float point[3], const Normalization *normalization)
 {
-    const Vec3 c = normalization->center;
-    place[0] = place_in_file((double)point[0], c.x, normalization);
-    place[1] = place_in_file((double)point[1], c.y, normalization);
-    place[2] = place_in_file((double)point[2], c.z, normalization);
+    vec3_store(place, denormalize_point(normalization, vec3_of(point)));
 }
 
 static void fill_triangles(RTCGeometry geometry, const Stage *stage)
@@ -64,33 +50,34 @@ void peers_open(Peers *peers, const Stage *stage)
         return;
     peers->device = rtcNewDevice("threads=2");
     assert_non_null(peers->device);
-    peers->plain = make_scene(peers->device, stage, RTC_SCENE_FLAG_NONE);
-    peers->robust = make_scene(peers->device, stage, RTC_SCENE_FLAG_ROBUST);
+    peers->scenes[BY_EMBREE_DEFAULT] = make_scene(peers->device, stage, RTC_SCENE_FLAG_NONE);
+    peers->scenes[BY_EMBREE_ROBUST] = make_scene(peers->device, stage, RTC_SCENE_FLAG_ROBUST);
 }
 
 void peers_close(Peers *peers)
 {
     if (peers->device == NULL)
         return;
-    rtcReleaseScene(peers->plain);
-    rtcReleaseScene(peers->robust);
+    rtcReleaseScene(peers->scenes[BY_EMBREE_DEFAULT]);
+    rtcReleaseScene(peers->scenes[BY_EMBREE_ROBUST]);
     rtcReleaseDevice(peers->device);
     *peers = (Peers){0};
 }
 
 static TestHit trace(RTCScene scene, const TestRay *ray, const Normalization *normalization)
 {
-    float origin[3];
+    float origin[3], direction[3];
     struct RTCIntersectContext context;
     struct RTCRayHit traced = {.ray.tfar = INFINITY, .ray.mask = UINT32_MAX};
     rtcInitIntersectContext(&context);
     fill_point(origin, ray->origin, normalization);
+    vec3_store(direction, vec3_scale(vec3_of(ray->direction), 1 / normalization->scale));
     traced.ray.org_x = origin[0];
     traced.ray.org_y = origin[1];
     traced.ray.org_z = origin[2];
-    traced.ray.dir_x = in_file(normalization, (double)ray->direction[0]);
-    traced.ray.dir_y = in_file(normalization, (double)ray->direction[1]);
-    traced.ray.dir_z = in_file(normalization, (double)ray->direction[2]);
+    traced.ray.dir_x = direction[0];
+    traced.ray.dir_y = direction[1];
+    traced.ray.dir_z = direction[2];
     traced.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &traced);
     if (traced.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -98,24 +85,10 @@ static TestHit trace(RTCScene scene, const TestRay *ray, const Normalization *no
     return (TestHit){traced.ray.tfar, traced.hit.primID};
 }
 
-static size_t count_wrong(RTCScene scene, const Peers *peers, const TestRay *rays, size_t count,
-                          const Judgment *judgment)
+TestHit *peers_trace(const Peers *peers, RayTracer tracer, Rays rays)
 {
-    Error error = {0};
-    TestHit *hits = memory_raw(count, sizeof *hits, &error);
-    require(hits != NULL, &error);
-    for (size_t i = 0; i < count; i++)
-        hits[i] = trace(scene, &rays[i], &peers->normalization);
-    const size_t wrong = judgment->count_wrong(judgment->context, rays, hits, count);
-    free(hits);
-    return wrong;
-}
-
-PeerFails peers_judge(const Peers *peers, const TestRay *rays, size_t count,
-                      const Judgment *judgment)
-{
-    if (peers->device == NULL)
-        return (PeerFails){0};
-    return (PeerFails){true, count_wrong(peers->plain, peers, rays, count, judgment),
-                       count_wrong(peers->robust, peers, rays, count, judgment)};
+    TestHit *hits = require_memory(rays.count, sizeof *hits);
+    for (size_t i = 0; i < rays.count; i++)
+        hits[i] = trace(peers->scenes[tracer], &rays.data[i], &peers->normalization);
+    return hits;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for peers.c where there is no Embree 3.
+// Replaces peers.c without Embree 3.
 #include "peers.h"
 
 void peers_open(Peers *peers, const Stage *stage)
@@ -13,12 +13,8 @@ void peers_close(Peers *peers)
     (void)peers;
 }
 
-PeerFails peers_judge(const Peers *peers, const TestRay *rays, size_t count,
-                      const Judgment *judgment)
+TestHit *peers_trace(const Peers *peers, RayTracer tracer, Rays rays)
 {
-    (void)peers;
-    (void)rays;
-    (void)count;
-    (void)judgment;
-    return (PeerFails){0};
+    (void)peers, (void)tracer, (void)rays;
+    return NULL;
 }

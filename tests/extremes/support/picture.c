@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The stages of the program's main, from a Scene on.
+// Runs the stages of the program from a Scene on. The oracle judges by tests/image/comparison.h.
 #include "picture.h"
 
-#include "check.h"
+#include "image/comparison.h"
 #include "image/form.h"
 #include "scene/camera.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 int picture_setup(void **state)
@@ -27,14 +26,14 @@ int picture_teardown(void **state)
     return 0;
 }
 
-PictureSettings picture_settings(void)
+PictureSettings picture_settings(uint32_t side)
 {
     const KernelChoice choice = form_choice();
     const uint32_t group = form_group(&choice);
     return (PictureSettings){.tree = TREE_SAH,
                              .choice = choice,
-                             .render = {.width = 64,
-                                        .height = 64,
+                             .render = {.width = side,
+                                        .height = side,
                                         .samples = 1,
                                         .max_level = 4,
                                         .tile_width = 32,
@@ -67,59 +66,103 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
                        settings->samples);
 }
 
-void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
-                  const PictureSettings *settings)
-{
-    RenderProgress progress;
-    picture_draw_counted(framebuffer, studio, scene, settings, &progress);
-}
-
-void picture_draw_counted(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
-                          const PictureSettings *settings, RenderProgress *progress)
+Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
+                                 const PictureSettings *settings, RenderProgress *progress)
 {
     Stage stage;
     Renderer renderer;
     Error error = {0};
+    Framebuffer picture;
     const RenderSettings *render = &settings->render;
     const CameraData camera = picture_camera(scene, render);
     picture_open(&renderer, &stage, studio, scene, settings);
-    const bool ok = framebuffer_make(framebuffer, render->width, render->height, &error) &&
-                    renderer_draw(&renderer, &camera, NULL, framebuffer, &error);
+    const bool ok = framebuffer_make(&picture, render->width, render->height, &error) &&
+                    renderer_draw(&renderer, &camera, NULL, &picture, &error);
     *progress = renderer.progress;
     renderer_close(&renderer);
     stage_free(&stage);
     require(ok, &error);
+    return picture;
 }
 
-size_t picture_count_differences(const Framebuffer *a, const Framebuffer *b)
+Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings)
 {
-    size_t count = 0;
-    assert_int_equal(a->width, b->width);
-    assert_int_equal(a->height, b->height);
-    for (size_t pixel = 0; pixel < (size_t)a->width * a->height; pixel++)
-        count += memcmp(a->pixels[pixel], b->pixels[pixel], sizeof a->pixels[pixel]) != 0;
-    return count;
+    RenderProgress progress;
+    return picture_draw_counted(studio, scene, settings, &progress);
 }
 
-size_t picture_count_faults(const Framebuffer *framebuffer)
+Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings)
+{
+    const Framebuffer picture = picture_draw(studio, &scene, settings);
+    scene_free(&scene);
+    return picture;
+}
+
+size_t picture_pixels(const Framebuffer *picture)
+{
+    return (size_t)picture->width * picture->height;
+}
+
+Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other)
+{
+    Outcome outcome = {.test = test, .count = picture_pixels(usual)};
+    assert_int_equal(usual->width, other.width);
+    assert_int_equal(usual->height, other.height);
+    for (size_t i = 0; i < outcome.count; i++)
+        outcome.failures[BY_CLRT] +=
+            memcmp(usual->pixels[i], other.pixels[i], sizeof *other.pixels) != 0;
+    framebuffer_free(&other);
+    return outcome;
+}
+
+Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
+                      const PictureSettings *settings)
+{
+    return picture_judge_beside(test, studio, scene, scene, settings);
+}
+
+Outcome picture_judge_beside(const char *test, const Studio *studio, Scene scene, Scene exact,
+                             const PictureSettings *settings)
+{
+    Error error = {0};
+    Oracle oracle;
+    Framebuffer expected;
+    const RenderSettings *render = &settings->render;
+    require(oracle_make(&oracle, &exact, &error), &error);
+    const OracleView view = oracle_view(&oracle, &exact.viewpoints.data[0], render->width,
+                                        render->height, render->max_level);
+    Framebuffer picture = picture_draw(studio, &scene, settings);
+    require(oracle_draw(&view, render->samples, 1, &expected, &error), &error);
+    const Comparison comparison = comparison_make(&view, &picture, &expected, 1);
+    const size_t failures = comparison.unexplained + picture_count_faults(&picture);
+    const Outcome outcome = outcome_of(test, picture_pixels(&picture), failures);
+    if (comparison.unexplained > 0)
+        comparison_print(&comparison, "oracle");
+    framebuffer_free(&picture);
+    framebuffer_free(&expected);
+    oracle_free(&oracle);
+    if (exact.lights.data != scene.lights.data)
+        scene_free(&exact);
+    scene_free(&scene);
+    return outcome;
+}
+
+size_t picture_count_faults(const Framebuffer *picture)
 {
     size_t count = 0;
-    for (size_t pixel = 0; pixel < (size_t)framebuffer->width * framebuffer->height; pixel++) {
+    for (size_t i = 0; i < picture_pixels(picture); i++) {
         bool valid = true;
-        for (int channel = 0; channel < 3; channel++) {
-            const float value = framebuffer->pixels[pixel][channel];
-            valid = valid && value >= 0 && value <= 1;
-        }
+        for (int channel = 0; channel < 3; channel++)
+            valid = valid && picture->pixels[i][channel] >= 0 && picture->pixels[i][channel] <= 1;
         count += !valid;
     }
     return count;
 }
 
-size_t picture_count_covered(const Framebuffer *framebuffer)
+size_t picture_count_other(const Framebuffer *picture, const float color[3])
 {
     size_t count = 0;
-    const float(*pixels)[3] = (const float(*)[3])framebuffer->pixels;
-    for (size_t pixel = 0; pixel < (size_t)framebuffer->width * framebuffer->height; pixel++)
-        count += memcmp(pixels[pixel], pixels[0], sizeof *pixels) != 0;
+    for (size_t i = 0; i < picture_pixels(picture); i++)
+        count += memcmp(picture->pixels[i], color, sizeof *picture->pixels) != 0;
     return count;
 }

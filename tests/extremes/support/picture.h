@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Scene -> Framebuffer on one device that stays open for a group of tests.
+// Draws scenes on one device that stays open for a group of tests, and judges the pictures.
 // Any failure ends the test.
 #pragma once
 
+#include "outcome.h"
 #include "render/renderer.h"
 #include "stage.h"
 
@@ -11,8 +12,8 @@ typedef struct {
     Cache cache;
 } Studio;
 
-// Fixtures of a group of tests, which find the studio in *state.  The device is the one that the
-// environment variable CLRT_DEVICE names, unset the best.
+// Fixtures of a group of tests. *state is the studio. Its device is the one that CLRT_DEVICE names,
+// or the best one.
 int picture_setup(void **state);
 int picture_teardown(void **state);
 
@@ -20,33 +21,47 @@ typedef struct {
     TreeKind tree;
     RenderSettings render;
     KernelChoice choice;
-    const char *extra_options; // for the kernels' compiler, NULL for none
+    const char *extra_options; // for the kernels' compiler; NULL for none
 } PictureSettings;
 
-// 64 x 64 pixels of one sample in tiles of 32 x 32, drawn by the general program of form_choice.
-PictureSettings picture_settings(void);
+// Returns settings for side x side pixels of one sample in tiles of 32 x 32, drawn by the general
+// program of form_choice.
+PictureSettings picture_settings(uint32_t side);
 
-// Opens a renderer for the scene; kernels are those that are built in, or CLRT_KERNEL_DIR's.  The
-// caller closes it and frees the stage after it: the device may read the scene where it lies.
+// Opens a renderer with the kernels in CLRT_KERNEL_DIR, or the built-in kernels. The caller closes
+// it before it frees the stage, whose memory the device may share.
 void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
 
-// The first of the scene's viewpoints, as the renderer's settings want it.
+// Returns the camera of the scene's first viewpoint.
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings);
 
-// Draws the scene's first viewpoint; the caller frees framebuffer.
-void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
-                  const PictureSettings *settings);
+// Draws the scene's first viewpoint. The caller frees the picture.
+Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings);
 
-// The same, and what it cost: settings ask for statistics.
-void picture_draw_counted(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,
-                          const PictureSettings *settings, RenderProgress *progress);
+// The same, and frees the scene.
+Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings);
 
-// How many pixels differ in any bit.
-size_t picture_count_differences(const Framebuffer *a, const Framebuffer *b);
+// The same as picture_draw, and fills progress with the tallies if settings ask for statistics.
+Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
+                                 const PictureSettings *settings, RenderProgress *progress);
 
-// How many pixels hold a value outside [0, 1] or none.
-size_t picture_count_faults(const Framebuffer *framebuffer);
+size_t picture_pixels(const Framebuffer *picture);
 
-// How many pixels differ from the one in the top left corner, which shows the background.
-size_t picture_count_covered(const Framebuffer *framebuffer);
+// Returns how many pixels of `other` differ in any bit from `usual`. Frees `other`.
+Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other);
+
+// Returns how many pixels differ from the oracle's picture for no visible reason, or have values
+// outside [0, 1]. Frees the scene.
+Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
+                      const PictureSettings *settings);
+
+// The same, but the oracle draws `exact` instead of the scene. Frees both.
+Outcome picture_judge_beside(const char *test, const Studio *studio, Scene scene, Scene exact,
+                             const PictureSettings *settings);
+
+// Returns how many pixels have a value outside [0, 1] or NaN.
+size_t picture_count_faults(const Framebuffer *picture);
+
+// Returns how many pixels differ from color.
+size_t picture_count_other(const Framebuffer *picture, const float color[3]);

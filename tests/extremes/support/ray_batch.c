@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// All launches of a form have one size: PoCL compiles a kernel again for each local size and kind
-// of grid, and compiling has to happen under the cache's lock, which only ray_batch_open holds.
+// PoCL compiles a kernel again for each work-group size and kind of grid. It must compile under the
+// cache's lock, which only ray_batch_open holds, so all launches have one size.
 #include "ray_batch.h"
 
 #include "base/file.h"
 #include "check.h"
 #include "image/form.h"
-#include "ray_order.h"
 
-#include <stdlib.h>
+#include <math.h>
+#include <string.h>
 
 #define BATCH_RAYS 65536
 
-// Lanes of kernels with the default lane count, which the host must know.
+// Lanes of kernels with the default lane count.
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
@@ -24,24 +24,22 @@ static void require_success(cl_int status, const char *attempt)
     require(cl_succeeded(status, attempt, &error), &error);
 }
 
+// data may be NULL.
 static cl_mem make_buffer(const RayBatch *batch, const void *data, size_t size)
 {
-    static const char nothing[64];
     cl_int status;
-    const cl_mem buffer = clCreateBuffer(
-        batch->device.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
-        size > 0 ? size : sizeof nothing, (void *)(size > 0 ? data : nothing), &status);
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (data != NULL ? CL_MEM_COPY_HOST_PTR : 0);
+    const cl_mem buffer = clCreateBuffer(batch->device.context, flags, size, (void *)data, &status);
     require_success(status, "make a buffer");
     return buffer;
 }
 
-static cl_mem make_room(const RayBatch *batch, size_t size)
+static void set_array(RayBatch *batch, BatchArray place, const void *data, size_t size)
 {
-    cl_int status;
-    const cl_mem buffer =
-        clCreateBuffer(batch->device.context, CL_MEM_READ_WRITE, size, NULL, &status);
-    require_success(status, "make a buffer");
-    return buffer;
+    if (batch->arrays[place] != NULL)
+        clReleaseMemObject(batch->arrays[place]);
+    const bool is_empty = data == NULL || size == 0;
+    batch->arrays[place] = make_buffer(batch, is_empty ? NULL : data, is_empty ? 64 : size);
 }
 
 // Runs a kernel over the first count rays in the buffer.
@@ -51,29 +49,19 @@ static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *
     const size_t grid = is_wide ? BATCH_RAYS / batch->choice.lanes : BATCH_RAYS;
     const size_t group = is_wide ? 4 : 64;
     cl_kernel kernel = batch->kernels[task];
-    cl_int status = clSetKernelArg(kernel, 0, sizeof batch->frame, &batch->frame);
-    status |= clSetKernelArg(kernel, 1, sizeof(cl_mem), &batch->spheres);
-    status |= clSetKernelArg(kernel, 2, sizeof(cl_mem), &batch->nodes);
-    status |= clSetKernelArg(kernel, 3, sizeof(cl_mem), &batch->triangles);
-    status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &batch->rays);
-    status |= clSetKernelArg(kernel, 5, sizeof count, &count);
-    status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &batch->hits);
-    if (task == BATCH_LEAVE) {
-        status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &batch->looks);
-        status |= clSetKernelArg(kernel, 8, sizeof(cl_mem), &batch->normals);
-        status |= clSetKernelArg(kernel, 9, sizeof(cl_mem), &batch->outward);
-    }
+    cl_uint place = 0;
+    cl_int status = clSetKernelArg(kernel, place++, sizeof batch->frame, &batch->frame);
+    for (int array = 0; array < BATCH_ARRAYS; array++)
+        status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->arrays[array]);
+    status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->rays);
+    status |= clSetKernelArg(kernel, place++, sizeof count, &count);
+    status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->outward);
+    status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->hits);
     if (!cl_succeeded(status, "set the arguments of a kernel", error))
         return false;
     status =
         clEnqueueNDRangeKernel(batch->device.queue, kernel, 1, NULL, &grid, &group, 0, NULL, NULL);
     return cl_succeeded(status, "run a kernel", error);
-}
-
-static void run(const RayBatch *batch, BatchTask task, size_t count)
-{
-    Error error = {0};
-    require(launch(batch, task, (cl_uint)count, &error), &error);
 }
 
 static bool make_kernels(RayBatch *batch, Error *error)
@@ -88,7 +76,7 @@ static bool make_kernels(RayBatch *batch, Error *error)
     return cl_succeeded(clFinish(batch->device.queue), "finish the first runs", error);
 }
 
-// Ends the test only after the lock is given back: the next test of the process waits for it.
+// Unlocks the cache before it ends the test, because the next test of the process needs the lock.
 static void build_locked(RayBatch *batch, const ProgramSource *source)
 {
     Error error = {0};
@@ -114,9 +102,9 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
     require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&
                 file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error),
             &error);
-    batch->rays = make_room(batch, BATCH_RAYS * sizeof(TestRay));
-    batch->hits = make_room(batch, BATCH_RAYS * sizeof(TestHit));
-    batch->outward = make_room(batch, BATCH_RAYS * sizeof(float[3]));
+    batch->rays = make_buffer(batch, NULL, BATCH_RAYS * sizeof(TestRay));
+    batch->hits = make_buffer(batch, NULL, BATCH_RAYS * sizeof(TestHit));
+    batch->outward = make_buffer(batch, NULL, BATCH_RAYS * sizeof(float[3]));
     ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
     const ProgramSource source = {
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
@@ -127,29 +115,15 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
     file_free(&file);
 }
 
-static void release_scene(RayBatch *batch)
-{
-    cl_mem *buffers[] = {&batch->spheres, &batch->nodes, &batch->triangles, &batch->looks,
-                         &batch->normals};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {
-        if (*buffers[i] != NULL)
-            clReleaseMemObject(*buffers[i]);
-        *buffers[i] = NULL;
-    }
-}
-
 void ray_batch_close(RayBatch *batch)
 {
-    release_scene(batch);
+    for (int array = 0; array < BATCH_ARRAYS; array++)
+        clReleaseMemObject(batch->arrays[array]);
     for (int task = 0; task < BATCH_TASKS; task++)
-        if (batch->kernels[task] != NULL)
-            clReleaseKernel(batch->kernels[task]);
-    if (batch->rays != NULL)
-        clReleaseMemObject(batch->rays);
-    if (batch->hits != NULL)
-        clReleaseMemObject(batch->hits);
-    if (batch->outward != NULL)
-        clReleaseMemObject(batch->outward);
+        clReleaseKernel(batch->kernels[task]);
+    clReleaseMemObject(batch->rays);
+    clReleaseMemObject(batch->hits);
+    clReleaseMemObject(batch->outward);
     program_free(&batch->program);
     device_close(&batch->device);
     cache_close(&batch->cache);
@@ -172,20 +146,19 @@ int ray_batch_teardown(void **state)
 
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
 {
+    const size_t triangles = flat->triangle_count;
     assert_int_equal(flat->layout, batch->choice.nodes);
-    release_scene(batch);
-    batch->spheres = make_buffer(batch, flat->spheres, flat->sphere_count * sizeof(SphereData));
-    batch->looks = make_buffer(
-        batch, flat->looks, flat->looks == NULL ? 0 : flat->triangle_count * sizeof(TriangleLook));
-    batch->normals = make_buffer(batch, flat->normals, flat->normals_count * sizeof(CornerNormals));
+    set_array(batch, BATCH_LIGHTS, NULL, 0);
+    set_array(batch, BATCH_MATERIALS, NULL, 0);
+    set_array(batch, BATCH_SPHERES, flat->spheres, flat->sphere_count * sizeof(SphereData));
+    set_array(batch, BATCH_LOOKS, flat->looks, triangles * sizeof(TriangleLook));
+    set_array(batch, BATCH_NORMALS, flat->normals, flat->normals_count * sizeof(CornerNormals));
     if (flat->layout == NODES_WIDE) {
-        batch->nodes = make_buffer(batch, flat->wides, flat->node_count * sizeof(BvhWide));
-        batch->triangles =
-            make_buffer(batch, flat->blocks, flat->block_count * sizeof(TriangleBlock));
+        set_array(batch, BATCH_NODES, flat->wides, flat->node_count * sizeof(BvhWide));
+        set_array(batch, BATCH_TRIANGLES, flat->blocks, flat->block_count * sizeof(TriangleBlock));
     } else {
-        batch->nodes = make_buffer(batch, flat->pairs, flat->node_count * sizeof(BvhPair));
-        batch->triangles =
-            make_buffer(batch, flat->triangles, flat->triangle_count * sizeof(TriangleData));
+        set_array(batch, BATCH_NODES, flat->pairs, flat->node_count * sizeof(BvhPair));
+        set_array(batch, BATCH_TRIANGLES, flat->triangles, triangles * sizeof(TriangleData));
     }
     batch->block_count = flat->block_count;
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
@@ -193,81 +166,126 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
                                .uses_bvh = flat->node_count > 0};
 }
 
-static void write_rays(const RayBatch *batch, const TestRay *rays, size_t count)
+void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere)
 {
-    require_success(clEnqueueWriteBuffer(batch->device.queue, batch->rays, CL_TRUE, 0,
-                                         count * sizeof *rays, rays, 0, NULL, NULL),
-                    "write rays");
+    SphereData data = *sphere;
+    ray_batch_upload(
+        batch, &(FlatScene){.layout = batch->choice.nodes, .spheres = &data, .sphere_count = 1});
 }
 
-static void read_hits(const RayBatch *batch, TestHit *hits, size_t count)
+static void write_buffer(const RayBatch *batch, cl_mem buffer, const void *data, size_t size)
 {
+    require_success(
+        clEnqueueWriteBuffer(batch->device.queue, buffer, CL_TRUE, 0, size, data, 0, NULL, NULL),
+        "write a buffer");
+}
+
+// Runs a kernel over `items` of the rays that the buffer holds, and reads `count` hits.
+static void run(const RayBatch *batch, BatchTask task, size_t items, TestHit *hits, size_t count)
+{
+    Error error = {0};
+    require(launch(batch, task, (cl_uint)items, &error), &error);
     require_success(clEnqueueReadBuffer(batch->device.queue, batch->hits, CL_TRUE, 0,
                                         count * sizeof *hits, hits, 0, NULL, NULL),
                     "read hits");
 }
 
-static size_t chunk_of(size_t first, size_t count)
+// The properties that the rays of a packet share, and then the ray's index.
+typedef struct {
+    uint32_t kind;
+    float origin[3];              // zeros for reflected rays, which share none
+    uint32_t longest_axis, signs; // of the direction
+    uint32_t index;
+} RayOrder;
+
+static RayOrder order_of(const TestRay *ray, uint32_t index, bool shares_origin)
 {
-    return count - first < BATCH_RAYS ? count - first : BATCH_RAYS;
+    RayOrder order = {.kind = ray->kind, .index = index};
+    if (shares_origin && ray->kind != RAY_REFLECTED)
+        memcpy(order.origin, ray->origin, sizeof order.origin);
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        if (fabsf(ray->direction[axis]) > fabsf(ray->direction[order.longest_axis]))
+            order.longest_axis = axis;
+        order.signs = 2 * order.signs + (signbit(ray->direction[axis]) != 0);
+    }
+    return order;
 }
 
-// Traces the rays in an order that suits packets.
-static void trace_ordered(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
-                          TestHit *hits)
+static int compare_orders(const void *first, const void *second)
 {
-    Error error = {0};
-    uint32_t *places = memory_raw(count, sizeof *places, &error);
-    TestRay *ordered = memory_raw(count, sizeof *ordered, &error);
-    TestHit *found = memory_raw(count, sizeof *found, &error);
-    require(places != NULL && ordered != NULL && found != NULL, &error);
-    ray_order(rays, count, places);
-    for (size_t i = 0; i < count; i++)
-        ordered[i] = rays[places[i]];
-    write_rays(batch, ordered, count);
-    run(batch, task, count);
-    read_hits(batch, found, count);
-    for (size_t i = 0; i < count; i++)
-        hits[places[i]] = found[i];
-    free(places);
+    return memcmp(first, second, sizeof(RayOrder));
+}
+
+// Returns the rays' orders, sorted so that the rays of a packet follow each other. The caller frees
+// them.
+static RayOrder *sorted_orders(Rays rays, bool share_origins)
+{
+    RayOrder *orders = require_memory(rays.count, sizeof *orders);
+    for (size_t i = 0; i < rays.count; i++)
+        orders[i] = order_of(&rays.data[i], (uint32_t)i, share_origins);
+    qsort(orders, rays.count, sizeof *orders, compare_orders);
+    return orders;
+}
+
+// Runs a kernel over at most BATCH_RAYS rays in the given order.
+static void run_ordered(const RayBatch *batch, BatchTask task, Rays rays, const RayOrder *orders,
+                        TestHit *hits)
+{
+    TestRay *ordered = require_memory(rays.count, sizeof *ordered);
+    TestHit *found = require_memory(rays.count, sizeof *found);
+    for (size_t i = 0; i < rays.count; i++)
+        ordered[i] = rays.data[orders[i].index];
+    write_buffer(batch, batch->rays, ordered, rays.count * sizeof *ordered);
+    run(batch, task, rays.count, found, rays.count);
+    for (size_t i = 0; i < rays.count; i++)
+        hits[orders[i].index] = found[i];
     free(ordered);
     free(found);
 }
 
-void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
-                     TestHit *hits)
+// Returns the rays from first on, as many as a launch takes.
+static Rays chunk_of(Rays rays, size_t first)
 {
-    for (size_t first = 0; first < count; first += BATCH_RAYS)
-        trace_ordered(batch, task, rays + first, chunk_of(first, count), hits + first);
+    const size_t left = rays.count - first;
+    return (Rays){rays.data + first, left < BATCH_RAYS ? left : BATCH_RAYS};
 }
 
-void ray_batch_leave(const RayBatch *batch, const TestRay *rays, const float (*outward)[3],
-                     size_t count, TestHit *hits)
+TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays)
 {
-    for (size_t first = 0; first < count; first += BATCH_RAYS) {
-        const size_t chunk = chunk_of(first, count);
-        write_rays(batch, rays + first, chunk);
-        require_success(clEnqueueWriteBuffer(batch->device.queue, batch->outward, CL_TRUE, 0,
-                                             chunk * sizeof *outward, outward + first, 0, NULL,
-                                             NULL),
-                        "write directions");
-        run(batch, BATCH_LEAVE, chunk);
-        read_hits(batch, hits + first, chunk);
+    TestHit *hits = require_memory(rays.count, sizeof *hits);
+    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
+        const Rays chunk = chunk_of(rays, first);
+        RayOrder *orders = sorted_orders(chunk, true);
+        run_ordered(batch, task, chunk, orders, hits + first);
+        free(orders);
     }
+    return hits;
+}
+
+TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3])
+{
+    TestHit *hits = require_memory(rays.count, sizeof *hits);
+    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
+        const Rays chunk = chunk_of(rays, first);
+        write_buffer(batch, batch->rays, chunk.data, chunk.count * sizeof *chunk.data);
+        write_buffer(batch, batch->outward, outward + first, chunk.count * sizeof *outward);
+        run(batch, BATCH_LEAVE, chunk.count, hits + first, chunk.count);
+    }
+    return hits;
 }
 
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
 {
     const bool is_wide = batch->choice.nodes == NODES_WIDE;
-    const uint32_t items = is_wide ? batch->block_count : batch->frame.triangle_count;
-    assert_true(batch->frame.triangle_count <= BATCH_RAYS);
+    const uint32_t triangles = batch->frame.triangle_count;
+    const uint32_t items = is_wide ? batch->block_count : triangles;
+    assert_true(triangles <= BATCH_RAYS);
     assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
-    write_rays(batch, ray, 1);
-    run(batch, BATCH_EACH, items);
-    read_hits(batch, hits, batch->frame.triangle_count);
+    write_buffer(batch, batch->rays, ray, sizeof *ray);
+    run(batch, BATCH_EACH, items, hits, triangles);
 }
 
-// A wide node with the children of a pair and no others.
+// Returns a wide node with the children of a pair and no others.
 static BvhWide widened(const BvhPair *pair)
 {
     BvhWide wide = {.child_count = 2};
@@ -279,31 +297,34 @@ static BvhWide widened(const BvhPair *pair)
     return wide;
 }
 
-static cl_mem make_nodes(const RayBatch *batch, const BvhPair *pairs, size_t count)
+// Uploads the nodes of the rays in the given order.
+static void upload_nodes(RayBatch *batch, const BvhPair *nodes, const RayOrder *orders,
+                         size_t count)
 {
-    Error error = {0};
-    if (batch->choice.nodes == NODES_PAIR)
-        return make_buffer(batch, pairs, count * sizeof *pairs);
-    BvhWide *wides = memory_raw(count, sizeof *wides, &error);
-    require(wides != NULL, &error);
-    for (size_t i = 0; i < count; i++)
+    BvhPair *pairs = require_memory(count, sizeof *pairs);
+    BvhWide *wides = require_memory(count, sizeof *wides);
+    for (size_t i = 0; i < count; i++) {
+        pairs[i] = nodes[orders[i].index];
         wides[i] = widened(&pairs[i]);
-    const cl_mem buffer = make_buffer(batch, wides, count * sizeof *wides);
+    }
+    if (batch->choice.nodes == NODES_WIDE)
+        set_array(batch, BATCH_NODES, wides, count * sizeof *wides);
+    else
+        set_array(batch, BATCH_NODES, pairs, count * sizeof *pairs);
+    free(pairs);
     free(wides);
-    return buffer;
 }
 
-void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,
-                     TestHit *hits)
+TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes)
 {
-    for (size_t first = 0; first < count; first += BATCH_RAYS) {
-        const size_t chunk = chunk_of(first, count);
-        release_scene(batch);
-        batch->spheres = make_buffer(batch, NULL, 0);
-        batch->triangles = make_buffer(batch, NULL, 0);
-        batch->nodes = make_nodes(batch, nodes + first, chunk);
-        write_rays(batch, rays + first, chunk);
-        run(batch, BATCH_BOXES, chunk);
-        read_hits(batch, hits + first, chunk);
+    TestHit *hits = require_memory(rays.count, sizeof *hits);
+    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
+    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
+        const Rays chunk = chunk_of(rays, first);
+        RayOrder *orders = sorted_orders(chunk, false);
+        upload_nodes(batch, nodes + first, orders, chunk.count);
+        run_ordered(batch, BATCH_BOXES, chunk, orders, hits + first);
+        free(orders);
     }
+    return hits;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Kernels that trace arrays of rays with the real functions; built behind the real kernels, where
-// everything they call is declared.  A work-item takes CLRT_LANES rays that follow each other.
-// Every grid is as large as ray_batch.c says.
+// Kernels that trace arrays of rays with the real functions. ray_batch.c appends this file to the
+// source of the real kernels. A work-item traces CLRT_LANES successive rays. Grids are larger than
+// the count of rays.
 
 typedef struct {
     float origin[3];
@@ -15,27 +15,29 @@ typedef struct {
     uint id;
 } TestHit;
 
-// The rays of a work-item, one in each lane; `first` is the place of the first.
+// The rays of a work-item, one per lane.
 typedef struct {
     Real3 origin, direction;
     UInt own, kind;
-    uint first;
-    Mask exist; // lanes whose ray is among the count
+    uint first;  // index of the first lane's ray
+    UInt index;  // of the lane's ray
+    Mask exists; // lanes that have a ray; the others copy the last ray
 } TestRays;
 
-// Lanes past the end read the last ray.
 static inline TestRays test_rays(global const TestRay *rays, uint count)
 {
-    const uint first = CLRT_LANES * (uint)get_global_id(0);
-    const UInt place = first + LANE_Y * PACKET_WIDTH + LANE_X;
+    TestRays all;
     const UInt last = count - 1;
-    const Record record = record_at(rays, min(place, last) * WORDS(TestRay));
-    return (TestRays){record_real3(&record, 0, 1),
-                      record_real3(&record, 4, 1),
-                      record_word(&record, 3),
-                      record_word(&record, 7),
-                      first,
-                      place < count};
+    all.first = CLRT_LANES * (uint)get_global_id(0);
+    const UInt place = all.first + LANE_Y * PACKET_WIDTH + LANE_X;
+    all.exists = place < count;
+    all.index = min(place, last);
+    const Record record = record_at(rays, all.index * WORDS(TestRay));
+    all.origin = record_real3(&record, 0, 1);
+    all.own = record_word(&record, 3);
+    all.direction = record_real3(&record, 4, 1);
+    all.kind = record_word(&record, 7);
+    return all;
 }
 
 static inline Mask same_in_first(UInt value, Mask among)
@@ -43,8 +45,8 @@ static inline Mask same_in_first(UInt value, Mask among)
     return value == first_lane(value, among);
 }
 
-// Those lanes of `left` that may search with the first of them: their rays are of one kind and,
-// as the camera's do, start at one point.
+// Returns the lanes of `left` that form a packet with the first of them: their rays have the same
+// kind, and camera rays the same origin.
 static inline Mask companions(const TestRays *rays, Mask left)
 {
     const Real3 o = rays->origin;
@@ -71,22 +73,18 @@ static inline uint first_kind(const TestRays *rays, Mask lanes)
     return *(const uint *)&kind;
 }
 
-// Reflected rays are made by the tracer's own function, from a face they look straight away from;
-// a shadow ray ends where t is 1.  The other lanes copy the first.
+// Returns the rays of these lanes. The other lanes copy the first. Reflected rays come from the
+// tracer's own function, and leave their face perpendicularly.
 static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
     const uint kind = first_kind(rays, lanes);
-    Surface surface;
-    surface.id = rays->own;
-    surface.index = NOTHING;
-    surface.room = 0.0f;
-    surface.edge = 0.0f;
-    surface.point = origin;
-    surface.normal = real3_of(0.0f, 0.0f, 0.0f);
-    surface.face = direction;
-    surface.toward_viewer = negative3(direction);
+    const Surface surface = {.point = origin,
+                             .face = direction,
+                             .toward_viewer = negative3(direction),
+                             .id = rays->own,
+                             .index = NOTHING};
     if (kind == RAY_REFLECTED)
         return ray_reflected(tracer, &surface, lanes);
     return (Ray){origin, direction, rays->own, NOTHING, (RayKind)kind, lanes};
@@ -102,11 +100,11 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask l
                 (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
-// Finds the rays' hits or, for shadow rays, whether they are blocked, as 1 in place of the id.
+// Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
 static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool are_shadows,
                               global TestHit *hits)
 {
-    Mask left = rays->exist;
+    Mask left = rays->exists;
     while (any_lane(left)) {
         const Mask lanes = companions(rays, left);
         const Ray ray = ray_of(tracer, rays, lanes);
@@ -120,27 +118,26 @@ static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool a
     }
 }
 
-kernel void batch_nearest(const FrameData frame, global const SphereData *spheres,
-                          global const Node *nodes, global const Triangles *triangles,
-                          global const TestRay *rays, uint count, global TestHit *hits)
+// The arguments and the first statements of every kernel. A launch without rays does nothing.
+#define BATCH_ARGUMENTS                                                                            \
+    TRACER_ARGUMENTS, global const TestRay *rays, uint count, global const float *outward,         \
+        global TestHit *hits
+#define BATCH_TRACER                                                                               \
+    if (count == 0)                                                                                \
+        return;                                                                                    \
+    Tally tally = {0};                                                                             \
+    const Tracer tracer = TRACER(&tally);
+
+kernel void batch_nearest(BATCH_ARGUMENTS)
 {
-    if (count == 0)
-        return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     const TestRays all = test_rays(rays, count);
     trace_rays(&tracer, &all, false, hits);
 }
 
-// id becomes 1 where the ray, a shadow ray, is blocked.
-kernel void batch_blocked(const FrameData frame, global const SphereData *spheres,
-                          global const Node *nodes, global const Triangles *triangles,
-                          global const TestRay *rays, uint count, global TestHit *hits)
+kernel void batch_blocked(BATCH_ARGUMENTS)
 {
-    if (count == 0)
-        return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     const TestRays all = test_rays(rays, count);
     trace_rays(&tracer, &all, true, hits);
 }
@@ -150,21 +147,13 @@ kernel void batch_blocked(const FrameData frame, global const SphereData *sphere
 // the point at its end does not light the surface. t is 0 without a surface.
 #define LEAVE_SHADOWED 0xfffffffeu
 
-kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TestRay *rays, uint count, global TestHit *hits,
-                        global const TriangleLook *looks, global const CornerNormals *normals,
-                        global const float *outward)
+kernel void batch_leave(BATCH_ARGUMENTS)
 {
-    if (count == 0)
-        return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, looks, normals, &frame, &tally};
+    BATCH_TRACER
     const TestRays all = test_rays(rays, count);
-    const UInt place = all.first + LANE_Y * PACKET_WIDTH + LANE_X, last = count - 1;
-    const Record record = record_at(outward, min(place, last) * 3);
+    const Record record = record_at(outward, all.index * 3);
     const Real3 chosen = record_real3(&record, 0, 1);
-    Mask left = all.exist;
+    Mask left = all.exists;
     while (any_lane(left)) {
         const Mask lanes = companions(&all, left);
         const Ray ray = ray_of(&tracer, &all, lanes);
@@ -190,14 +179,14 @@ kernel void batch_leave(const FrameData frame, global const SphereData *spheres,
 }
 
 #if CLRT_WIDE_NODES
-// The first lane's ray, as the searches want it, in every lane of which only that one counts.
+// Prepares the first lane's ray for the searches, as a packet in which only that lane is active.
 static inline void prepare_first(Packet *packet, const Tracer *tracer, const Ray *ray)
 {
     const UInt classes = ray_classes(ray->direction);
     packet_gather(packet, tracer, ray, 1, lane_uint(&classes, 0) / 8);
 }
 
-// Where the ray alone meets a triangle, by the test of packets or by that of blocks.
+// Returns the distance to one triangle, by the test of packets or the test of blocks.
 static inline float distance_alone(global const TriangleBlock *triangles, uint block, uint place,
                                    const Packet *packet)
 {
@@ -222,16 +211,13 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
     return ((const float *)&distances)[place];
 }
 
-// Tests the first ray against each triangle of count blocks alone, in file order.
-kernel void batch_each(const FrameData frame, global const SphereData *spheres,
-                       global const Node *nodes, global const Triangles *triangles,
-                       global const TestRay *rays, uint count, global TestHit *hits)
+// Intersects the first ray with each triangle of count blocks alone. Hits are in file order.
+kernel void batch_each(BATCH_ARGUMENTS)
 {
     const uint block = get_global_id(0);
     if (block >= count)
         return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     TestRays all = test_rays(rays, 1);
     const Ray ray = ray_of(&tracer, &all, lanes_of(1));
     Packet packet;
@@ -244,7 +230,7 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     }
 }
 
-// Which of the first two children's boxes the lanes' rays meet, each those of its own node.
+// Returns which of its own node's first two boxes each lane's ray meets, as bits 0 and 1.
 static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
 {
     UInt met = 0;
@@ -262,20 +248,15 @@ static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uin
     return met;
 }
 
-// Which boxes of its own node each ray meets: bit 0 of id the first, bit 1 the second.  Rays that
-// may go as a packet do, though their origins differ, as reflected ones do.
-kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TestRay *rays, uint count, global TestHit *hits)
+// Stores which boxes of its own node each ray meets: bit 0 of id for the first, bit 1 for the
+// second. Like reflected rays, rays with different origins form packets.
+kernel void batch_boxes(BATCH_ARGUMENTS)
 {
-    if (count == 0)
-        return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     TestRays all = test_rays(rays, count);
     all.kind = (UInt)((uint)RAY_REFLECTED);
     const UInt classes = ray_classes(all.direction);
-    Mask left = all.exist;
+    Mask left = all.exists;
     while (any_lane(left)) {
         const Mask lanes = left && same_in_first(classes, left);
         const UInt wanted = first_lane(classes, left);
@@ -289,16 +270,13 @@ kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
     }
 }
 #else
-// Tests the first ray against each of count triangles alone, in file order.
-kernel void batch_each(const FrameData frame, global const SphereData *spheres,
-                       global const Node *nodes, global const Triangles *triangles,
-                       global const TestRay *rays, uint count, global TestHit *hits)
+// Intersects the first ray with each of count triangles alone. Hits are in file order.
+kernel void batch_each(BATCH_ARGUMENTS)
 {
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     const TestRays all = test_rays(rays, 1);
     const Ray ray = ray_of(&tracer, &all, 1);
     const Search search = search_along(&tracer, &ray);
@@ -306,16 +284,13 @@ kernel void batch_each(const FrameData frame, global const SphereData *spheres,
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
 }
 
-// Which boxes of its own node each ray meets: bit 0 of id the first, bit 1 the second.
-kernel void batch_boxes(const FrameData frame, global const SphereData *spheres,
-                        global const Node *nodes, global const Triangles *triangles,
-                        global const TestRay *rays, uint count, global TestHit *hits)
+// The same for single rays.
+kernel void batch_boxes(BATCH_ARGUMENTS)
 {
     const uint place = get_global_id(0);
     if (place >= count)
         return;
-    Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    BATCH_TRACER
     const TestRays all = test_rays(rays, count);
     const Ray ray = ray_of(&tracer, &all, 1);
     const Search search = search_along(&tracer, &ray);

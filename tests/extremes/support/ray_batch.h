@@ -10,70 +10,87 @@
 // As in kernels/ray.cl.
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
-// In the normalized frame.
+// A ray in the normalized frame.
 typedef struct {
     float origin[3];
-    uint32_t own; // NOTHING for none
+    uint32_t own; // id of the primitive it starts on; NOTHING for none
     float direction[3];
     uint32_t kind; // a RayKind
 } TestRay;
 
 typedef struct {
-    float t;     // INFINITY where nothing is met
-    uint32_t id; // NOTHING where nothing is met
+    float t;     // INFINITY without a hit
+    uint32_t id; // NOTHING without a hit
 } TestHit;
+
+typedef struct {
+    TestRay *data;
+    size_t count;
+} Rays;
 
 typedef enum {
     BATCH_NEAREST, // nearest_hit
-    BATCH_BLOCKED, // is_blocked: id 1 or 0
-    BATCH_EACH,    // one ray against each triangle: ray_batch_each
+    BATCH_BLOCKED, // is_blocked: id is 1 or 0
+    BATCH_EACH,    // ray_batch_each
     BATCH_BOXES,   // ray_batch_boxes
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
+
+// The buffers of a scene, in the order of the kernels' arguments.
+typedef enum {
+    BATCH_LIGHTS, // always empty, like the materials
+    BATCH_MATERIALS,
+    BATCH_SPHERES,
+    BATCH_NODES,
+    BATCH_TRIANGLES,
+    BATCH_LOOKS,
+    BATCH_NORMALS,
+    BATCH_ARRAYS
+} BatchArray;
 
 typedef struct {
     Device device;
     Cache cache;
     Program program;
     cl_kernel kernels[BATCH_TASKS];
-    cl_mem rays, hits;
-    cl_mem spheres, nodes, triangles, looks, normals; // of the scene
-    cl_mem outward;
+    cl_mem rays, hits, outward;
+    cl_mem arrays[BATCH_ARRAYS];
     uint32_t block_count;
     FrameData frame;
     KernelChoice choice; // form_choice, with a number of lanes
 } RayBatch;
 
-// Takes the kernels from a folder; where it is NULL, from the environment variable CLRT_KERNEL_DIR,
-// or those that are built in; options are the compiler's, NULL for none.  The device is the one
-// that CLRT_DEVICE names, unset the best.
+// Opens the device that CLRT_DEVICE names, or the best one. kernel_folder NULL means the folder in
+// CLRT_KERNEL_DIR, or the built-in kernels. options are for the compiler; NULL for none.
 void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options);
 void ray_batch_close(RayBatch *batch);
 
-// The same as fixtures of a group of tests, which find the batch in *state.
+// Fixtures of a group of tests. *state is the batch.
 int ray_batch_setup(void **state);
 int ray_batch_teardown(void **state);
 
-// Replaces the scene that rays are traced through, which is laid out for form_choice.
+// Replaces the scene by a copy of flat, which has the layout of form_choice.
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 
-// Fills hits[i] from rays[i]; task is BATCH_NEAREST or BATCH_BLOCKED.  Rays from one origin and
-// reflected ones go as packets where they can.
-void ray_batch_trace(const RayBatch *batch, BatchTask task, const TestRay *rays, size_t count,
-                     TestHit *hits);
+// Replaces the scene by one sphere.
+void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
-// Fills one hit for each triangle of the scene, in file order.
+// Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
+// from one origin and reflected rays form packets.
+TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
+
+// Intersects one ray with each triangle of the scene alone. Fills a hit per triangle, in file
+// order.
 void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
 
-// The id of hits of ray_batch_leave that meet nothing but are shadowed.
+// The id of a ray of ray_batch_leave that hits nothing but is shadowed.
 #define LEAVE_SHADOWED 0xfffffffeu
 
-// Finds the hit of a ray that leaves the surface hit by rays[i] along outward[i], turned to the
-// side that the ray came from. t is 0 without a surface.
-void ray_batch_leave(const RayBatch *batch, const TestRay *rays, const float (*outward)[3],
-                     size_t count, TestHit *hits);
+// Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or
+// the opposite direction, on the side that rays.data[i] came from. t is 0 without a surface.
+TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3]);
 
-// Which boxes of nodes[i] does rays[i] meet?  Replaces the scene.
-void ray_batch_boxes(RayBatch *batch, const TestRay *rays, const BvhPair *nodes, size_t count,
-                     TestHit *hits);
+// Returns hits whose id has bit 0 set if ray i meets the first box of nodes[i], and bit 1 for the
+// second box. Replaces the scene.
+TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes);

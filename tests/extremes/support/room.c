@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Distances to triangles, and the solid angles by which a closed surface winds around a point (Van
-// Oosterom and Strackee, "The solid angle of a plane triangle", 1983).
+// Proves that a point is inside a closed surface: the solid angles of all triangles add up to one
+// sphere (Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983).
 #include "room.h"
 
 #include "check.h"
 #include "shapes.h"
-
-static Vec3 corner_of(const float corner[3])
-{
-    return vec3((double)corner[0], (double)corner[1], (double)corner[2]);
-}
 
 static double length_of(Vec3 v)
 {
     return sqrt(vec3_dot(v, v));
 }
 
-// From the origin to the segment a b.
+// Returns the distance from the origin to the segment a b.
 static double segment_distance(Vec3 a, Vec3 b)
 {
     const Vec3 along = vec3_sub(b, a);
@@ -25,15 +20,15 @@ static double segment_distance(Vec3 a, Vec3 b)
     return length_of(vec3_add(a, vec3_scale(along, fmin(fmax(place, 0), 1))));
 }
 
-double triangle_distance_to(const float corners[3][3], Vec3 point)
+double distance_to_triangle(const Triangles *triangles, size_t triangle, Vec3 point)
 {
-    const Vec3 a = vec3_sub(corner_of(corners[0]), point);
-    const Vec3 b = vec3_sub(corner_of(corners[1]), point);
-    const Vec3 c = vec3_sub(corner_of(corners[2]), point);
+    const Vec3 a = vec3_sub(corner_of(triangles, triangle, 0), point);
+    const Vec3 b = vec3_sub(corner_of(triangles, triangle, 1), point);
+    const Vec3 c = vec3_sub(corner_of(triangles, triangle, 2), point);
     const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
     const double outline =
         fmin(segment_distance(a, b), fmin(segment_distance(b, c), segment_distance(c, a)));
-    // The foot of the perpendicular lies inside where it is on the inner side of all edges.
+    // Whether the foot of the perpendicular is on the inner side of all edges.
     const bool inside = vec3_dot(normal, vec3_cross(a, b)) > 0 &&
                         vec3_dot(normal, vec3_cross(b, c)) > 0 &&
                         vec3_dot(normal, vec3_cross(c, a)) > 0;
@@ -41,11 +36,11 @@ double triangle_distance_to(const float corners[3][3], Vec3 point)
 }
 
 // Returns the signed solid angle of the triangle from point, as a fraction of the sphere.
-static double solid_angle(const float corners[3][3], Vec3 point)
+static double solid_angle(const Triangles *triangles, size_t triangle, Vec3 point)
 {
-    const Vec3 a = vec3_normalize(vec3_sub(corner_of(corners[0]), point));
-    const Vec3 b = vec3_normalize(vec3_sub(corner_of(corners[1]), point));
-    const Vec3 c = vec3_normalize(vec3_sub(corner_of(corners[2]), point));
+    const Vec3 a = vec3_normalize(vec3_sub(corner_of(triangles, triangle, 0), point));
+    const Vec3 b = vec3_normalize(vec3_sub(corner_of(triangles, triangle, 1), point));
+    const Vec3 c = vec3_normalize(vec3_sub(corner_of(triangles, triangle, 2), point));
     const double volume = vec3_dot(a, vec3_cross(b, c));
     const double sum = 1 + vec3_dot(a, b) + vec3_dot(b, c) + vec3_dot(c, a);
     return atan2(volume, sum) / (2 * 3.14159265358979323846);
@@ -57,11 +52,10 @@ Room room_inside(const Stage *stage, Vec3 center, double half_side)
                  half_side * stage->normalization.scale, INFINITY, stage->normalization,
                  vec3_extent(center) < 0x1p19 * half_side};
     double winding = 0;
-    for (size_t i = 0; i < stage->triangles.count; i++) {
-        const StageTriangle triangle = stage_triangle(&stage->triangles, i);
-        room.radius =
-            fmin(room.radius, 0.999 * triangle_distance_to(triangle.corners, room.center));
-        winding += solid_angle(triangle.corners, room.center);
+    const Triangles *triangles = &stage->triangles;
+    for (size_t i = 0; i < triangles->count; i++) {
+        room.radius = fmin(room.radius, 0.999 * distance_to_triangle(triangles, i, room.center));
+        winding += solid_angle(triangles, i, room.center);
     }
     assert_true(room.radius > 0);
     assert_true(fabs(fabs(winding) - 1) < 1e-6);
@@ -74,13 +68,12 @@ bool room_contains(const Room *room, Vec3 point)
     return vec3_extent(from_center) <= room->half_side && length_of(from_center) <= room->radius;
 }
 
-// The nearest point whose file coordinates are floats.
+// Returns the nearest point whose scene coordinates are floats.
 static Vec3 float_place(const Normalization *normalization, Vec3 point)
 {
-    const Vec3 center = normalization->center;
-    const Vec3 place = vec3_add(center, vec3_scale(point, 1 / normalization->scale));
-    const Vec3 rounded = {shape_rounded(place.x), shape_rounded(place.y), shape_rounded(place.z)};
-    return normalize_point(normalization, rounded);
+    float place[3];
+    vec3_store(place, denormalize_point(normalization, point));
+    return normalize_point(normalization, vec3_of(place));
 }
 
 Vec3 room_point(const Room *room, Random *random)

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Files called "extremes.scn", so that messages begin with that.
+// Parses texts under the name "extremes.scn", with which messages then begin.
 #include "scene_text.h"
 
-#include "check.h"
-#include "report.h"
 #include "scene/scn.h"
 
 #include <string.h>
 
 #define NAME "extremes.scn"
 
-Scene scene_text_parse(const char *text)
+Scene scene_text_parse(const char *format, ...)
 {
+    char text[1024];
     Scene scene;
     Error error = {0};
-    require(scn_parse(&scene, text, strlen(text), NAME, &error), &error);
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    assert_in_range(length, 0, sizeof text - 1);
+    require(scn_parse(&scene, text, (size_t)length, NAME, &error), &error);
     return scene;
 }
 
@@ -30,13 +34,13 @@ static bool is_refused(const char *text)
     return sscanf(error.text, NAME ":%u:%u: ", &line, &column) == 2;
 }
 
-size_t scene_text_report(const char *test, const char *details, const char *const *texts)
+Outcome scene_text_refusals(const char *test, const char *const *texts)
 {
-    size_t count = 0, accepted = 0;
-    for (; texts[count] != NULL; count++)
-        if (!is_refused(texts[count])) {
-            print_message("accepted, or refused without a place: %s\n", texts[count]);
-            accepted++;
+    Outcome outcome = {.test = test};
+    for (; texts[outcome.count] != NULL; outcome.count++)
+        if (!is_refused(texts[outcome.count])) {
+            print_message("accepted, or rejected without a place: %s\n", texts[outcome.count]);
+            outcome.failures[BY_CLRT]++;
         }
-    return report_case(test, details, count, accepted);
+    return outcome;
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Scenes as users write them.
+// Scenes from text, as users write them.
 #pragma once
 
+#include "outcome.h"
 #include "scene/scene.h"
 
-// Parses text, which is right.
-Scene scene_text_parse(const char *text);
+// Returns the scene of a valid text, which format and its arguments make.
+__attribute__((format(printf, 1, 2))) Scene scene_text_parse(const char *format, ...);
 
-// Counts those of the texts, the last of which is NULL, that are not refused with a message that
-// names line and column, and reports them.
-size_t scene_text_report(const char *test, const char *details, const char *const *texts);
+// Returns how many of the texts clrt does not reject with a message that has line and column. The
+// last text is NULL.
+Outcome scene_text_refusals(const char *test, const char *const *texts);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lays out vertices and triangles.  Sines are the project's own, so that every machine tests the
-// same shapes.
+// Fills vertices and triangles. The sines are clrt's own, which are equal on every machine.
 #include "shapes.h"
 
 #include "base/vec.h"
@@ -8,19 +7,32 @@
 
 Mesh shape_unfilled(size_t vertices, size_t triangles)
 {
-    Error error = {0};
     Mesh mesh = {.vertex_count = vertices, .triangle_count = triangles};
-    mesh.positions = memory_raw(vertices, sizeof *mesh.positions, &error);
-    mesh.triangles = memory_raw(triangles, sizeof *mesh.triangles, &error);
-    require(mesh.positions != NULL && mesh.triangles != NULL, &error);
+    mesh.positions = require_memory(vertices, sizeof *mesh.positions);
+    mesh.triangles = require_memory(triangles, sizeof *mesh.triangles);
     return mesh;
 }
 
-static void put_vertex(Mesh *mesh, size_t vertex, Vec3 position)
+Vec3 shape_vertex(const Mesh *mesh, size_t vertex)
+{
+    const double *position = mesh->positions[vertex];
+    return vec3(position[0], position[1], position[2]);
+}
+
+void shape_set_vertex(Mesh *mesh, size_t vertex, Vec3 position)
 {
     mesh->positions[vertex][0] = shape_rounded(position.x);
     mesh->positions[vertex][1] = shape_rounded(position.y);
     mesh->positions[vertex][2] = shape_rounded(position.z);
+}
+
+void shape_flip(Mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t second = mesh->triangles[i][1];
+        mesh->triangles[i][1] = mesh->triangles[i][2];
+        mesh->triangles[i][2] = second;
+    }
 }
 
 static size_t put_triangle(Mesh *mesh, size_t triangle, uint32_t a, uint32_t b, uint32_t c)
@@ -37,7 +49,7 @@ Vec3 shape_center(int exponent)
     return vec3(s, -0.75 * s, 0.5 * s);
 }
 
-// Vertex 0 is the pole at +z, the last one that at -z; between them lie rings - 1 circles.
+// Vertex 0 is the pole at +z, and the last vertex the pole at -z. rings - 1 circles lie between.
 static void connect_globe(Mesh *mesh, uint32_t rings, uint32_t segments)
 {
     size_t triangle = 0;
@@ -63,7 +75,7 @@ static Mesh make_globe(uint32_t rings, uint32_t segments)
     return mesh;
 }
 
-// The direction from the center to a vertex of a globe.
+// Returns the direction from the center to a vertex of a globe.
 static Vec3 globe_direction(uint32_t vertex, uint32_t rings, uint32_t segments)
 {
     const uint32_t last = 1 + (rings - 1) * segments;
@@ -81,7 +93,7 @@ Mesh shape_sphere(uint32_t rings, Vec3 center)
     Mesh mesh = make_globe(rings, 2 * rings);
     for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
         const Vec3 direction = globe_direction(vertex, rings, 2 * rings);
-        put_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, SPHERE_RADIUS)));
+        shape_set_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, SPHERE_RADIUS)));
     }
     return mesh;
 }
@@ -92,7 +104,7 @@ Mesh shape_bumpy(Random *random, Vec3 center)
     for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
         const Vec3 direction = globe_direction(vertex, 16, 16);
         const double radius = random_between(random, 1, 6);
-        put_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, radius)));
+        shape_set_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, radius)));
     }
     return mesh;
 }
@@ -100,18 +112,18 @@ Mesh shape_bumpy(Random *random, Vec3 center)
 Mesh shape_fan(uint32_t count)
 {
     Mesh mesh = shape_unfilled((size_t)count + 1, count);
-    put_vertex(&mesh, 0, vec3(0, 0, 0));
+    shape_set_vertex(&mesh, 0, vec3(0, 0, 0));
     for (uint32_t spoke = 0; spoke < count; spoke++) {
         const double angle = 360.0 * spoke / count;
-        put_vertex(&mesh, 1 + spoke,
-                   vec3(cosine_of_degrees(angle), sine_of_degrees(angle),
-                        0.05 * cosine_of_degrees(4 * angle)));
+        shape_set_vertex(&mesh, 1 + spoke,
+                         vec3(cosine_of_degrees(angle), sine_of_degrees(angle),
+                              0.05 * cosine_of_degrees(4 * angle)));
         put_triangle(&mesh, spoke, 0, 1 + spoke, 1 + (spoke + 1) % count);
     }
     return mesh;
 }
 
-// Writes a grid of cells * cells quads whose vertices and triangles start at the given places.
+// Writes the place-th grid of cells * cells quads. spans are its corner and its two sides.
 static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t cells)
 {
     const uint32_t first = (uint32_t)place * (cells + 1) * (cells + 1);
@@ -121,7 +133,7 @@ static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t ce
             const Vec3 across = vec3_scale(spans[1], (double)column / cells);
             const Vec3 down = vec3_scale(spans[2], (double)row / cells);
             const uint32_t corner = first + row * (cells + 1) + column;
-            put_vertex(mesh, corner, vec3_add(spans[0], vec3_add(across, down)));
+            shape_set_vertex(mesh, corner, vec3_add(spans[0], vec3_add(across, down)));
             if (row == cells || column == cells)
                 continue;
             const uint32_t below = corner + cells + 1;
@@ -159,7 +171,8 @@ Mesh shape_soup(Random *random, uint32_t count, double size)
     for (uint32_t triangle = 0; triangle < count; triangle++) {
         const Vec3 place = random_in_cube(random, 1);
         for (uint32_t corner = 0; corner < 3; corner++)
-            put_vertex(&mesh, 3 * triangle + corner, vec3_add(place, random_in_cube(random, size)));
+            shape_set_vertex(&mesh, 3 * triangle + corner,
+                             vec3_add(place, random_in_cube(random, size)));
         put_triangle(&mesh, triangle, 3 * triangle, 3 * triangle + 1, 3 * triangle + 2);
     }
     return mesh;
@@ -168,9 +181,9 @@ Mesh shape_soup(Random *random, uint32_t count, double size)
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
 {
     Mesh mesh = shape_unfilled(3, 1);
-    put_vertex(&mesh, 0, a);
-    put_vertex(&mesh, 1, b);
-    put_vertex(&mesh, 2, c);
+    shape_set_vertex(&mesh, 0, a);
+    shape_set_vertex(&mesh, 1, b);
+    shape_set_vertex(&mesh, 2, c);
     put_triangle(&mesh, 0, 0, 1, 2);
     return mesh;
 }

@@ -1,13 +1,78 @@
 // SPDX-License-Identifier: MIT
-// The stages in their order.
+// Runs the stages in their order, with trees of all kinds.
 #include "stage.h"
 
+#include "box_around.h"
 #include "check.h"
 #include "image/form.h"
-#include "plain_tree.h"
+#include "shapes.h"
 
 const char *const tree_names[TREE_ALL_KINDS] = {"sah",      "midpoint", "none",     "leaves_1",
                                                 "leaves_2", "leaves_4", "leaves_8", "deepest"};
+
+// The triangles [first, first + count) of a subtree.
+typedef struct {
+    uint32_t node, first, count, level;
+} Part;
+
+typedef struct {
+    Bvh *bvh;
+    const Triangles *triangles;
+    TreeKind kind; // TREE_LEAVES_1 or later
+} Making;
+
+static bool is_leaf(const Making *making, const Part *part)
+{
+    if (making->kind == TREE_DEEPEST)
+        return part->count == 1 || part->level == BVH_MAX_DEPTH;
+    return part->count <= 1u << (making->kind - TREE_LEAVES_1);
+}
+
+static Box make_leaf(Making *making, const Part *part)
+{
+    Box box = box_empty();
+    Bvh *bvh = making->bvh;
+    for (uint32_t triangle = part->first; triangle < part->first + part->count; triangle++)
+        for (int corner = 0; corner < 3; corner++)
+            box_include_point(&box, triangles_corner(making->triangles, triangle, corner));
+    bvh->nodes[part->node] = (BvhNode){box, part->first, part->count, 1};
+    bvh->leaf_count++;
+    if (part->count > bvh->largest_leaf)
+        bvh->largest_leaf = part->count;
+    if (part->level > bvh->depth)
+        bvh->depth = part->level;
+    return box;
+}
+
+// Returns the subtree's box. The recursion is as deep as the tree.
+static Box make_node(Making *making, Part part)
+{
+    Bvh *bvh = making->bvh;
+    if (is_leaf(making, &part))
+        return make_leaf(making, &part);
+    const uint32_t children = bvh->node_count;
+    const uint32_t half = making->kind == TREE_DEEPEST ? 1 : part.count / 2;
+    bvh->node_count += 2;
+    const Part first = {children, part.first, half, part.level + 1};
+    const Part second = {children + 1, part.first + half, part.count - half, part.level + 1};
+    Box box = make_node(making, first);
+    const Box other = make_node(making, second);
+    box_include(&box, &other);
+    bvh->nodes[part.node] = (BvhNode){
+        box, children, 0, bvh->nodes[children].leaf_count + bvh->nodes[children + 1].leaf_count};
+    return box;
+}
+
+static void make_plain_tree(Bvh *bvh, const Triangles *triangles, TreeKind kind)
+{
+    const uint32_t count = (uint32_t)triangles->count;
+    *bvh = (Bvh){.node_count = 1};
+    bvh->nodes = require_memory(2 * (size_t)count, sizeof *bvh->nodes);
+    bvh->order = require_memory(count, sizeof *bvh->order);
+    for (uint32_t i = 0; i < count; i++)
+        bvh->order[i] = i;
+    make_node(&(Making){bvh, triangles, kind}, (Part){0, 0, count, 1});
+}
 
 static bool build_tree(Bvh *bvh, const Triangles *triangles, TreeKind tree, NodeLayout layout,
                        Error *error)
@@ -18,10 +83,7 @@ static bool build_tree(Bvh *bvh, const Triangles *triangles, TreeKind tree, Node
         return true;
     if (tree < TREE_KINDS)
         return bvh_build(bvh, triangles, &settings, NULL, error);
-    if (tree == TREE_DEEPEST)
-        plain_tree_chain(bvh, triangles);
-    else
-        plain_tree_halves(bvh, triangles, 1u << (tree - TREE_LEAVES_1));
+    make_plain_tree(bvh, triangles, tree);
     return true;
 }
 
@@ -51,11 +113,25 @@ void stage_free(Stage *stage)
     *stage = (Stage){0};
 }
 
-StageTriangle stage_triangle(const Triangles *triangles, size_t number)
+Vec3 corner_of(const Triangles *triangles, size_t triangle, size_t corner)
 {
-    StageTriangle triangle;
-    for (int corner = 0; corner < 3; corner++)
-        for (int axis = 0; axis < 3; axis++)
-            triangle.corners[corner][axis] = triangles_corner(triangles, number, corner)[axis];
-    return triangle;
+    return vec3_of(triangles_corner(triangles, triangle, (int)corner));
+}
+
+static Vec3 edge_of(const Triangles *triangles, size_t triangle, size_t corner)
+{
+    return vec3_sub(corner_of(triangles, triangle, corner), corner_of(triangles, triangle, 0));
+}
+
+Vec3 point_of(const Triangles *triangles, size_t triangle, double u, double v)
+{
+    const Vec3 along = vec3_scale(edge_of(triangles, triangle, 1), u);
+    const Vec3 across = vec3_scale(edge_of(triangles, triangle, 2), v);
+    return vec3_add(corner_of(triangles, triangle, 0), vec3_add(along, across));
+}
+
+Vec3 normal_of(const Triangles *triangles, size_t triangle)
+{
+    return vec3_normalize(
+        vec3_cross(edge_of(triangles, triangle, 1), edge_of(triangles, triangle, 2)));
 }

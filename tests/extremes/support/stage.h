@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene -> all that is traced of it, by the stages of the program's main.
+// Turns a Scene into what clrt traces, by the stages of the program.
 #pragma once
 
 #include "accel/flat.h"
@@ -9,8 +9,9 @@ typedef enum {
     TREE_MIDPOINT,
     TREE_NONE,
     TREE_KINDS,
-    // Trees that no builder makes (plain_tree.h): leaves of so many triangles, and as deep as a
-    // tree may be.
+    // Valid trees that no builder makes, because they ignore where triangles are. The first halve
+    // the triangles in file order down to leaves of 1, 2, 4 or 8. The deepest has BVH_MAX_DEPTH
+    // levels, each of which separates one triangle from the rest.
     TREE_LEAVES_1 = TREE_KINDS,
     TREE_LEAVES_2,
     TREE_LEAVES_4,
@@ -28,13 +29,16 @@ typedef struct {
     FlatScene flat;
 } Stage;
 
-// Lays the nodes out for form_choice.  Scene is needed no longer than the call takes.
+// Any failure ends the test. The stage does not refer to scene. stage_make uses the node layout of
+// form_choice.
 void stage_make(Stage *stage, const Scene *scene, TreeKind tree);
 void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout layout);
 void stage_free(Stage *stage);
 
-typedef struct {
-    float corners[3][3];
-} StageTriangle;
+Vec3 corner_of(const Triangles *triangles, size_t triangle, size_t corner);
 
-StageTriangle stage_triangle(const Triangles *triangles, size_t number);
+// Returns the triangle's point a + u * (b - a) + v * (c - a).
+Vec3 point_of(const Triangles *triangles, size_t triangle, double u, double v);
+
+// Returns the triangle's normal of length 1.
+Vec3 normal_of(const Triangles *triangles, size_t triangle);

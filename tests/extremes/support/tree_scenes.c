@@ -1,129 +1,88 @@
 // SPDX-License-Identifier: MIT
-// Each function makes one scene.
+// The scenes of a table of meshes, some with more objects.
 #include "tree_scenes.h"
 
 #include "check.h"
 #include "shapes.h"
 
-static void add_spheres(Scene *scene, Random *random, int count, double radius)
+const char *const tree_scene_names[TREE_SCENES] = {"far_sphere",   "bumpy",  "fan",    "plane",
+                                                   "tilted_plane", "cube",   "soup",   "slivers",
+                                                   "coincident",   "nested", "spiral", "mixed"};
+
+enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED };
+
+// Moves the third corner of each triangle onto the line through the others, but for 1e-5.
+static Mesh slivers(Random *random)
+{
+    Mesh mesh = shape_soup(random, 500, 0.5);
+    for (size_t i = 0; i < 1500; i += 3) {
+        const Vec3 middle =
+            vec3_scale(vec3_add(shape_vertex(&mesh, i), shape_vertex(&mesh, i + 1)), 0.5);
+        shape_set_vertex(&mesh, i + 2,
+                         vec3_add(middle, vec3_scale(shape_vertex(&mesh, i + 2), 1e-5)));
+    }
+    return mesh;
+}
+
+static Mesh first_mesh(size_t number, Random *random)
+{
+    switch (number) {
+    case 0:
+        return shape_sphere(12, shape_center(18));
+    case 1:
+        return shape_bumpy(random, vec3(1, 2, 3));
+    case 2:
+        return shape_fan(400);
+    case 3:
+        return shape_plane(vec3(0, 0, 7), vec3(1, 0, 0), vec3(0, 1, 0), 15);
+    case 4:
+        return shape_plane(vec3(3, 3, 3), vec3(1, 0.3, 0.1), vec3(-0.2, 1, 0.4), 15);
+    case 5:
+        return shape_cube(4, 6);
+    case 6:
+        return shape_soup(random, 500, 0.3);
+    case SLIVERS:
+        return slivers(random);
+    case COINCIDENT:
+        return shape_cube(1, 4);
+    case NESTED:
+        return shape_soup(random, 1, 1);
+    case SPIRAL:
+        return shape_soup(random, 10, 0.5);
+    default:
+        return shape_soup(random, 300, 0.4);
+    }
+}
+
+static void add_triangle(Scene *scene, Vec3 a, Vec3 b, Vec3 c)
+{
+    shape_add(scene, shape_triangle(a, b, c), 1);
+}
+
+static void add_sphere(Scene *scene, Random *random)
 {
     Error error = {0};
-    for (int i = 0; i < count; i++) {
-        const Sphere sphere = {random_in_cube(random, 1), random_between(random, 0, radius), 1};
-        require(array_push(&scene->spheres, sphere, &error), &error);
-    }
+    const Sphere sphere = {random_in_cube(random, 1), random_between(random, 0, 0.3), 1};
+    require(array_push(&scene->spheres, sphere, &error), &error);
 }
-
-static Scene far_sphere_scene(Random *random)
-{
-    (void)random;
-    return shape_scene(shape_sphere(12, shape_center(18)));
-}
-
-static Scene bumpy_scene(Random *random)
-{
-    return shape_scene(shape_bumpy(random, vec3(1, 2, 3)));
-}
-
-static Scene fan_scene(Random *random)
-{
-    (void)random;
-    return shape_scene(shape_fan(400));
-}
-
-static Scene plane_scene(Random *random)
-{
-    (void)random;
-    return shape_scene(shape_plane(vec3(0, 0, 7), vec3(1, 0, 0), vec3(0, 1, 0), 15));
-}
-
-static Scene tilted_plane_scene(Random *random)
-{
-    (void)random;
-    return shape_scene(shape_plane(vec3(3, 3, 3), vec3(1, 0.3, 0.1), vec3(-0.2, 1, 0.4), 15));
-}
-
-static Scene cube_scene(Random *random)
-{
-    (void)random;
-    return shape_scene(shape_cube(4, 6));
-}
-
-static Scene soup_scene(Random *random)
-{
-    return shape_scene(shape_soup(random, 500, 0.3));
-}
-
-static Scene sliver_scene(Random *random)
-{
-    Scene scene = shape_scene(shape_soup(random, 500, 0.5));
-    Mesh *mesh = &scene.objects.data[0].mesh;
-    for (size_t triangle = 0; triangle < 500; triangle++)
-        for (int axis = 0; axis < 3; axis++) {
-            const double a = mesh->positions[3 * triangle][axis];
-            const double b = mesh->positions[3 * triangle + 1][axis];
-            double *c = &mesh->positions[3 * triangle + 2][axis];
-            *c = shape_rounded(0.5 * (a + b) + 1e-5 * *c);
-        }
-    return scene;
-}
-
-// The same cube three times: every hit is a tie.
-static Scene coincident_scene(Random *random)
-{
-    (void)random;
-    Scene scene = shape_scene(shape_cube(1, 4));
-    shape_add(&scene, shape_cube(1, 4), 2);
-    shape_add(&scene, shape_cube(1, 4), 3);
-    return scene;
-}
-
-static Scene nested_scene(Random *random)
-{
-    Scene scene = shape_scene(shape_soup(random, 1, 1));
-    for (int i = 1; i < 300; i++) {
-        const double size = 0.01 * i;
-        shape_add(&scene, shape_triangle(vec3(size, 0, 0), vec3(0, size, 0), vec3(-size, -size, 0)),
-                  1);
-    }
-    return scene;
-}
-
-// Each triangle half as large and half as far as the one before.
-static Scene spiral_scene(Random *random)
-{
-    Scene scene = shape_scene(shape_soup(random, 10, 0.5));
-    for (int i = 0; i < 120; i++) {
-        const double s = ldexp(1, -i);
-        shape_add(&scene, shape_triangle(vec3(s, 0, 0), vec3(s, s, 0.2 * s), vec3(0, s, s)), 1);
-    }
-    return scene;
-}
-
-static Scene mixed_scene(Random *random)
-{
-    Scene scene = shape_scene(shape_soup(random, 300, 0.4));
-    add_spheres(&scene, random, 20, 0.3);
-    return scene;
-}
-
-const TreeScene tree_scenes[TREE_SCENES] = {
-    {"far_sphere", far_sphere_scene},
-    {"bumpy", bumpy_scene},
-    {"fan", fan_scene},
-    {"plane", plane_scene},
-    {"tilted_plane", tilted_plane_scene},
-    {"cube", cube_scene},
-    {"soup", soup_scene},
-    {"slivers", sliver_scene},
-    {"coincident", coincident_scene},
-    {"nested", nested_scene},
-    {"spiral", spiral_scene},
-    {"mixed", mixed_scene},
-};
 
 Scene tree_scene_make(size_t number)
 {
     Random random = {2500 + number};
-    return tree_scenes[number].make(&random);
+    Scene scene = shape_scene(first_mesh(number, &random));
+    // The same cube three times: every hit is a tie.
+    for (uint32_t material = 2; number == COINCIDENT && material < 4; material++)
+        shape_add(&scene, shape_cube(1, 4), material);
+    for (int i = 1; number == NESTED && i < 300; i++) {
+        const double s = 0.01 * i;
+        add_triangle(&scene, vec3(s, 0, 0), vec3(0, s, 0), vec3(-s, -s, 0));
+    }
+    // Each triangle is half as large and half as far as the one before.
+    for (int i = 0; number == SPIRAL && i < 120; i++) {
+        const double s = ldexp(1, -i);
+        add_triangle(&scene, vec3(s, 0, 0), vec3(s, s, 0.2 * s), vec3(0, s, s));
+    }
+    for (int i = 0; number == MIXED && i < 20; i++)
+        add_sphere(&scene, &random);
+    return scene;
 }

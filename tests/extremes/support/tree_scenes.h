@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Twelve scenes that trees find hard: flat, far, thin, equal, nested and mixed, each small enough
-// to test every triangle.
+// Twelve scenes that are hard for trees: flat, far, thin, equal, nested and mixed. Each is small
+// enough to test every triangle.
 #pragma once
 
-#include "random.h"
 #include "scene/scene.h"
-
-typedef struct {
-    const char *name;
-    Scene (*make)(Random *);
-} TreeScene;
 
 #define TREE_SCENES 12
 
-extern const TreeScene tree_scenes[TREE_SCENES];
+extern const char *const tree_scene_names[TREE_SCENES];
 
-// The same scene whenever it is made.
+// Returns the same scene at every call. The caller frees it.
 Scene tree_scene_make(size_t number);

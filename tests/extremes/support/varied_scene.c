@@ -3,57 +3,37 @@
 #include "varied_scene.h"
 
 #include "check.h"
+#include "scene_text.h"
 #include "shapes.h"
 
-// Normals that point away from the center: as smooth as the globe would like to be.
-static void add_normals(Mesh *mesh)
-{
-    Error error = {0};
-    mesh->normals = memory_raw(mesh->vertex_count, sizeof *mesh->normals, &error);
-    require(mesh->normals != NULL, &error);
-    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
-        for (int axis = 0; axis < 3; axis++)
-            mesh->normals[vertex][axis] = (float)mesh->positions[vertex][axis];
-}
-
-static void add_globe(Scene *scene)
+// The vertex normals point away from the center.
+static Mesh smooth_globe(void)
 {
     Random random = {46};
     Mesh globe = shape_bumpy(&random, vec3(0, 0, 0));
-    add_normals(&globe);
-    shape_add(scene, globe, 2);
-    scene->objects.data[scene->objects.count - 1].smooth = true;
+    globe.normals = require_memory(globe.vertex_count, sizeof *globe.normals);
+    for (size_t vertex = 0; vertex < globe.vertex_count; vertex++)
+        vec3_store(globe.normals[vertex], shape_vertex(&globe, vertex));
+    return globe;
 }
 
 Scene varied_scene(void)
 {
-    Error error = {0};
-    Scene scene;
-    bool ok = scene_init(&scene, &error);
-    Material gloss = material_of_shader(SHADER_BLINN_PHONG);
-    gloss.shininess = 77.5f;
-    gloss.exponent = UINT32_MAX;
-    gloss.reflectivity = 0.5f;
-    const Light lights[3] = {light_white(vec3(8, -9, 12), 0.7), light_white(vec3(-10, 3, 9), 0.4),
-                             light_white(vec3(1, 1, 25), 0.3)};
-    const Sphere spheres[2] = {{{6, -4, -3}, 2.5, 4}, {{-7, -5, -2}, 1.5, 3}};
-    const Viewpoint viewpoint = {{3, -21, 7}, {0, 0, -1}, {0, 0, 1}, 45};
-    ok = ok && array_push(&scene.materials, gloss, &error) &&
-         array_push(&scene.viewpoints, viewpoint, &error);
-    for (int i = 0; i < 3; i++)
-        ok = ok && array_push(&scene.lights, lights[i], &error);
-    for (int i = 0; i < 2; i++)
-        ok = ok && array_push(&scene.spheres, spheres[i], &error);
-    require(ok, &error);
-    scene.background = vec3(0.25, 0.5, 0.75);
-    add_globe(&scene);
+    Scene scene = scene_text_parse("background 0.25 0.5 0.75\n"
+                                   "light 8 -9 12 0.7\nlight -10 3 9 0.4\nlight 1 1 25 0.3\n"
+                                   "camera 3 -21 7 0 0 -1 45\n"
+                                   "define gloss blinn_phong shininess 77.5 reflectivity 0.5\n"
+                                   "material gloss\nsphere 6 -4 -3 2.5\n"
+                                   "material 3\nsphere -7 -5 -2 1.5\n");
+    shape_add(&scene, smooth_globe(), 2);
+    scene.objects.data[0].smooth = true;
     shape_add(&scene, shape_plane(vec3(-12, -12, -6), vec3(24, 0, 0), vec3(0, 24, 0.5), 7), 3);
     return scene;
 }
 
-static void scale_point(Vec3 *point, double scale)
+Framebuffer varied_picture(const Studio *studio, const PictureSettings *settings)
 {
-    *point = vec3_scale(*point, scale);
+    return picture_draw_once(studio, varied_scene(), settings);
 }
 
 void varied_scene_scale(Scene *scene, int exponent)
@@ -66,13 +46,12 @@ void varied_scene_scale(Scene *scene, int exponent)
                 mesh->positions[vertex][axis] *= scale;
     }
     for (size_t i = 0; i < scene->lights.count; i++)
-        scale_point(&scene->lights.data[i].position, scale);
+        scene->lights.data[i].position = vec3_scale(scene->lights.data[i].position, scale);
     for (size_t i = 0; i < scene->spheres.count; i++) {
-        scale_point(&scene->spheres.data[i].center, scale);
+        scene->spheres.data[i].center = vec3_scale(scene->spheres.data[i].center, scale);
         scene->spheres.data[i].radius *= scale;
     }
-    for (size_t i = 0; i < scene->viewpoints.count; i++) {
-        scale_point(&scene->viewpoints.data[i].eye, scale);
-        scale_point(&scene->viewpoints.data[i].look_at, scale);
-    }
+    Viewpoint *view = &scene->viewpoints.data[0];
+    view->eye = vec3_scale(view->eye, scale);
+    view->look_at = vec3_scale(view->look_at, scale);
 }

@@ -1,222 +1,149 @@
 // SPDX-License-Identifier: MIT
-// Every tree finds what testing all primitives finds, bit by bit.
-#include "support/aim.h"
-#include "support/check.h"
-#include "support/report.h"
-#include "support/tier.h"
+// Every tree finds what testing all primitives finds, to the bit.
+#include "support/rig.h"
+#include "support/shapes.h"
 #include "support/tree_scenes.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-static size_t rays_a_case(void)
-{
-    return tier_size(10000, 100000);
-}
 
 static Vec3 random_corner(const Triangles *triangles, Random *random)
 {
     const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
-    return aim_corner(triangles, triangle, random_below(random, 3));
+    return corner_of(triangles, triangle, random_below(random, 3));
 }
 
-// A point of a random triangle's edge, or of the line through it.
+// Returns a point of the line through an edge of a random triangle.
 static Vec3 random_target(const Triangles *triangles, Random *random)
 {
     const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
-    const Vec3 a = aim_corner(triangles, triangle, 0), b = aim_corner(triangles, triangle, 1);
-    return vec3_add(a, vec3_scale(vec3_sub(b, a), random_between(random, -0.2, 1.2)));
+    return point_of(triangles, triangle, random_between(random, -0.2, 1.2), 0);
 }
 
 static TestRay along_an_axis(Vec3 through, Random *random)
 {
-    const double directions[3] = {-1, 0, 1};
     const uint32_t axis = random_below(random, 3);
-    const double sign = directions[2 * random_below(random, 2)];
+    const double sign = random_below(random, 2) == 0 ? -1 : 1;
     const Vec3 step = {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
-    TestRay ray = aim_at(vec3_sub(through, vec3_scale(step, 2)), through);
-    for (uint32_t i = 0; i < 3; i++)
-        ray.direction[i] = i == axis ? (float)sign : 0;
+    TestRay ray = ray_between(vec3_sub(through, vec3_scale(step, 2)), through);
+    vec3_store(ray.direction, step);
     return ray;
 }
 
-// Rays from everywhere to everywhere: random ones, at vertices and edges, from afar, from vertices
-// themselves, and along the axes.
-static void make_rays(TestRay *rays, const Triangles *triangles, Random *random)
+// Makes rays from all places in all directions: random ones, at vertices and edges, from afar, from
+// vertices, and along the axes.
+static void make_free_rays(Rays rays, const Triangles *triangles, Random *random)
 {
-    const size_t count = rays_a_case();
     Vec3 near = {0}, far = {0};
-    for (size_t i = 0; i < count; i++) {
-        if (aim_moves_origin(i, AIM_BUNDLE)) {
+    for (size_t i = 0; i < rays.count; i++) {
+        if (rays_move_origin(i, RAY_BUNDLE)) {
             near = random_in_cube(random, 2);
             far = random_in_cube(random, 1000);
         }
-        Vec3 origin = near;
+        Vec3 origin = i % 8 == 4 ? far : near;
         Vec3 target = random_in_cube(random, 1);
         if (i % 8 == 1 || i % 8 == 2)
             target = random_corner(triangles, random);
         else if (i % 8 == 3 || i % 8 == 4)
             target = random_target(triangles, random);
-        if (i % 8 == 4)
-            origin = far;
-        if (i % 8 == 5)
+        else if (i % 8 == 5)
             origin = random_corner(triangles, random);
-        rays[i] = aim_at(origin, target);
-        if (i % 8 == 6)
-            rays[i] = along_an_axis(random_corner(triangles, random), random);
+        rays.data[i] = i % 8 == 6 ? along_an_axis(random_corner(triangles, random), random)
+                                  : ray_between(origin, target);
     }
 }
 
-// Reflected rays from points of triangles at or near one of their edges, where their neighbors are
-// met at distances that rounding can make zero or less; or shadow rays from there.
-static void make_surface_rays(TestRay *rays, const Stage *stage, bool are_shadows, Random *random)
+// Makes rays from points of triangles at or near an edge. Their neighbors are so close that
+// rounding can make a distance zero or less.
+static void make_surface_rays(Rays rays, const Stage *stage, Random *random)
 {
-    const size_t count = rays_a_case();
     const Triangles *triangles = &stage->triangles;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < rays.count; i++) {
         const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
-        const Vec3 a = aim_corner(triangles, triangle, 0), b = aim_corner(triangles, triangle, 1);
-        const Vec3 c = aim_corner(triangles, triangle, 2);
-        const Vec3 along = vec3_scale(vec3_sub(b, a), random_between(random, 0, 1));
+        const double along = random_between(random, 0, 1);
         const double inward = scalbn(random_between(random, 0, 1), -(int)random_below(random, 30));
-        const Vec3 edge = vec3_add(a, along);
-        const Vec3 origin = vec3_add(edge, vec3_scale(vec3_sub(c, edge), inward));
-        rays[i] = aim_at(origin, vec3_add(origin, random_in_cube(random, 1)));
-        rays[i].own = stage->flat.sphere_count + triangle;
-        rays[i].kind = are_shadows ? RAY_SHADOW : RAY_REFLECTED;
+        const Vec3 origin = point_of(triangles, triangle, along * (1 - inward), inward);
+        rays.data[i] = ray_between(origin, vec3_add(origin, random_in_cube(random, 1)));
+        rays.data[i].own = stage->flat.sphere_count + triangle;
+        rays.data[i].kind = RAY_REFLECTED;
     }
 }
 
-// A tree's answers to some rays beside those of the same scene without one.
-typedef struct {
-    BatchTask task;
-    TestRay *rays;
-    TestHit *expected, *found;
-} Comparison;
-
-static Comparison comparison_make(BatchTask task)
-{
-    Error error = {0};
-    const size_t count = rays_a_case();
-    const Comparison comparison = {task, aim_make_rays(count),
-                                   memory_raw(count, sizeof(TestHit), &error),
-                                   memory_raw(count, sizeof(TestHit), &error)};
-    require(comparison.expected != NULL && comparison.found != NULL, &error);
-    return comparison;
-}
-
-static void comparison_free(Comparison *comparison)
-{
-    free(comparison->rays);
-    free(comparison->expected);
-    free(comparison->found);
-}
-
-static void trace_scene(const Comparison *comparison, RayBatch *batch, size_t number, TreeKind tree)
-{
-    Stage stage;
-    Scene scene = tree_scene_make(number);
-    TestHit *hits = tree == TREE_NONE ? comparison->expected : comparison->found;
-    stage_make(&stage, &scene, tree);
-    ray_batch_upload(batch, &stage.flat);
-    ray_batch_trace(batch, comparison->task, comparison->rays, rays_a_case(), hits);
-    stage_free(&stage);
-    scene_free(&scene);
-}
-
-static size_t differences_of(const Comparison *comparison, RayBatch *batch, size_t number)
-{
-    const size_t count = rays_a_case();
-    size_t differences = 0;
-    trace_scene(comparison, batch, number, TREE_NONE);
-    for (TreeKind tree = TREE_SAH; tree < TREE_NONE; tree++) {
-        char details[64];
-        size_t wrong = 0;
-        trace_scene(comparison, batch, number, tree);
-        for (size_t i = 0; i < count; i++)
-            wrong += memcmp(&comparison->found[i], &comparison->expected[i], sizeof(TestHit)) != 0;
-        snprintf(details, sizeof details, "scene=%s tree=%s task=%s", tree_scenes[number].name,
-                 tree_names[tree], comparison->task == BATCH_NEAREST ? "nearest" : "blocked");
-        differences += report_case("T-25", details, count, wrong);
-    }
-    return differences;
-}
-
-static void make_scene_rays(TestRay *rays, size_t number, BatchTask task, bool from_surfaces)
+static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfaces)
 {
     Stage stage;
     Random random = {25 + number};
     Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, TREE_NONE);
     if (from_surfaces)
-        make_surface_rays(rays, &stage, task == BATCH_BLOCKED, &random);
+        make_surface_rays(rays, &stage, &random);
     else
-        make_rays(rays, &stage.triangles, &random);
+        make_free_rays(rays, &stage.triangles, &random);
     stage_free(&stage);
     scene_free(&scene);
+    for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
+        rays.data[i].kind = RAY_SHADOW;
+        // A ray of twice the length meets its target halfway. The other rays end there.
+        for (int axis = 0; axis < 3 && !from_surfaces && i % 16 < 8; axis++)
+            rays.data[i].direction[axis] *= 2;
+    }
 }
 
-// A ray of twice the length meets its target halfway; others end there.
-static void make_shadow_ray(TestRay *ray, bool doubled)
+static TestHit *trace(RayBatch *batch, BatchTask task, Rays rays, size_t number, TreeKind tree)
 {
-    ray->kind = RAY_SHADOW;
-    for (int axis = 0; axis < 3 && doubled; axis++)
-        ray->direction[axis] *= 2;
+    Stage stage;
+    Scene scene = tree_scene_make(number);
+    stage_make(&stage, &scene, tree);
+    ray_batch_upload(batch, &stage.flat);
+    stage_free(&stage);
+    scene_free(&scene);
+    return ray_batch_trace(batch, task, rays);
 }
 
-// Returns the least number of rays into the scenes that must hit something.
-static size_t least_met(BatchTask task, size_t count)
+static void compare_trees(RayBatch *batch, BatchTask task, bool from_surfaces)
 {
-    return task == BATCH_BLOCKED ? count / 100 : count / 20;
-}
-
-static size_t compare(RayBatch *batch, BatchTask task, bool from_surfaces)
-{
-    const size_t count = rays_a_case();
-    const uint32_t none = task == BATCH_BLOCKED ? 0 : NOTHING;
-    size_t differences = 0;
-    Comparison comparison = comparison_make(task);
+    const Rays rays = rays_make(tier_size(10000, 100000));
+    const uint32_t nothing = task == BATCH_BLOCKED ? 0 : NOTHING;
+    const size_t least_met = rays.count / (task == BATCH_BLOCKED ? 100 : 20);
     for (size_t number = 0; number < TREE_SCENES; number++) {
         size_t met = 0;
-        make_scene_rays(comparison.rays, number, task, from_surfaces);
-        for (size_t i = 0; i < count && task == BATCH_BLOCKED && !from_surfaces; i++)
-            make_shadow_ray(&comparison.rays[i], i % 16 < 8);
-        differences += differences_of(&comparison, batch, number);
-        for (size_t i = 0; i < count; i++)
-            met += comparison.expected[i].id != none;
-        assert_true(met >= least_met(task, count) || from_surfaces);
+        make_rays(rays, number, task, from_surfaces);
+        TestHit *expected = trace(batch, task, rays, number, TREE_NONE);
+        for (size_t i = 0; i < rays.count; i++)
+            met += expected[i].id != nothing;
+        assert_in_range(met, from_surfaces ? 0 : least_met, rays.count);
+        for (TreeKind tree = TREE_SAH; tree < TREE_NONE; tree++) {
+            size_t wrong = 0;
+            TestHit *found = trace(batch, task, rays, number, tree);
+            for (size_t i = 0; i < rays.count; i++)
+                wrong += memcmp(&found[i], &expected[i], sizeof *found) != 0;
+            outcome_report(outcome_of("T-25", rays.count, wrong),
+                           "scene=%s tree=%s task=%s from=%s", tree_scene_names[number],
+                           tree_names[tree], task == BATCH_NEAREST ? "nearest" : "blocked",
+                           from_surfaces ? "surfaces" : "anywhere");
+            free(found);
+        }
+        free(expected);
     }
-    comparison_free(&comparison);
-    return differences;
+    free(rays.data);
 }
 
 static void every_tree_finds_the_hits_that_testing_all_triangles_finds_t25(void **state)
 {
-    assert_int_equal(compare(*state, BATCH_NEAREST, false), 0);
-}
-
-static void every_tree_finds_what_rays_from_a_surface_hit_t25(void **state)
-{
-    assert_int_equal(compare(*state, BATCH_NEAREST, true), 0);
+    compare_trees(*state, BATCH_NEAREST, false);
+    compare_trees(*state, BATCH_NEAREST, true);
 }
 
 static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(void **state)
 {
-    assert_int_equal(compare(*state, BATCH_BLOCKED, false), 0);
-}
-
-static void every_tree_finds_what_shadows_a_surface_t25(void **state)
-{
-    assert_int_equal(compare(*state, BATCH_BLOCKED, true), 0);
+    compare_trees(*state, BATCH_BLOCKED, false);
+    compare_trees(*state, BATCH_BLOCKED, true);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
-        cmocka_unit_test(every_tree_finds_what_rays_from_a_surface_hit_t25),
-        cmocka_unit_test(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25),
-        cmocka_unit_test(every_tree_finds_what_shadows_a_surface_t25),
+        REPORTING_TEST(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
+        REPORTING_TEST(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25),
     };
     return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Counts the failing cases of the running test.
+#include "outcome.h"
+
+static size_t failing_cases;
+
+void outcome_add(Outcome *sum, Outcome more)
+{
+    sum->test = more.test;
+    sum->has_peers = more.has_peers;
+    sum->count += more.count;
+    for (RayTracer tracer = 0; tracer < TRACERS; tracer++)
+        sum->failures[tracer] += more.failures[tracer];
+}
+
+static const char *form_name(void)
+{
+    const char *name = getenv("CLRT_TEST_KERNEL");
+    return name != NULL ? name : "packet";
+}
+
+void outcome_report(Outcome outcome, const char *details, ...)
+{
+    va_list arguments;
+    const size_t *failures = outcome.failures;
+    va_start(arguments, details);
+    printf("%s form=%s ", outcome.test, form_name());
+    vprintf(details, arguments);
+    va_end(arguments);
+    printf(" rays=%zu fail=%zu limit=%zu", outcome.count, failures[BY_CLRT], outcome.limit);
+    if (outcome.has_peers)
+        printf(" embree_default=%zu embree_robust=%zu", failures[BY_EMBREE_DEFAULT],
+               failures[BY_EMBREE_ROBUST]);
+    printf("\n");
+    fflush(stdout);
+    failing_cases += failures[BY_CLRT] > outcome.limit;
+}
+
+void outcome_report_skipped(const char *test, const char *reason)
+{
+    printf("%s form=%s skipped: %s\n", test, form_name(), reason);
+}
+
+int outcome_teardown(void **state)
+{
+    const size_t failing = failing_cases;
+    (void)state;
+    failing_cases = 0;
+    if (failing > 0)
+        print_message("%zu cases have more failures than their limits\n", failing);
+    return failing > 0;
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Prints one line for each case of a test, from which gather.py makes a table:
+// T-03 form=packet k=10 rays=100000 fail=0 limit=0 embree_default=33859 embree_robust=1245
+// A REPORTING_TEST continues after a case fails, and then fails at its end.
+#pragma once
+
+#include "check.h"
+
+// The ray tracers of a case.
+typedef enum { BY_CLRT, BY_EMBREE_DEFAULT, BY_EMBREE_ROBUST, TRACERS } RayTracer;
+
+typedef struct {
+    const char *test;
+    size_t count;             // rays, pixels, boxes or files
+    size_t failures[TRACERS]; // among them
+    size_t limit;             // the largest number of clrt's failures with which the case passes
+    bool has_peers;           // Embree has traced the rays
+} Outcome;
+
+// Returns the outcome of a case without peers whose limit is 0.
+static inline Outcome outcome_of(const char *test, size_t count, size_t failures)
+{
+    return (Outcome){.test = test, .count = count, .failures = {failures}};
+}
+
+// Adds the count and failures of another case of the same test. sum is {0} before the first.
+void outcome_add(Outcome *sum, Outcome more);
+
+// Prints the outcome of the case that details and its arguments describe.
+__attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const char *details,
+                                                          ...);
+
+// Prints the reason why a test cannot run on this machine.
+void outcome_report_skipped(const char *test, const char *reason);
+
+// The teardown of a test. Fails if a case of the test had more failures than its limit.
+int outcome_teardown(void **state);
+#define REPORTING_TEST(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)

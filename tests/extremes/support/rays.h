@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Makes rays in the normalized frame, aimed at where triangles meet.
+#pragma once
+
+#include "ray_batch.h"
+#include "room.h"
+
+// Returns uninitialized rays. The caller frees rays.data.
+Rays rays_make(size_t count);
+
+// The rays of a packet start at one point. Returns whether ray i starts a new packet of `bundle`
+// rays; always true unless the kernels trace packets.
+bool rays_move_origin(size_t i, size_t bundle);
+
+// Enough rays from one point to fill packets of all directions.
+#define RAY_BUNDLE 512
+
+// Returns a camera ray between two points. Rounds both to float, and then the direction.
+TestRay ray_between(Vec3 from, Vec3 to);
+
+// The same between two points of the stage's scene.
+TestRay ray_between_in(const Stage *stage, Vec3 from, Vec3 to);
+
+// Where rays go from random points of a room.
+typedef enum {
+    AIM_RANDOM,
+    AIM_EDGES,            // random points of random edges
+    AIM_VERTICES,         // random vertices
+    AIM_VERTICES_EXACTLY, // the same without rounding: origin + direction is the vertex
+    AIM_KINDS
+} Aim;
+
+void rays_aim(Rays rays, Aim aim, const Room *room, const Triangles *triangles, Random *random);

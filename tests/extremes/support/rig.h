@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// A scene that clrt and, if it is there, Embree can trace, for rays that a judge examines.
+#pragma once
+
+#include "peers.h"
+#include "rays.h"
+
+typedef struct {
+    const char *test;
+    RayBatch *batch;
+    Stage stage;
+    Peers peers;
+} Rig;
+
+// Builds the scene's tree, uploads it to the batch and frees the scene.
+Rig rig_open(const char *test, RayBatch *batch, Scene scene);
+Rig rig_open_with(const char *test, RayBatch *batch, Scene scene, TreeKind tree);
+void rig_close(Rig *rig);
+
+// A ray and its hit by one of the ray tracers.
+typedef struct {
+    const TestRay *ray;
+    const TestHit *hit;
+    size_t index; // of the ray
+    RayTracer tracer;
+} Traced;
+
+// Returns whether the hit is wrong. context is the judge's own.
+typedef bool Judge(void *context, const Traced *traced);
+
+// Returns how many rays each tracer gets wrong.
+Outcome rig_judge(const Rig *rig, Rays rays, Judge *is_wrong, void *context);
+
+// A judge for closed shapes: a ray is wrong if it hits nothing, or has no finite distance.
+bool judge_misses(void *unused, const Traced *traced);
+
+// A judge with the stage's Triangles as context: exact_nearest is clear, and finds another id.
+bool judge_exactly(void *triangles, const Traced *traced);
