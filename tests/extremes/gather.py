@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the extremes with ctest and gathers their lines into a table of all cases.
+"""Runs the extremes with ctest and writes a table of all cases.
 
 Usage: tests/extremes/gather.py BUILD_FOLDER [-o FILE] [--tiers 2,1,0] [--from TIER:LOG]...
-The table goes to FILE, or to extremes.md in the build folder.  With --from, the script runs no
-tests but reads the verbose output of earlier runs.  Tier 0 counts only for the tests that no other
-tier has.
-Exits as ctest does: with 0 where every test passed.
+The table goes to FILE, or to extremes.md in the build folder. With --from, the script runs no tests
+but reads the verbose output of earlier runs. It uses tier 0 only for tests without another tier.
+Exits with ctest's status: 0 if every test passed.
 """
 import argparse
 import collections
@@ -20,8 +19,6 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 LINE = re.compile(r"^(?:\d+: )?(T-\d\d) form=(\S+) (.*)$")
 FIELD = re.compile(r"^(rays|fail|limit|embree_default|embree_robust)=(\d+)$")
 FORMS = ["packet", "wide", "pair"]
-MONTHS = ("January February March April May June July August September October November "
-          "December").split()
 
 
 def titles():
@@ -36,7 +33,7 @@ def titles():
 
 
 def run_tier(build, tier):
-    """The verbose output of a tier, and how ctest ended."""
+    """Returns the verbose output of a tier and ctest's status."""
     label = "extremes" if tier == 0 else f"extremes{tier}"
     command = ["ctest", "--test-dir", build, "-V", "-L", f"^{label}$"]
     if tier > 0:
@@ -61,7 +58,7 @@ def machine():
 
 
 class Results:
-    """All cases by test and details; figures by form of the kernels."""
+    """All cases by test and details, with the figures of each form of the kernels."""
 
     def __init__(self):
         self.cases = collections.OrderedDict()
@@ -83,13 +80,13 @@ class Results:
 
     def add(self, test, form, words):
         figures = {m[1]: int(m[2]) for m in map(FIELD.match, words) if m}
-        measured = ("ulp=", "rmse=", "error=", "times=", "leaks=", "hits=", "blocked=", "at_edges=",
-                    "depth=", "largest_leaf=", "met=", "refused=", "megabytes=", "seeds=")
+        measured = ("ulp=", "rmse=", "error=", "times=", "leaks=", "hits=", "blocked=", "depth=",
+                    "largest_leaf=", "met=", "refused=", "megabytes=", "seeds=")
         details = [w for w in words if not FIELD.match(w)]
         key = " ".join(w for w in details if not any(m in w for m in measured))
         case = self.cases.setdefault((test, key), {"forms": {}, "notes": {}})
         kept = case["forms"].get(form)
-        # The larger of several tiers' runs of one case counts.
+        # If several tiers run a case, the one with the most rays counts.
         if kept is None or figures["rays"] >= kept["rays"]:
             case["forms"][form] = figures
             case["notes"][form] = " ".join(w for w in details if any(m in w for m in measured))
@@ -109,10 +106,8 @@ def cell(value):
 
 
 def verdict(cases):
-    for _, case in cases:
-        if any(f["fail"] > f["limit"] for f in case["forms"].values()):
-            return "**fails**"
-    return "holds"
+    fails = any(f["fail"] > f["limit"] for _, case in cases for f in case["forms"].values())
+    return "**fails**" if fails else "holds"
 
 
 def summary_row(results, test, title):
@@ -138,17 +133,17 @@ def case_row(test, key, case):
 
 def write(results, path):
     asked = titles()
-    today = datetime.date.today()
-    date = f"{today.day} {MONTHS[today.month - 1]} {today.year}"
+    date = datetime.date.today()
     with open(path, "w", encoding="utf-8") as out:
         out.write(f"""# The extremes, measured
 
 Made by `tests/extremes/gather.py` on {date}, on an {machine()}.
 
-What each test asks is in tests/extremes/README.md. `rays` counts what a test judges: rays, pixels,
-boxes or files. Under packet, wide and pair stand the failures of the kernels' three forms, under
-Embree those of Embree 3.13.5 on the same rays and triangles, in its default and its robust mode; an
-empty cell means not run there. A test holds where no case has more failures than its limit.
+tests/extremes/README.md describes the tests. `rays` counts the rays, pixels, boxes or files that a
+test judges. The columns packet, wide and pair contain the failures of the kernels' three forms. The
+columns of Embree contain the failures of Embree 3.13.5 on the same rays and triangles, in its
+default and robust modes. An empty cell means that the case was not run. A test holds if no case has
+more failures than its limit.
 
 ## Summary
 

@@ -102,10 +102,5 @@ static void triangles_of_random_bits_are_refused_or_drawn_right_t64(void **state
     assert_in_range(sum.count, scenes / 2 * RAYS, scenes * RAYS);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(triangles_of_random_bits_are_refused_or_drawn_right_t64),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(triangles_of_random_bits_are_refused_or_drawn_right_t64))

@@ -25,12 +25,6 @@ static void no_ray_leaves_a_closed_bumpy_sphere_t04(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(rays_at_edges_never_leave_a_closed_sphere_t02),
-        REPORTING_TEST(rays_at_vertices_never_leave_a_closed_sphere_t03),
-        REPORTING_TEST(no_ray_leaves_a_closed_bumpy_sphere_t04),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(rays_at_edges_never_leave_a_closed_sphere_t02),
+          TEST(rays_at_vertices_never_leave_a_closed_sphere_t03),
+          TEST(no_ray_leaves_a_closed_bumpy_sphere_t04))

@@ -103,10 +103,4 @@ static void rays_at_a_fan_hit_its_lowest_triangle_t07(void **state)
     free(rays.data);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(rays_at_a_fan_hit_its_lowest_triangle_t07),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(rays_at_a_fan_hit_its_lowest_triangle_t07))

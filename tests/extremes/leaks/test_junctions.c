@@ -73,10 +73,5 @@ static void a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09(void **stat
                    cracks.leaks[BY_EMBREE_ROBUST]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09))

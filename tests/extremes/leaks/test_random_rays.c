@@ -28,11 +28,5 @@ static void a_hundred_million_random_rays_never_leave_a_closed_sphere_t01(void *
     free(rays.data);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(random_rays_never_leave_a_closed_sphere_t01),
-        REPORTING_TEST(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(random_rays_never_leave_a_closed_sphere_t01),
+          TEST(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01))

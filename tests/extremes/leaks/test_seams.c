@@ -139,12 +139,7 @@ static void no_ray_passes_a_plane_far_from_the_origin_t08(void **state)
     rig_close(&rig);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05),
-        REPORTING_TEST(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06),
-        REPORTING_TEST(no_ray_passes_a_plane_far_from_the_origin_t08),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05),
+          TEST(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06),
+          TEST(no_ray_passes_a_plane_far_from_the_origin_t08))

@@ -134,11 +134,6 @@ static void normals_that_are_nothing_or_cancel_out_give_no_fault_t55(void **stat
                        "case=%s", cases[i].name);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(highlights_of_any_shininess_are_exact_to_a_thousandth_t53),
-        REPORTING_TEST(normals_that_are_nothing_or_cancel_out_give_no_fault_t55),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(highlights_of_any_shininess_are_exact_to_a_thousandth_t53),
+          TEST(normals_that_are_nothing_or_cancel_out_give_no_fault_t55))

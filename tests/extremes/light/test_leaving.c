@@ -173,12 +173,7 @@ static void a_ray_that_leaves_a_sphere_never_meets_it_again_t38(void **state)
     leaving_free(&leaving);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(a_ray_that_leaves_a_triangle_never_meets_it_again_t37),
-        REPORTING_TEST(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37),
-        REPORTING_TEST(a_ray_that_leaves_a_sphere_never_meets_it_again_t38),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(a_ray_that_leaves_a_triangle_never_meets_it_again_t37),
+          TEST(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37),
+          TEST(a_ray_that_leaves_a_sphere_never_meets_it_again_t38))

@@ -108,11 +108,6 @@ static void no_ray_escapes_from_a_closed_mirror_t45(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(colors_between_parallel_mirrors_are_a_geometric_series_t44),
-        REPORTING_TEST(no_ray_escapes_from_a_closed_mirror_t45),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(colors_between_parallel_mirrors_are_a_geometric_series_t44),
+          TEST(no_ray_escapes_from_a_closed_mirror_t45))

@@ -89,12 +89,6 @@ static void cameras_may_stand_anywhere_t57(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(lights_of_any_intensity_and_number_are_added_right_t54),
-        REPORTING_TEST(cameras_of_any_angle_see_what_is_there_t56),
-        REPORTING_TEST(cameras_may_stand_anywhere_t57),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(lights_of_any_intensity_and_number_are_added_right_t54),
+          TEST(cameras_of_any_angle_see_what_is_there_t56), TEST(cameras_may_stand_anywhere_t57))

@@ -47,11 +47,5 @@ static void another_device_draws_the_same_picture_t52(void **state)
     picture_teardown((void **)&studio);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(devices_that_can_do_less_leak_as_little_t65),
-        REPORTING_TEST(another_device_draws_the_same_picture_t52),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL, TEST(devices_that_can_do_less_leak_as_little_t65),
+          TEST(another_device_draws_the_same_picture_t52))

@@ -52,10 +52,4 @@ static void the_host_draws_the_devices_picture_bit_by_bit_t51(void **state)
         judge(*state, tree_scene_names[number], visible_scene(number));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(the_host_draws_the_devices_picture_bit_by_bit_t51),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown, TEST(the_host_draws_the_devices_picture_bit_by_bit_t51))

@@ -123,11 +123,6 @@ static void a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50(void **sta
     framebuffer_free(&usual);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(a_scene_moved_by_integers_gives_the_same_picture_bit_by_bit_t49),
-        REPORTING_TEST(a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(a_scene_moved_by_integers_gives_the_same_picture_bit_by_bit_t49),
+          TEST(a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50))

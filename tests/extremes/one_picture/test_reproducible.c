@@ -140,17 +140,10 @@ static void tiles_in_any_order_draw_the_same_picture_t48(void **state)
     framebuffer_free(&usual);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(flushing_denormals_to_zero_changes_no_picture_t47),
-        REPORTING_TEST(the_same_picture_is_drawn_twice_t48),
-        REPORTING_TEST(the_picture_is_the_one_on_record_t48),
-        REPORTING_TEST(unoptimized_kernels_draw_the_same_picture_t48),
-        REPORTING_TEST(specialized_kernels_draw_the_same_picture_t48),
-        REPORTING_TEST(work_groups_of_any_shape_draw_the_same_picture_t48),
-        REPORTING_TEST(tiles_of_any_size_draw_the_same_picture_t48),
-        REPORTING_TEST(tiles_in_any_order_draw_the_same_picture_t48),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown, TEST(flushing_denormals_to_zero_changes_no_picture_t47),
+          TEST(the_same_picture_is_drawn_twice_t48), TEST(the_picture_is_the_one_on_record_t48),
+          TEST(unoptimized_kernels_draw_the_same_picture_t48),
+          TEST(specialized_kernels_draw_the_same_picture_t48),
+          TEST(work_groups_of_any_shape_draw_the_same_picture_t48),
+          TEST(tiles_of_any_size_draw_the_same_picture_t48),
+          TEST(tiles_in_any_order_draw_the_same_picture_t48))

@@ -27,10 +27,5 @@ static void a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46(void **sta
     framebuffer_free(&unscaled);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46))

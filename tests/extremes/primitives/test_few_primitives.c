@@ -71,10 +71,5 @@ static void scenes_of_few_primitives_show_what_exact_geometry_shows_t17(void **s
             }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(scenes_of_few_primitives_show_what_exact_geometry_shows_t17),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown,
+          TEST(scenes_of_few_primitives_show_what_exact_geometry_shows_t17))

@@ -55,10 +55,5 @@ static void triangles_of_three_scales_are_all_hit_where_they_are_t18(void **stat
     assert_in_range(small, rays.count / 20, rays.count);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(triangles_of_three_scales_are_all_hit_where_they_are_t18),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(triangles_of_three_scales_are_all_hit_where_they_are_t18))

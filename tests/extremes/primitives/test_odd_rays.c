@@ -139,11 +139,6 @@ static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
     free(rays.data);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
-        REPORTING_TEST(rays_from_very_far_meet_what_is_there_or_nothing_t24),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
+          TEST(rays_from_very_far_meet_what_is_there_or_nothing_t24))

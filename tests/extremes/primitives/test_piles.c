@@ -147,12 +147,7 @@ static void a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16(void **sta
     judge_spiral(*state, TREE_MIDPOINT);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(of_a_million_copies_of_a_triangle_the_first_is_hit_t12),
-        REPORTING_TEST(a_million_concentric_triangles_are_told_apart_t14),
-        REPORTING_TEST(a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(of_a_million_copies_of_a_triangle_the_first_is_hit_t12),
+          TEST(a_million_concentric_triangles_are_told_apart_t14),
+          TEST(a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16))

@@ -80,10 +80,5 @@ static void rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15(void *
     free(plain.expected);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15))

@@ -114,10 +114,5 @@ static void distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10(voi
     judge_slivers(*state, 1e7);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10))

@@ -217,14 +217,9 @@ static void rays_along_a_tangent_are_met_by_the_exact_sign_t35(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
-        REPORTING_TEST(far_spheres_are_met_and_missed_as_exactly_t32),
-        REPORTING_TEST(the_ground_may_be_a_sphere_of_any_radius_t33),
-        REPORTING_TEST(an_eye_inside_a_sphere_sees_its_far_wall_t34),
-        REPORTING_TEST(rays_along_a_tangent_are_met_by_the_exact_sign_t35),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
+          TEST(far_spheres_are_met_and_missed_as_exactly_t32),
+          TEST(the_ground_may_be_a_sphere_of_any_radius_t33),
+          TEST(an_eye_inside_a_sphere_sees_its_far_wall_t34),
+          TEST(rays_along_a_tangent_are_met_by_the_exact_sign_t35))

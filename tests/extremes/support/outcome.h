@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prints one line for each case of a test, from which gather.py makes a table:
 // T-03 form=packet k=10 rays=100000 fail=0 limit=0 embree_default=33859 embree_robust=1245
-// A REPORTING_TEST continues after a case fails, and then fails at its end.
 #pragma once
 
 #include "check.h"
@@ -33,6 +32,14 @@ __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const
 // Prints the reason why a test cannot run on this machine.
 void outcome_report_skipped(const char *test, const char *reason);
 
-// The teardown of a test. Fails if a case of the test had more failures than its limit.
+// Defines main, which runs the tests with these fixtures of their group.
+#define RUN_TESTS(setup, teardown, ...)                                                            \
+    int main(void)                                                                                 \
+    {                                                                                              \
+        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
+        return cmocka_run_group_tests(tests, setup, teardown);                                     \
+    }
+
+// A test that continues after a case has more failures than its limit, and then fails at its end.
+#define TEST(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)
 int outcome_teardown(void **state);
-#define REPORTING_TEST(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)

@@ -218,12 +218,7 @@ static void rays_that_start_on_or_graze_a_box_never_miss_it_t22(void **state)
     free(cases);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(rays_of_special_values_miss_no_box_they_meet_t21),
-        REPORTING_TEST(directions_of_special_values_leave_no_closed_shape_t21),
-        REPORTING_TEST(rays_that_start_on_or_graze_a_box_never_miss_it_t22),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(rays_of_special_values_miss_no_box_they_meet_t21),
+          TEST(directions_of_special_values_leave_no_closed_shape_t21),
+          TEST(rays_that_start_on_or_graze_a_box_never_miss_it_t22))

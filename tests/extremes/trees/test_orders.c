@@ -67,12 +67,6 @@ static void every_tree_and_size_of_leaf_draws_the_same_picture_t30(void **state)
     framebuffer_free(&usual);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(every_layout_of_nodes_draws_the_same_picture_t28),
-        REPORTING_TEST(the_order_of_triangles_in_the_file_changes_no_picture_t29),
-        REPORTING_TEST(every_tree_and_size_of_leaf_draws_the_same_picture_t30),
-    };
-    return cmocka_run_group_tests(tests, picture_setup, picture_teardown);
-}
+RUN_TESTS(picture_setup, picture_teardown, TEST(every_layout_of_nodes_draws_the_same_picture_t28),
+          TEST(the_order_of_triangles_in_the_file_changes_no_picture_t29),
+          TEST(every_tree_and_size_of_leaf_draws_the_same_picture_t30))

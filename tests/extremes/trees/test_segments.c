@@ -94,10 +94,5 @@ static void anything_between_two_points_is_what_the_nearest_hit_says_t26(void **
     judge_scene(*state, "globe", shape_sphere(16, vec3(0, 0, 0)));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(anything_between_two_points_is_what_the_nearest_hit_says_t26),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(anything_between_two_points_is_what_the_nearest_hit_says_t26))

@@ -127,10 +127,4 @@ static void every_box_of_a_tree_holds_all_vertices_below_it_t27(void **state)
     check_trees("sphere_k20", shape_scene(shape_sphere(100, shape_center(20))));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(every_box_of_a_tree_holds_all_vertices_below_it_t27),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL, TEST(every_box_of_a_tree_holds_all_vertices_below_it_t27))

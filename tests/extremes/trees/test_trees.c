@@ -139,11 +139,6 @@ static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(vo
     compare_trees(*state, BATCH_BLOCKED, true);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        REPORTING_TEST(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
-        REPORTING_TEST(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25),
-    };
-    return cmocka_run_group_tests(tests, ray_batch_setup, ray_batch_teardown);
-}
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          TEST(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
+          TEST(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25))
