@@ -19,6 +19,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 LINE = re.compile(r"^(?:\d+: )?(T-\d\d) form=(\S+) (.*)$")
 FIELD = re.compile(r"^(rays|fail|limit|embree_default|embree_robust)=(\d+)$")
 FORMS = ["packet", "wide", "pair"]
+PEERS = ("embree_default", "embree_robust")
 
 
 def titles():
@@ -35,26 +36,20 @@ def titles():
 def run_tier(build, tier):
     """Returns the verbose output of a tier and ctest's status."""
     label = "extremes" if tier == 0 else f"extremes{tier}"
-    command = ["ctest", "--test-dir", build, "-V", "-L", f"^{label}$"]
-    if tier > 0:
-        command += ["-C", label]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    done = subprocess.run(["ctest", "--test-dir", build, "-V", "-L", f"^{label}$", "-C", label],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           errors="replace", check=False)
     return done.stdout, done.returncode
 
 
 def machine():
     """Returns the names of the processor and PoCL."""
-    name = "unknown"
     with open("/proc/cpuinfo", encoding="utf-8") as info:
-        for line in info:
-            if line.startswith("model name"):
-                name = line.split(":", 1)[1].strip()
-                break
+        names = re.findall(r"^model name\s*: (.*)$", info.read(), re.MULTILINE) or ["unknown"]
     packages = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "libpocl2-common"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                               check=False).stdout or "unknown"
-    return f"{name} with {os.cpu_count()} processors, PoCL {packages.split('-')[0]}"
+    return f"{names[0]} with {os.cpu_count()} processors, PoCL {packages.split('-')[0]}"
 
 
 class Results:
@@ -68,15 +63,13 @@ class Results:
         known = {test for test, _ in self.cases} if tier == 0 else set()
         for line in output.splitlines():
             match = LINE.match(line)
-            if not match:
+            if not match or match[1] in known:
                 continue
             test, form, rest = match.groups()
-            if test in known:
-                continue
             if rest.startswith("skipped: "):
                 self.passed_over[test] = rest[len("skipped: "):]
-                continue
-            self.add(test, form, rest.split(" "))
+            else:
+                self.add(test, form, rest.split(" "))
 
     def add(self, test, form, words):
         figures = {m[1]: int(m[2]) for m in map(FIELD.match, words) if m}
@@ -96,7 +89,7 @@ class Results:
 
 
 def summed(cases, form, field):
-    figures = [case["forms"][form].get(field) for _, case in cases if form in case["forms"]]
+    figures = [case["forms"].get(form, {}).get(field) for _, case in cases]
     figures = [f for f in figures if f is not None]
     return sum(figures) if figures else None
 
@@ -117,7 +110,7 @@ def summary_row(results, test, title):
     rays = max((summed(cases, form, "rays") or 0) for form in FORMS)
     cells = [verdict(cases), cell(len(cases)), cell(rays)]
     cells += [cell(summed(cases, form, "fail")) for form in FORMS]
-    cells += [cell(summed(cases, "packet", mode)) for mode in ("embree_default", "embree_robust")]
+    cells += [cell(summed(cases, "packet", mode)) for mode in PEERS]
     return f"| {test} | {title} | " + " | ".join(cells) + " |"
 
 
@@ -126,8 +119,7 @@ def case_row(test, key, case):
     note = next((case["notes"][f] for f in FORMS if case["notes"].get(f)), "")
     cells = [cell(first["rays"]), cell(first["limit"])]
     cells += [cell(case["forms"].get(form, {}).get("fail")) for form in FORMS]
-    cells += [cell(case["forms"].get("packet", {}).get(mode))
-              for mode in ("embree_default", "embree_robust")]
+    cells += [cell(case["forms"].get("packet", {}).get(mode)) for mode in PEERS]
     return f"| {test} | {key} | " + " | ".join(cells) + f" | {note} |"
 
 

@@ -22,45 +22,36 @@ static void spheres_without_a_size_are_refused_t36(void **state)
     outcome_report(scene_text_refusals("T-36", refused), "refused");
 }
 
-#define VERTICES(first)                                                                            \
-    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"                     \
-    "element face 1\nproperty list uchar int vertex_indices\nend_header\n" first                   \
-    " 0 0\n1 0 0\n0 1 0\n"
-#define ASCII "ply\nformat ascii 1.0\n"
+#define HEADER(count) "ply\nformat ascii 1.0\nelement vertex " count "\n"
+#define POINT         "property float x\nproperty float y\nproperty float z\n"
+#define FACES(count)  "element face " count "\nproperty list uchar int vertex_indices\nend_header\n"
+// Starts with a triangle whose first coordinate is `first`.
+#define START(first) HEADER("3") POINT FACES("1") first " 0 0\n1 0 0\n0 1 0\n"
 
 // Texts of meshes, and whether they can be read.
 static const struct {
     const char *name, *text;
     bool readable;
 } meshes[] = {
-    {"plain", ASCII VERTICES("0") "3 0 1 2\n", true},
-    {"nan", ASCII VERTICES("nan") "3 0 1 2\n", false},
-    {"infinity", ASCII VERTICES("inf") "3 0 1 2\n", false},
-    {"overflow", ASCII VERTICES("1e39") "3 0 1 2\n", false},
-    {"nan_payload", ASCII VERTICES("nan(0x1)") "3 0 1 2\n", false},
-    {"denormal", ASCII VERTICES("1e-45") "3 0 1 2\n", true},
-    {"index_below", ASCII VERTICES("0") "3 0 1 -1\n", false},
-    {"index_above", ASCII VERTICES("0") "3 0 1 3\n", false},
-    {"index_2^32", ASCII VERTICES("0") "3 0 1 4294967296\n", false},
-    {"two_corners", ASCII VERTICES("0") "2 0 1\n", false},
-    {"five_corners", ASCII VERTICES("0") "5 0 1 2 0 1\n", true},
-    {"truncated", ASCII VERTICES("0") "3 0 1", false},
-    {"no_body",
-     ASCII "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-           "end_header\n",
-     false},
-    {"lying_header",
-     ASCII "element vertex 4000000000\nproperty float x\nproperty float y\n"
-           "property float z\nend_header\n0 0 0\n",
-     false},
+    {"plain", START("0") "3 0 1 2\n", true},
+    {"nan", START("nan") "3 0 1 2\n", false},
+    {"infinity", START("inf") "3 0 1 2\n", false},
+    {"overflow", START("1e39") "3 0 1 2\n", false},
+    {"nan_payload", START("nan(0x1)") "3 0 1 2\n", false},
+    {"denormal", START("1e-45") "3 0 1 2\n", true},
+    {"index_below", START("0") "3 0 1 -1\n", false},
+    {"index_above", START("0") "3 0 1 3\n", false},
+    {"index_2^32", START("0") "3 0 1 4294967296\n", false},
+    {"two_corners", START("0") "2 0 1\n", false},
+    {"five_corners", START("0") "5 0 1 2 0 1\n", true},
+    {"truncated", START("0") "3 0 1", false},
+    {"no_body", HEADER("3") POINT "end_header\n", false},
+    {"lying_header", HEADER("4000000000") POINT "end_header\n0 0 0\n", false},
     {"crlf",
      "ply\r\nformat ascii 1.0\r\nelement vertex 0\r\nproperty float x\r\n"
      "property float y\r\nproperty float z\r\nend_header\r\n",
      true},
-    {"no_faces",
-     ASCII "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-           "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
-     true},
+    {"no_faces", HEADER("1") POINT FACES("0") "0 0 0\n", true},
 };
 
 // Reads a file and frees the result. Returns false and fills error if clrt rejects it.
@@ -227,8 +218,7 @@ static char *write_places(long double exact[PLACES][3], size_t *size)
     Random random = {63};
     FILE *stream = open_memstream(&text, size);
     fprintf(stream,
-            ASCII "element vertex %d\nproperty double x\nproperty double y\nproperty double z\n"
-                  "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
+            HEADER("%d") "property double x\nproperty double y\nproperty double z\n" FACES("%d"),
             PLACES, PLACES / 3);
     for (int i = 0; i < 3 * PLACES; i++) {
         char number[32];

@@ -12,11 +12,6 @@
 // the whole direction.
 #define FIELDS 7
 
-static Scene globe(void)
-{
-    return shape_scene(shape_sphere(20, vec3(0, 0, 0)));
-}
-
 // Stores value in a field of every fourth ray.
 static void spoil(Rays rays, float value, int field)
 {
@@ -86,7 +81,7 @@ static void rays_of_no_direction_or_no_number_meet_nothing_and_end_t23(void **st
     static const float values[] = {0, NAN, -NAN, INFINITY, -INFINITY, 0x1p100f};
     Random random = {23};
     const Rays rays = rays_make(tier_size(8192, 65536));
-    Rig rig = rig_open("T-23", *state, globe());
+    Rig rig = rig_open("T-23", *state, shape_scene(shape_sphere(20, vec3(0, 0, 0))));
     const Room room = room_inside(&rig.stage, vec3(0, 0, 0), 1);
     rays_aim(rays, AIM_RANDOM, &room, &rig.stage.triangles, &random);
     for (size_t i = 0; i < COUNT(values); i++)
@@ -126,7 +121,7 @@ static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
     static const float distances[] = {1e3f, 1e6f, 1e9f, 1e12f, 1e18f, 1e24f, 1e30f, 3e38f};
     Random random = {24};
     const Rays rays = rays_make(tier_size(200, 2000));
-    Rig rig = rig_open("T-24", *state, globe());
+    Rig rig = rig_open("T-24", *state, shape_scene(shape_sphere(20, vec3(0, 0, 0))));
     for (size_t i = 0; i < COUNT(distances); i++) {
         aim_from(rays, distances[i], &random);
         // Embree 3.13.5 crashes with a segmentation fault.

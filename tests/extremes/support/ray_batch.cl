@@ -101,19 +101,19 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask l
 }
 
 // Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
-static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool are_shadows,
+static inline void trace_rays(const Tracer *tracer, TestRays rays, bool are_shadows,
                               global TestHit *hits)
 {
-    Mask left = rays->exists;
+    Mask left = rays.exists;
     while (any_lane(left)) {
-        const Mask lanes = companions(rays, left);
-        const Ray ray = ray_of(tracer, rays, lanes);
+        const Mask lanes = companions(&rays, left);
+        const Ray ray = ray_of(tracer, &rays, lanes);
         Hit hit = {0.0f, NOTHING, NOTHING};
         if (are_shadows)
             hit.id = is_blocked(tracer, &ray) ? (UInt)(1) : (UInt)(0);
         else
             hit = nearest_hit(tracer, &ray);
-        store_hits(hits, rays, lanes, hit.t, hit.id);
+        store_hits(hits, &rays, lanes, hit.t, hit.id);
         left = left && !lanes;
     }
 }
@@ -131,15 +131,13 @@ static inline void trace_rays(const Tracer *tracer, const TestRays *rays, bool a
 kernel void batch_nearest(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    const TestRays all = test_rays(rays, count);
-    trace_rays(&tracer, &all, false, hits);
+    trace_rays(&tracer, test_rays(rays, count), false, hits);
 }
 
 kernel void batch_blocked(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    const TestRays all = test_rays(rays, count);
-    trace_rays(&tracer, &all, true, hits);
+    trace_rays(&tracer, test_rays(rays, count), true, hits);
 }
 
 // Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or

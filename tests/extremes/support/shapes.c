@@ -67,14 +67,6 @@ static void connect_globe(Mesh *mesh, uint32_t rings, uint32_t segments)
     }
 }
 
-static Mesh make_globe(uint32_t rings, uint32_t segments)
-{
-    const size_t vertices = 2 + (size_t)(rings - 1) * segments;
-    Mesh mesh = shape_unfilled(vertices, 2 * (size_t)segments * (rings - 1));
-    connect_globe(&mesh, rings, segments);
-    return mesh;
-}
-
 // Returns the direction from the center to a vertex of a globe.
 static Vec3 globe_direction(uint32_t vertex, uint32_t rings, uint32_t segments)
 {
@@ -88,25 +80,29 @@ static Vec3 globe_direction(uint32_t vertex, uint32_t rings, uint32_t segments)
                 cosine_of_degrees(polar));
 }
 
-Mesh shape_sphere(uint32_t rings, Vec3 center)
+// Vertices are at radius from center or, with random, at a random distance from 1 to radius.
+static Mesh make_globe(uint32_t rings, uint32_t segments, Vec3 center, double radius,
+                       Random *random)
 {
-    Mesh mesh = make_globe(rings, 2 * rings);
+    Mesh mesh =
+        shape_unfilled(2 + (size_t)(rings - 1) * segments, 2 * (size_t)segments * (rings - 1));
+    connect_globe(&mesh, rings, segments);
     for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
-        const Vec3 direction = globe_direction(vertex, rings, 2 * rings);
-        shape_set_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, SPHERE_RADIUS)));
+        const double distance = random != NULL ? random_between(random, 1, radius) : radius;
+        const Vec3 direction = globe_direction(vertex, rings, segments);
+        shape_set_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, distance)));
     }
     return mesh;
 }
 
+Mesh shape_sphere(uint32_t rings, Vec3 center)
+{
+    return make_globe(rings, 2 * rings, center, SPHERE_RADIUS, NULL);
+}
+
 Mesh shape_bumpy(Random *random, Vec3 center)
 {
-    Mesh mesh = make_globe(16, 16);
-    for (uint32_t vertex = 0; vertex < mesh.vertex_count; vertex++) {
-        const Vec3 direction = globe_direction(vertex, 16, 16);
-        const double radius = random_between(random, 1, 6);
-        shape_set_vertex(&mesh, vertex, vec3_add(center, vec3_scale(direction, radius)));
-    }
-    return mesh;
+    return make_globe(16, 16, center, 6, random);
 }
 
 Mesh shape_fan(uint32_t count)
