@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Copies the kernels with one thing changed that they must not rest on.  `contracted`: contraction
-# of a * b + c is switched on.  `coarse`: reciprocals are off by 2.5 ulp, the most that OpenCL
-# allows devices without correctly rounded division.
+# Copies the kernels with a change that they must tolerate. `contracted` allows the contraction of
+# a * b + c. `coarse` makes reciprocals wrong by 2.5 ulp, the most that OpenCL allows devices
+# without correctly rounded division.
 # Usage: cmake -DFOLDER=kernels -DOUTPUT=folder -DCHANGE=contracted|coarse -P change_kernels.cmake
 if(CHANGE STREQUAL contracted)
   set(old "FP_CONTRACT OFF")

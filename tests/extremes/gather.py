@@ -57,7 +57,7 @@ class Results:
 
     def __init__(self):
         self.cases = collections.OrderedDict()
-        self.passed_over = {}
+        self.skipped = {}
 
     def read(self, tier, output):
         known = {test for test, _ in self.cases} if tier == 0 else set()
@@ -67,7 +67,7 @@ class Results:
                 continue
             test, form, rest = match.groups()
             if rest.startswith("skipped: "):
-                self.passed_over[test] = rest[len("skipped: "):]
+                self.skipped[test] = rest[len("skipped: "):].split(" rays=")[0]
             else:
                 self.add(test, form, rest.split(" "))
 
@@ -106,7 +106,7 @@ def verdict(cases):
 def summary_row(results, test, title):
     cases = results.of_test(test)
     if not cases:
-        return f"| {test} | {title} | {results.passed_over.get(test, 'not run')} ||||||||"
+        return f"| {test} | {title} | {results.skipped.get(test, 'not run')} ||||||||"
     rays = max((summed(cases, form, "rays") or 0) for form in FORMS)
     cells = [verdict(cases), cell(len(cases)), cell(rays)]
     cells += [cell(summed(cases, form, "fail")) for form in FORMS]

@@ -58,7 +58,7 @@ static TestHit nearest_of(const TestHit *each, size_t *equals)
 
 // Returns whether the hit is the nearest. Different doubles can be one float in `each`, and then
 // any of their triangles is right.
-static bool is_nearest(const RayBatch *batch, const TestHit *hit, const TestHit *nearest,
+static bool is_nearest(RayBatch *batch, const TestHit *hit, const TestHit *nearest,
                        const TestHit *each)
 {
     if (batch->choice.precision == PRECISION_FP64)
@@ -68,7 +68,7 @@ static bool is_nearest(const RayBatch *batch, const TestHit *hit, const TestHit 
 
 // Compares some rays' hits with the nearest of all triangles. Returns the number of rays that hit
 // several triangles at one distance.
-static size_t judge_ids(const RayBatch *batch, Rays rays, const char *aim)
+static size_t judge_ids(RayBatch *batch, Rays rays, const char *aim)
 {
     size_t wrong = 0, ties = 0;
     rays.count = tier_size(50, 1000);

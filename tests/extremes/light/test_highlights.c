@@ -7,8 +7,6 @@
 #include "support/scene_text.h"
 #include "support/shapes.h"
 
-#include <string.h>
-
 #define CASES 4096
 
 typedef struct {
@@ -17,17 +15,12 @@ typedef struct {
     uint32_t exponent; // as in Material
 } Highlight;
 
-// Returns the exponent that the scene's reader sets.
-static uint32_t exponent_of(double shininess)
-{
-    const bool is_small_integer = shininess <= 1024 && rint(shininess) == shininess;
-    return is_small_integer ? (uint32_t)shininess : UINT32_MAX;
-}
-
 // The half vector is the normal, or beside it, across it, or at any angle.
 static Highlight highlight_case(int number, double shininess, Random *random)
 {
-    Highlight made = {.shininess = (float)shininess, .exponent = exponent_of(shininess)};
+    Material material = {0};
+    material_set_shininess(&material, (float)shininess);
+    Highlight made = {.shininess = material.shininess, .exponent = material.exponent};
     const Vec3 normal = random_unit(random);
     const Vec3 aside = vec3_normalize(vec3_cross(normal, random_in_cube(random, 1)));
     const double angles[4] = {0, scalbn(1, -(int)random_below(random, 24)), 0.5 * acos(-1),

@@ -11,7 +11,6 @@ typedef unsigned long Ulong;
 static size_t work_item[2];
 
 #define BUILTIN(result, name, parameters, value)                                                   \
-    result name parameters;                                                                        \
     result name parameters                                                                         \
     {                                                                                              \
         return value;                                                                              \

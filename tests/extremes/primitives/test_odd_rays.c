@@ -36,7 +36,7 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
 
 // Returns the hits and the least of five times in seconds. The time of all processors together does
 // not depend on other processes.
-static TestHit *trace_timed(const RayBatch *batch, Rays rays, double *seconds)
+static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
     TestHit *hits = NULL;
     *seconds = INFINITY;
@@ -52,7 +52,7 @@ static TestHit *trace_timed(const RayBatch *batch, Rays rays, double *seconds)
 // Embree's rule: spoiled rays take at most 2.5 times as long as sound rays.
 #define SLOWEST 2.5
 
-static void judge_spoiled(const RayBatch *batch, Rays rays, float value)
+static void judge_spoiled(RayBatch *batch, Rays rays, float value)
 {
     size_t disturbed = 0;
     double usual, seconds, slowest = 0;

@@ -3,17 +3,10 @@
 #pragma once
 
 #include "base/array.h"
+#include "unit/cmocka_all.h"
 
-#include <stdlib.h>
-
-// clang-format off
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <cmocka.h>
-// clang-format on
+#include <stdlib.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 

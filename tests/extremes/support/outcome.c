@@ -36,11 +36,6 @@ void outcome_report(Outcome outcome, const char *details, ...)
     failing_cases += failures[BY_CLRT] > outcome.limit;
 }
 
-void outcome_report_skipped(const char *test, const char *reason)
-{
-    printf("%s form=%s skipped: %s\n", test, form_name(), reason);
-}
-
 int outcome_teardown(void **state)
 {
     const size_t failing = failing_cases;

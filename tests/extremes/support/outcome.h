@@ -25,12 +25,10 @@ static inline Outcome outcome_of(const char *test, size_t count, size_t failures
 // Adds the count and failures of another case of the same test. sum is {0} before the first.
 void outcome_add(Outcome *sum, Outcome more);
 
-// Prints the outcome of the case that details and its arguments describe.
+// Prints the outcome of the case that details and its arguments describe. Details like "skipped:
+// no GPU" tell why a test cannot run.
 __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const char *details,
                                                           ...);
-
-// Prints the reason why a test cannot run on this machine.
-void outcome_report_skipped(const char *test, const char *reason);
 
 // Defines main, which runs the tests with these fixtures of their group.
 #define RUN_TESTS(setup, teardown, ...)                                                            \

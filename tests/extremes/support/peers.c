@@ -4,6 +4,7 @@
 
 #include "shapes.h"
 
+#ifdef WITH_EMBREE
 #include <embree3/rtcore.h>
 
 // Returns the scene coordinates of a normalized point.
@@ -92,3 +93,21 @@ TestHit *peers_trace(const Peers *peers, RayTracer tracer, Rays rays)
         hits[i] = trace(peers->scenes[tracer], &rays.data[i], &peers->normalization);
     return hits;
 }
+#else
+void peers_open(Peers *peers, const Stage *stage)
+{
+    (void)stage;
+    *peers = (Peers){0};
+}
+
+void peers_close(Peers *peers)
+{
+    (void)peers;
+}
+
+TestHit *peers_trace(const Peers *peers, RayTracer tracer, Rays rays)
+{
+    (void)peers, (void)tracer, (void)rays;
+    return NULL;
+}
+#endif

@@ -87,8 +87,7 @@ Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
 
 Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings)
 {
-    RenderProgress progress;
-    return picture_draw_counted(studio, scene, settings, &progress);
+    return picture_draw_counted(studio, scene, settings, &(RenderProgress){0});
 }
 
 Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings)
@@ -150,12 +149,9 @@ Outcome picture_judge_beside(const char *test, const Studio *studio, Scene scene
 size_t picture_count_faults(const Framebuffer *picture)
 {
     size_t count = 0;
-    for (size_t i = 0; i < picture_pixels(picture); i++) {
-        bool valid = true;
-        for (int channel = 0; channel < 3; channel++)
-            valid = valid && picture->pixels[i][channel] >= 0 && picture->pixels[i][channel] <= 1;
-        count += !valid;
-    }
+    const float *values = *picture->pixels;
+    for (size_t i = 0; i < 3 * picture_pixels(picture); i++)
+        count += !(values[i] >= 0 && values[i] <= 1);
     return count;
 }
 

@@ -51,8 +51,8 @@ size_t picture_pixels(const Framebuffer *picture);
 // Returns how many pixels of `other` differ in any bit from `usual`. Frees `other`.
 Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other);
 
-// Returns how many pixels differ from the oracle's picture for no visible reason, or have values
-// outside [0, 1]. Frees the scene.
+// Returns how many pixels differ from the oracle's picture for no visible reason, plus the
+// picture's faults. Frees the scene.
 Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
                       const PictureSettings *settings);
 
@@ -60,7 +60,7 @@ Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
 Outcome picture_judge_beside(const char *test, const Studio *studio, Scene scene, Scene exact,
                              const PictureSettings *settings);
 
-// Returns how many pixels have a value outside [0, 1] or NaN.
+// Returns how many values are NaN or outside [0, 1].
 size_t picture_count_faults(const Framebuffer *picture);
 
 // Returns how many pixels differ from color.

@@ -227,64 +227,6 @@ static RayOrder *sorted_orders(Rays rays, bool share_origins)
     return orders;
 }
 
-// Runs a kernel over at most BATCH_RAYS rays in the given order.
-static void run_ordered(const RayBatch *batch, BatchTask task, Rays rays, const RayOrder *orders,
-                        TestHit *hits)
-{
-    TestRay *ordered = require_memory(rays.count, sizeof *ordered);
-    TestHit *found = require_memory(rays.count, sizeof *found);
-    for (size_t i = 0; i < rays.count; i++)
-        ordered[i] = rays.data[orders[i].index];
-    write_buffer(batch, batch->rays, ordered, rays.count * sizeof *ordered);
-    run(batch, task, rays.count, found, rays.count);
-    for (size_t i = 0; i < rays.count; i++)
-        hits[orders[i].index] = found[i];
-    free(ordered);
-    free(found);
-}
-
-// Returns the rays from first on, as many as a launch takes.
-static Rays chunk_of(Rays rays, size_t first)
-{
-    const size_t left = rays.count - first;
-    return (Rays){rays.data + first, left < BATCH_RAYS ? left : BATCH_RAYS};
-}
-
-TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays)
-{
-    TestHit *hits = require_memory(rays.count, sizeof *hits);
-    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
-        const Rays chunk = chunk_of(rays, first);
-        RayOrder *orders = sorted_orders(chunk, true);
-        run_ordered(batch, task, chunk, orders, hits + first);
-        free(orders);
-    }
-    return hits;
-}
-
-TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3])
-{
-    TestHit *hits = require_memory(rays.count, sizeof *hits);
-    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
-        const Rays chunk = chunk_of(rays, first);
-        write_buffer(batch, batch->rays, chunk.data, chunk.count * sizeof *chunk.data);
-        write_buffer(batch, batch->outward, outward + first, chunk.count * sizeof *outward);
-        run(batch, BATCH_LEAVE, chunk.count, hits + first, chunk.count);
-    }
-    return hits;
-}
-
-void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
-{
-    const bool is_wide = batch->choice.nodes == NODES_WIDE;
-    const uint32_t triangles = batch->frame.triangle_count;
-    const uint32_t items = is_wide ? batch->block_count : triangles;
-    assert_true(triangles <= BATCH_RAYS);
-    assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
-    write_buffer(batch, batch->rays, ray, sizeof *ray);
-    run(batch, BATCH_EACH, items, hits, triangles);
-}
-
 // Returns a wide node with the children of a pair and no others.
 static BvhWide widened(const BvhPair *pair)
 {
@@ -315,16 +257,67 @@ static void upload_nodes(RayBatch *batch, const BvhPair *nodes, const RayOrder *
     free(wides);
 }
 
-TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes)
+// Returns the rays from first on, as many as a launch takes.
+static Rays chunk_of(Rays rays, size_t first)
+{
+    const size_t left = rays.count - first;
+    return (Rays){rays.data + first, left < BATCH_RAYS ? left : BATCH_RAYS};
+}
+
+// Traces rays in an order that suits packets. nodes are the rays' own for BATCH_BOXES, else NULL.
+static TestHit *trace_ordered(RayBatch *batch, BatchTask task, Rays rays, const BvhPair *nodes)
 {
     TestHit *hits = require_memory(rays.count, sizeof *hits);
-    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
+    TestRay *ordered = require_memory(BATCH_RAYS, sizeof *ordered);
+    TestHit *found = require_memory(BATCH_RAYS, sizeof *found);
     for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
         const Rays chunk = chunk_of(rays, first);
-        RayOrder *orders = sorted_orders(chunk, false);
-        upload_nodes(batch, nodes + first, orders, chunk.count);
-        run_ordered(batch, BATCH_BOXES, chunk, orders, hits + first);
+        RayOrder *orders = sorted_orders(chunk, nodes == NULL);
+        for (size_t i = 0; i < chunk.count; i++)
+            ordered[i] = chunk.data[orders[i].index];
+        if (nodes != NULL)
+            upload_nodes(batch, nodes + first, orders, chunk.count);
+        write_buffer(batch, batch->rays, ordered, chunk.count * sizeof *ordered);
+        run(batch, task, chunk.count, found, chunk.count);
+        for (size_t i = 0; i < chunk.count; i++)
+            hits[first + orders[i].index] = found[i];
         free(orders);
     }
+    free(ordered);
+    free(found);
     return hits;
+}
+
+TestHit *ray_batch_trace(RayBatch *batch, BatchTask task, Rays rays)
+{
+    return trace_ordered(batch, task, rays, NULL);
+}
+
+TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3])
+{
+    TestHit *hits = require_memory(rays.count, sizeof *hits);
+    for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
+        const Rays chunk = chunk_of(rays, first);
+        write_buffer(batch, batch->rays, chunk.data, chunk.count * sizeof *chunk.data);
+        write_buffer(batch, batch->outward, outward + first, chunk.count * sizeof *outward);
+        run(batch, BATCH_LEAVE, chunk.count, hits + first, chunk.count);
+    }
+    return hits;
+}
+
+void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
+{
+    const bool is_wide = batch->choice.nodes == NODES_WIDE;
+    const uint32_t triangles = batch->frame.triangle_count;
+    const uint32_t items = is_wide ? batch->block_count : triangles;
+    assert_true(triangles <= BATCH_RAYS);
+    assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
+    write_buffer(batch, batch->rays, ray, sizeof *ray);
+    run(batch, BATCH_EACH, items, hits, triangles);
+}
+
+TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes)
+{
+    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
+    return trace_ordered(batch, BATCH_BOXES, rays, nodes);
 }

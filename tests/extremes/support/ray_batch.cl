@@ -57,20 +57,11 @@ static inline Mask companions(const TestRays *rays, Mask left)
     return same_kind && (rays->kind != (uint)RAY_CAMERA || same_origin);
 }
 
-static inline Real filled_lane(Real value, Mask lanes)
-{
-    return lanes ? value : first_real(value, lanes);
-}
-
+// Returns v with the first of these lanes copied to all others.
 static inline Real3 filled_lanes(Real3 v, Mask lanes)
 {
-    return real3_of(filled_lane(v.x, lanes), filled_lane(v.y, lanes), filled_lane(v.z, lanes));
-}
-
-static inline uint first_kind(const TestRays *rays, Mask lanes)
-{
-    const UInt kind = first_lane(rays->kind, lanes);
-    return *(const uint *)&kind;
+    return real3_of(lanes ? v.x : first_real(v.x, lanes), lanes ? v.y : first_real(v.y, lanes),
+                    lanes ? v.z : first_real(v.z, lanes));
 }
 
 // Returns the rays of these lanes. The other lanes copy the first. Reflected rays come from the
@@ -79,7 +70,8 @@ static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
-    const uint kind = first_kind(rays, lanes);
+    const UInt kinds = first_lane(rays->kind, lanes);
+    const RayKind kind = (RayKind)(*(const uint *)&kinds);
     const Surface surface = {.point = origin,
                              .face = direction,
                              .toward_viewer = negative3(direction),
@@ -87,7 +79,7 @@ static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
                              .index = NOTHING};
     if (kind == RAY_REFLECTED)
         return ray_reflected(tracer, &surface, lanes);
-    return (Ray){origin, direction, rays->own, NOTHING, (RayKind)kind, lanes};
+    return (Ray){origin, direction, rays->own, NOTHING, kind, lanes};
 }
 
 static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask lanes, Real t,
@@ -177,13 +169,6 @@ kernel void batch_leave(BATCH_ARGUMENTS)
 }
 
 #if CLRT_WIDE_NODES
-// Prepares the first lane's ray for the searches, as a packet in which only that lane is active.
-static inline void prepare_first(Packet *packet, const Tracer *tracer, const Ray *ray)
-{
-    const UInt classes = ray_classes(ray->direction);
-    packet_gather(packet, tracer, ray, 1, lane_uint(&classes, 0) / 8);
-}
-
 // Returns the distance to one triangle, by the test of packets or the test of blocks.
 static inline float distance_alone(global const TriangleBlock *triangles, uint block, uint place,
                                    const Packet *packet)
@@ -218,8 +203,9 @@ kernel void batch_each(BATCH_ARGUMENTS)
     BATCH_TRACER
     TestRays all = test_rays(rays, 1);
     const Ray ray = ray_of(&tracer, &all, lanes_of(1));
-    Packet packet;
-    prepare_first(&packet, &tracer, &ray);
+    const UInt classes = ray_classes(ray.direction);
+    Packet packet; // only the first lane is active
+    packet_gather(&packet, &tracer, &ray, 1, lane_uint(&classes, 0) / 8);
     for (uint place = 0; place < WIDE; place++) {
         const uint id = triangles[block].id[place] & ~TRIANGLE_MARKS;
         if (triangles[block].id[place] != NOTHING)

@@ -78,7 +78,7 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
 // Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
 // from one origin and reflected rays form packets.
-TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
+TestHit *ray_batch_trace(RayBatch *batch, BatchTask task, Rays rays);
 
 // Intersects one ray with each triangle of the scene alone. Fills a hit per triangle, in file
 // order.

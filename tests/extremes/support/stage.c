@@ -2,7 +2,6 @@
 // Runs the stages in their order, with trees of all kinds.
 #include "stage.h"
 
-#include "box_around.h"
 #include "check.h"
 #include "image/form.h"
 #include "shapes.h"
@@ -32,9 +31,10 @@ static Box make_leaf(Making *making, const Part *part)
 {
     Box box = box_empty();
     Bvh *bvh = making->bvh;
-    for (uint32_t triangle = part->first; triangle < part->first + part->count; triangle++)
-        for (int corner = 0; corner < 3; corner++)
-            box_include_point(&box, triangles_corner(making->triangles, triangle, corner));
+    for (uint32_t i = 0; i < 3 * part->count; i++) {
+        const float *point = triangles_corner(making->triangles, part->first + i / 3, (int)(i % 3));
+        box_include(&box, point, point);
+    }
     bvh->nodes[part->node] = (BvhNode){box, part->first, part->count, 1};
     bvh->leaf_count++;
     if (part->count > bvh->largest_leaf)
@@ -57,7 +57,7 @@ static Box make_node(Making *making, Part part)
     const Part second = {children + 1, part.first + half, part.count - half, part.level + 1};
     Box box = make_node(making, first);
     const Box other = make_node(making, second);
-    box_include(&box, &other);
+    box_include(&box, other.low, other.high);
     bvh->nodes[part.node] = (BvhNode){
         box, children, 0, bvh->nodes[children].leaf_count + bvh->nodes[children + 1].leaf_count};
     return box;

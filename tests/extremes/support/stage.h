@@ -42,3 +42,17 @@ Vec3 point_of(const Triangles *triangles, size_t triangle, double u, double v);
 
 // Returns the triangle's normal of length 1.
 Vec3 normal_of(const Triangles *triangles, size_t triangle);
+
+static inline Box box_empty(void)
+{
+    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+// Extends box to contain the points from low to high.
+static inline void box_include(Box *box, const float low[3], const float high[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        box->low[axis] = low[axis] < box->low[axis] ? low[axis] : box->low[axis];
+        box->high[axis] = high[axis] > box->high[axis] ? high[axis] : box->high[axis];
+    }
+}

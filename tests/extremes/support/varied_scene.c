@@ -42,8 +42,7 @@ void varied_scene_scale(Scene *scene, int exponent)
     for (size_t i = 0; i < scene->objects.count; i++) {
         Mesh *mesh = &scene->objects.data[i].mesh;
         for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++)
-            for (int axis = 0; axis < 3; axis++)
-                mesh->positions[vertex][axis] *= scale;
+            shape_set_vertex(mesh, vertex, vec3_scale(shape_vertex(mesh, vertex), scale));
     }
     for (size_t i = 0; i < scene->lights.count; i++)
         scene->lights.data[i].position = vec3_scale(scene->lights.data[i].position, scale);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The boxes of the device's nodes contain all triangles below, with the margin that culling needs.
-#include "support/box_around.h"
 #include "support/outcome.h"
 #include "support/shapes.h"
 #include "support/stage.h"
@@ -31,16 +30,17 @@ static void check_child(Walk *walk, const float *planes, size_t children, const 
                 (double)planes[(2 * axis + 1) * children] >= (double)box->high[axis] + margin;
     walk->boxes++;
     walk->violations += !holds;
-    box_include(all, box);
+    box_include(all, box->low, box->high);
 }
 
 static Box leaf_box(Walk *walk, uint32_t first, uint32_t count)
 {
     Box box = box_empty();
     for (uint32_t place = first; place < first + count; place++) {
-        box_include_point(&box, walk->flat->triangles[place].a);
-        box_include_point(&box, walk->flat->triangles[place].b);
-        box_include_point(&box, walk->flat->triangles[place].c);
+        const TriangleData *triangle = &walk->flat->triangles[place];
+        box_include(&box, triangle->a, triangle->a);
+        box_include(&box, triangle->b, triangle->b);
+        box_include(&box, triangle->c, triangle->c);
     }
     walk->triangles += count;
     return box;
@@ -71,7 +71,7 @@ static Box block_box(Walk *walk, uint32_t number)
             const float point[3] = {block->corners[corner][0][place],
                                     block->corners[corner][1][place],
                                     block->corners[corner][2][place]};
-            box_include_point(&box, point);
+            box_include(&box, point, point);
         }
         walk->triangles += block->id[place] != NOTHING;
     }
