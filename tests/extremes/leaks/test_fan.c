@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays at the common vertex of ten thousand triangles and along their common edges hit many
-// triangles at one distance. The lowest id must win.
+// Ten thousand triangles share a vertex. Rays at this vertex and at edges hit several triangles at
+// one distance, and the lowest id must win.
 #include "support/rig.h"
 #include "support/shapes.h"
 

@@ -35,8 +35,8 @@ static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t l
     vec3_store(leaving->outward[ray], direction);
 }
 
-// Returns how many of the rays that left a surface hit something, out of two tries each: a
-// reflected ray and a shadow ray.
+// Counts two tries for each ray that left a surface: a reflected ray and a shadow ray. The ray
+// fails if one of the two hits something.
 static Outcome judge_leaving(const char *test, RayBatch *batch, const Leaving *leaving)
 {
     Outcome outcome = {.test = test};
@@ -49,7 +49,7 @@ static Outcome judge_leaving(const char *test, RayBatch *batch, const Leaving *l
     return outcome;
 }
 
-// Reports the sum, of which at least this number of rays must have left.
+// Reports the sum. Ends the test if fewer than `least` rays have left a surface.
 static void report_leaving(Outcome sum, const char *shape, size_t least)
 {
     outcome_report(sum, "shape=%s", shape);
@@ -106,8 +106,8 @@ static void a_ray_that_leaves_a_triangle_never_meets_it_again_t37(void **state)
     leaving_free(&leaving);
 }
 
-// Aims at the triangles from outside. Points are rounded to slightly below their face. A ray that
-// is very low and near the shape's edge would hit the next face from inside, so there is none.
+// Aims at the triangles from outside. Points are rounded to slightly below their face. A very low
+// ray near the shape's edge would hit the next face from inside, so the test avoids such rays.
 static void aim_at_shape(Leaving *leaving, const Triangles *triangles, Random *random)
 {
     Vec3 origin = {0};

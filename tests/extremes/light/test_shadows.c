@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// Without these, only light makes a pixel other than black.
+// With these statements, only light makes a pixel other than black.
 #define DARK "ambient 0\nbackground 0 0 0\nup 0.01 0.02 1\n"
 
 static PictureSettings shadow_settings(void)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moving the whole scene does not change a bit of the picture. Mirroring it or exchanging its axes
 // changes only rounding.
-#include "support/random.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"
 

@@ -14,7 +14,7 @@ static const struct {
                  {{0, 0, 0}, false, false},
                  {{0, 0, 0}, false, true}};
 
-// The scenes: spheres, and a range of triangles.
+// A scene has these spheres and the triangles [first, end).
 static const struct {
     const char *name, *spheres;
     size_t first, end;

@@ -24,7 +24,7 @@ static void spoil(Rays rays, float value, int field)
         }
 }
 
-// Returns how many spoiled rays hit anything, or other rays no longer hit what they did.
+// Returns the number of spoiled rays that hit anything and of other rays whose hit has changed.
 static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size_t count)
 {
     size_t disturbed = 0;

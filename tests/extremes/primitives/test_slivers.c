@@ -76,7 +76,7 @@ static int compare_floats(const void *first, const void *second)
     return (*a > *b) - (*a < *b);
 }
 
-// Sorts a tracer's errors. Returns the value above the given part of them.
+// Sorts a tracer's errors. Returns the error that the given part of them does not exceed.
 static double percentile(Record *record, RayTracer tracer, double part)
 {
     const size_t count = record->met[tracer];

@@ -186,8 +186,8 @@ static const int triples[][3] = {{3, 4, 5},    {5, 12, 13},  {8, 15, 17},     {7
                                  {16, 63, 65}, {33, 56, 65}, {119, 120, 169}, {696, 697, 985}};
 #define TANGENTS 64 // rays of a triple
 
-// Returns a ray along the tangent at (a, b), `apart` 2^-20ths of the radius outside it. With apart
-// 0 the ray is level, and touches the sphere.
+// Returns a ray along the tangent at (a, b), moved outward by apart * 2^-20 radii. If apart is 0,
+// the ray is level and touches the sphere.
 static TestRay tangent(const int *triple, int apart, Random *random)
 {
     const double a = triple[0], b = triple[1], outward = 1 + apart * 0x1p-20;

@@ -5,7 +5,7 @@
 #include "rig.h"
 #include "shapes.h"
 
-// Sets of aims: random rays, edges and rounded vertices for CLOSED_AIMS.
+// Bits of a set of aims. CLOSED_AIMS contains random rays, edges and rounded vertices.
 #define CLOSED_AIM(aim) (1u << (aim))
 #define CLOSED_AIMS     (CLOSED_AIM(AIM_RANDOM) | CLOSED_AIM(AIM_EDGES) | CLOSED_AIM(AIM_VERTICES))
 
@@ -13,7 +13,7 @@ typedef struct {
     const char *test;
     const char *label; // starts the details of each case
     uint64_t seed;     // for exponent 0
-    unsigned aims;     // a set of aims
+    unsigned aims;     // bits of CLOSED_AIM
     size_t rays;       // per aim
 } ClosedTest;
 
@@ -25,5 +25,5 @@ Scene closed_sphere(int exponent);
 // that miss. Frees the scene.
 void closed_judge(RayBatch *batch, Scene scene, int exponent, const ClosedTest *test);
 
-// Does so for the closed spheres of the tier: of exponents 0, 10 and 18, or 0 to 23.
+// Calls closed_judge for closed spheres of exponents 0, 10 and 18 at tier 0, else of 0 to 23.
 void closed_judge_spheres(RayBatch *batch, const ClosedTest *test);

@@ -9,8 +9,8 @@
 // relative to the largest distance between the origin and a corner.
 #define DOUBT (34 * 0x1p-24L)
 
-// The largest error of depth by triangle_depth_error of kernels/triangle.inc.cl, with the least
-// exact division.
+// The largest error of depth, by triangle_depth_error of kernels/triangle.inc.cl with the least
+// accurate division.
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {

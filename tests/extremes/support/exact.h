@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a ray's hit by testing every triangle, in 64 bits of precision. The hit is clear if it
-// passes no outline so closely that the float rounding of corners decides.
+// Finds a ray's hit by testing every triangle, in 64 bits of precision. The hit is clear unless the
+// ray passes an outline so closely that rounding the corners to float decides.
 #pragma once
 
 #include "ray_batch.h"

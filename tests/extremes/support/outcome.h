@@ -25,8 +25,8 @@ static inline Outcome outcome_of(const char *test, size_t count, size_t failures
 // Adds the count and failures of another case of the same test. sum is {0} before the first.
 void outcome_add(Outcome *sum, Outcome more);
 
-// Prints the outcome of the case that details and its arguments describe. Details like "skipped:
-// no GPU" tell why a test cannot run.
+// Prints the outcome of the case that details and its arguments describe. Details that start with
+// "skipped: " give the reason why the test cannot run on this machine.
 __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const char *details,
                                                           ...);
 

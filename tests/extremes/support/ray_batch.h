@@ -7,10 +7,10 @@
 #include "device/cache_build.h"
 #include "device/program.h"
 
-// As in kernels/ray.cl.
+// Equals the RayKind of kernels/ray.cl.
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
-// A ray in the normalized frame.
+// A ray in normalized coordinates.
 typedef struct {
     float origin[3];
     uint32_t own; // id of the primitive it starts on; NOTHING for none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes rays in the normalized frame, aimed at where triangles meet.
+// Makes rays in normalized coordinates, aimed at edges and vertices of triangles.
 #pragma once
 
 #include "ray_batch.h"
@@ -18,7 +18,7 @@ bool rays_move_origin(size_t i, size_t bundle);
 // Returns a camera ray between two points. Rounds both to float, and then the direction.
 TestRay ray_between(Vec3 from, Vec3 to);
 
-// The same between two points of the stage's scene.
+// The same between two points in scene coordinates.
 TestRay ray_between_in(const Stage *stage, Vec3 from, Vec3 to);
 
 // Where rays go from random points of a room.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene that clrt and, if it is there, Embree can trace, for rays that a judge examines.
+// A scene on the device and, if it is installed, in Embree. A judge examines the hits of rays.
 #pragma once
 
 #include "peers.h"
@@ -34,5 +34,6 @@ Outcome rig_judge(const Rig *rig, Rays rays, Judge *is_wrong, void *context);
 // A judge for closed shapes: a ray is wrong if it hits nothing, or has no finite distance.
 bool judge_misses(void *unused, const Traced *traced);
 
-// A judge with the stage's Triangles as context: exact_nearest is clear, and finds another id.
+// A judge whose context is the stage's Triangles. A hit is wrong if exact_nearest is clear and
+// finds another id.
 bool judge_exactly(void *triangles, const Traced *traced);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inside of a closed shape. A ray must hit the shape only if it starts strictly inside.
+// The inside of a closed shape. Only rays that start strictly inside must hit the shape.
 #pragma once
 
 #include "random.h"

@@ -8,6 +8,6 @@
 // Returns the scene of a valid text, which format and its arguments make.
 __attribute__((format(printf, 1, 2))) Scene scene_text_parse(const char *format, ...);
 
-// Returns how many of the texts clrt does not reject with a message that has line and column. The
-// last text is NULL.
+// Parses texts that clrt must reject with the line and column of the fault. Returns how many it
+// does not reject so. The last text is NULL.
 Outcome scene_text_refusals(const char *test, const char *const *texts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of a table of meshes, some with more objects.
+// Each scene starts with one mesh. Some scenes get more objects.
 #include "tree_scenes.h"
 
 #include "check.h"
@@ -11,7 +11,7 @@ const char *const tree_scene_names[TREE_SCENES] = {"far_sphere",   "bumpy",  "fa
 
 enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED };
 
-// Moves the third corner of each triangle onto the line through the others, but for 1e-5.
+// Moves the third corner of each triangle to the middle of the others, plus 1e-5 of its position.
 static Mesh slivers(Random *random)
 {
     Mesh mesh = shape_soup(random, 500, 0.5);

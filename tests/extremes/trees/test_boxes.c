@@ -12,7 +12,7 @@ typedef struct {
     Box boxes[2];
 } BoxCase;
 
-// above / below, with below > 0; infinite if below is 0.
+// The fraction above / below. below is at least 0, and 0 means infinity.
 typedef struct {
     long double above, below;
 } Fraction;
@@ -57,8 +57,8 @@ static BvhPair pair_of(const Box boxes[2])
     return pair;
 }
 
-// Returns how many of the boxes that rays meet the device misses. Adds the boxes that rays meet to
-// *met.
+// Returns how many boxes the device misses although the ray meets them. Adds the number of boxes
+// that rays meet to *met.
 static size_t count_misses(RayBatch *batch, const BoxCase *cases, size_t count, size_t *met)
 {
     size_t misses = 0;
