@@ -81,8 +81,7 @@ static void triangles_of_random_bits_are_refused_or_drawn_right_t64(void **state
     Random random = {64};
     size_t refused = 0, silent = 0;
     const size_t scenes = tier_size(50, 1000);
-    // Embree 3.13.5 crashes with a segmentation fault.
-    unsetenv("CLRT_TEST_PEERS");
+    unsetenv("CLRT_TEST_PEERS"); // Embree 3.13.5 crashes with a segmentation fault
     for (size_t i = 0; i < scenes; i++) {
         Mesh mesh;
         Error error = {0};
