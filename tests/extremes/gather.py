@@ -8,14 +8,12 @@ but reads the verbose output of earlier runs. It uses tier 0 only for tests with
 Exits with ctest's status: 0 if every test passed.
 """
 import argparse
-import collections
 import datetime
 import os
 import re
 import subprocess
 import sys
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
 LINE = re.compile(r"^(?:\d+: )?(T-\d\d) form=(\S+) (.*)$")
 FIELD = re.compile(r"^(rays|fail|limit|embree_default|embree_robust)=(\d+)$")
 FORMS = ["packet", "wide", "pair"]
@@ -25,7 +23,7 @@ PEERS = ("embree_default", "embree_robust")
 def titles():
     """Returns the title of each test, from the table in README.md."""
     found = {}
-    with open(os.path.join(FOLDER, "README.md"), encoding="utf-8") as readme:
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "README.md"), encoding="utf-8") as readme:
         for line in readme:
             row = re.match(r"^\| (\d+) \| ([^|]+) \| ([^|]+) \|", line)
             if row:
@@ -56,7 +54,7 @@ class Results:
     """All cases by test and details, with the figures of each form of the kernels."""
 
     def __init__(self):
-        self.cases = collections.OrderedDict()
+        self.cases = {}
         self.skipped = {}
 
     def read(self, tier, output):

@@ -8,7 +8,6 @@ static void random_rays_never_leave_a_closed_sphere_t01(void **state)
     closed_judge_spheres(*state, &test);
 }
 
-// A hundred times as many rays, at the scale of ordinary scenes.
 static void a_hundred_million_random_rays_never_leave_a_closed_sphere_t01(void **state)
 {
     Outcome sum = {.test = "T-01"};

@@ -18,12 +18,11 @@ static void judge_device(const char *label, const char *kernels, const char *opt
 
 static void devices_that_can_do_less_leak_as_little_t65(void **state)
 {
-    const char *flush = "-cl-denorms-are-zero";
     (void)state;
     unsetenv("CLRT_TEST_PEERS"); // Embree does not run on these devices
-    judge_device("device=no_denormals ", NULL, flush);
+    judge_device("device=no_denormals ", NULL, "-cl-denorms-are-zero");
     judge_device("device=coarse_division ", COARSE_KERNELS, NULL);
-    judge_device("device=coarse_division_no_denormals ", COARSE_KERNELS, flush);
+    judge_device("device=coarse_division_no_denormals ", COARSE_KERNELS, "-cl-denorms-are-zero");
     // Devices without fp64 run the same kernels, which use none.
     outcome_report(outcome_of("T-65", 1, doubles_without_fp64(kernel_source)), "fp64=unused");
 }

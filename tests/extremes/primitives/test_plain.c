@@ -55,8 +55,7 @@ static TestRay random_ray(Plain *plain, size_t place, Random *random)
 
 static bool judge_expected(void *context, const Traced *traced)
 {
-    const Plain *plain = context;
-    return traced->hit->id != plain->expected[traced->index];
+    return traced->hit->id != ((const Plain *)context)->expected[traced->index];
 }
 
 static void rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15(void **state)
