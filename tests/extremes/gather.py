@@ -23,7 +23,7 @@ PEERS = ("embree_default", "embree_robust")
 def titles():
     """Returns the title of each test, from the table in README.md."""
     found = {}
-    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "README.md"), encoding="utf-8") as readme:
+    with open(os.path.join(sys.path[0], "README.md"), encoding="utf-8") as readme:
         for line in readme:
             row = re.match(r"^\| (\d+) \| ([^|]+) \| ([^|]+) \|", line)
             if row:
