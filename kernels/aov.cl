@@ -8,7 +8,7 @@ static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface
     if (!any_lane(light.faces))
         return light.faces;
     const Ray ray = ray_to_light(tracer, surface, &light);
-    return light.faces && !is_blocked(tracer, &ray);
+    return light.faces && blocking_hit(tracer, &ray).id == NOTHING;
 }
 
 static inline UInt lights_reaching(const Tracer *tracer, const Surface *surface, Mask met)
@@ -26,14 +26,14 @@ typedef struct {
     UInt primitive, material, lights, bounces;
 } PathLanes;
 
-static inline PathLanes first_hit(const Tracer *tracer, const Path *path)
+static inline PathLanes first_hit(const Tracer *tracer, const Path *path, const Hit *hit)
 {
     const Mask met = path->met;
     const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
     return (PathLanes){.point = choose3(met, path->surface.point, zero),
                        .normal = choose3(met, path->surface.normal, zero),
-                       .depth = met ? path->hit.t : (Real)(INFINITY),
-                       .primitive = met ? path->hit.id : (UInt)(NOTHING),
+                       .depth = met ? hit->t : (Real)(INFINITY),
+                       .primitive = met ? hit->id : (UInt)(NOTHING),
                        .material = met ? path->surface.material : (UInt)(NOTHING),
                        .lights = lights_reaching(tracer, &path->surface, met)};
 }
@@ -41,12 +41,13 @@ static inline PathLanes first_hit(const Tracer *tracer, const Path *path)
 static inline PathLanes describe_path(const Tracer *tracer, Ray ray)
 {
     PathLanes data = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
-    Path path = path_along(ray);
-    while (path_step(tracer, &path)) {
-        if (path.level > 1)
-            data.bounces += path.ray.active ? (UInt)(1) : (UInt)(0);
-        else if (any_lane(path.met))
-            data = first_hit(tracer, &path);
+    Paths paths;
+    paths_start_one(&paths, ray);
+    while (paths_step(tracer, &paths)) {
+        if (paths.level > 1)
+            data.bounces += paths.rays->active ? (UInt)(1) : (UInt)(0);
+        else if (any_lane(paths.paths->met))
+            data = first_hit(tracer, paths.paths, paths.hits);
     }
     return data;
 }
@@ -71,13 +72,6 @@ static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, s
     const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
     *place = (size_t)row * frame->tile_width + column;
     return column < frame->tile_width && row < frame->tile_height;
-}
-
-static inline Places places_at(const FrameData *frame, uint2 corner)
-{
-    const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;
-    return (Places){frame->tile_x + column, frame->tile_y + row,
-                    column < frame->tile_width && row < frame->tile_height};
 }
 
 // Fills paths with one entry per pixel of the tile. The frame has one sample per pixel.
@@ -112,9 +106,13 @@ kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
                     continue;
                 Tally tally = {0};
                 const Tracer tracer = TRACER(&tally);
-                Places pixels = places_at(&frame, (uint2)(x, y));
-                pixels.active = lanes_of(1u << lane);
-                pixel_color(&tracer, &pixels);
+                Places pixels[PACKETS];
+                Real3 colors[PACKETS];
+                for (uint i = 0; i < PACKETS; i++) {
+                    pixels[i] = places_at(&frame, (uint2)(x, y));
+                    pixels[i].active = i == 0 ? lanes_of(1u << lane) : (Mask)(0);
+                }
+                pixel_colors(&tracer, pixels, colors);
                 store_tally(tallies + place * TALLY_KINDS, &tally);
             }
 }

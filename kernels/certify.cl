@@ -116,6 +116,7 @@ kernel void certify_tile(TRACER_ARGUMENTS, global float *pixels, global Certaint
     if (certainty != CERTAINTY_REPAIRED)
         return;
     const Places places = {pixel.x, pixel.y, true};
-    const Real3 color = pixel_color(&tracer, &places);
+    Real3 color;
+    pixel_colors(&tracer, &places, &color);
     store_lane(pixels + 3 * place, &color, 0);
 }

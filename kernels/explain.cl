@@ -97,7 +97,7 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
         return;
     const Ray ray = ray_to_light(tracer, lighting->surface, &light);
     const Hit blocker = blocking_hit(tracer, &ray);
-    const Received received = receive_light(tracer, index, lighting);
+    const Received received = receive_light(&light, lighting, light.faces && blocker.id == NOTHING);
     note_count(notes, LIGHT_STATE,
                blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
@@ -107,17 +107,19 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
 }
 
 // Records the last ray of the path and its hit.
-static inline void note_ray(const Notes *notes, const Tracer *tracer, const Path *path)
+static inline void note_ray(const Notes *notes, const Tracer *tracer, const Paths *paths)
 {
-    note3(notes, LEVEL_ORIGIN, path->ray.origin);
-    note3(notes, LEVEL_DIRECTION, path->ray.direction);
-    note(notes, LEVEL_T, path->hit.t);
+    const Ray *ray = paths->rays;
+    const Path *path = paths->paths;
+    note3(notes, LEVEL_ORIGIN, ray->origin);
+    note3(notes, LEVEL_DIRECTION, ray->direction);
+    note(notes, LEVEL_T, paths->hits->t);
     note(notes, LEVEL_WEIGHT, path->weight);
-    note_count(notes, LEVEL_PRIMITIVE, path->hit.id);
+    note_count(notes, LEVEL_PRIMITIVE, paths->hits->id);
     if (!any_lane(path->met))
         return;
-    const Hit hits = hit_everywhere(&path->hit, path->met);
-    note(notes, LEVEL_ERROR, hit_error(tracer, &path->ray, &hits));
+    const Hit hits = hit_everywhere(paths->hits, path->met);
+    note(notes, LEVEL_ERROR, hit_error(tracer, ray, &hits));
 }
 
 // Records the last surface of the path and each light's contribution to it.
@@ -139,18 +141,22 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
 static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
                                  const Notes *end)
 {
-    Path path = path_along(ray);
-    while (path_step(tracer, &path)) {
-        const Notes level = level_notes(notes, tracer->frame, path.level - 1);
-        note_ray(&level, tracer, &path);
-        if (!any_lane(path.met))
+    Paths paths;
+    const Path *path = paths.paths;
+    Real3 shaded[PACKETS];
+    paths_start_one(&paths, ray);
+    while (paths_step(tracer, &paths)) {
+        const Notes level = level_notes(notes, tracer->frame, paths.level - 1);
+        note_ray(&level, tracer, &paths);
+        if (!any_lane(path->met))
             break;
-        note_surface(&level, tracer, &path);
-        note3(&level, LEVEL_SHADED, path_shade(tracer, &path));
+        note_surface(&level, tracer, path);
+        paths_shade(tracer, &paths, shaded);
+        note3(&level, LEVEL_SHADED, shaded[0]);
     }
-    *end->words = path.level;
-    note(end, 3, path.weight);
-    return path_color(tracer, &path);
+    *end->words = paths.level;
+    note(end, 3, path->weight);
+    return path_color(tracer, path);
 }
 
 // Traces the sample at a column and row of the picture's sample grid. values and words hold
@@ -164,5 +170,5 @@ kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, global Scala
     const Notes notes = {values, words}, end = {result, count};
     const Ray ray = camera_ray(&frame, (UInt)(column), (UInt)(row), lanes_of(1));
     const Real3 color = trace_noting(&tracer, ray, &notes, &end);
-    note3(&end, 0, real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z)));
+    note3(&end, 0, in_steps3(color));
 }

@@ -3,16 +3,9 @@
 // shadow ray.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
-#include "packet_search.cl"
 #include "pair.cl"
+#include "regroup.cl"
 #include "sphere.cl"
-
-// The search for triangles in the tree that the program is compiled for.
-#if CLRT_WIDE_NODES
-#define intersect_triangles search_packets
-#else
-#define intersect_triangles search_pairs
-#endif
 
 // A ray hits its own sphere only from inside, and only by reflection.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
@@ -50,40 +43,65 @@ static inline Mask is_searchable(const Ray *ray)
     return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
 }
 
+// Searches for triangles that the rays in `active` hit, in the tree that the program is compiled
+// for.
+static inline void intersect_triangles(const Tracer *tracer, const Ray *rays,
+                                       const Mask active[PACKETS], uint count, Hit *hits)
+{
+#if CLRT_WIDE_NODES
+    uint bits[PACKETS], any = 0;
+    for (uint i = 0; i < count; i++)
+        any |= bits[i] = lane_bits(active[i]);
+    if (any != 0)
+        search_beams(tracer, rays, bits, count, hits);
+#else
+    if (active[0])
+        search_pairs(tracer, rays, hits);
+#endif
+}
+
+// Finds the hits of `count` packets, at most PACKETS.
+static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
+{
+    Mask searching[PACKETS];
+    for (uint i = 0; i < count; i++) {
+        hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
+        if (CLRT_SPHERES && any_lane(rays[i].active))
+            intersect_spheres(tracer, &rays[i], &hits[i]);
+        searching[i] = is_searchable(&rays[i]);
+    }
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, rays, searching, count, hits);
+}
+
+// Finds anything between the shaded points and the light of shadow rays. If nothing blocks a ray,
+// its hit has no id, and t is the limit of the search. A primitive that the light lies on, within
+// the error of a distance, does not block it.
+static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
+{
+    Mask searching[PACKETS];
+    for (uint i = 0; i < count; i++) {
+        hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
+        if (CLRT_SPHERES && any_lane(rays[i].active))
+            intersect_spheres(tracer, &rays[i], &hits[i]);
+        searching[i] = is_searchable(&rays[i]) && hits[i].id == NOTHING;
+    }
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, rays, searching, count, hits);
+}
+
 static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)
 {
-    Hit best = {INFINITY, NOTHING, NOTHING};
-    if (CLRT_SPHERES)
-        intersect_spheres(tracer, ray, &best);
-    if (!CLRT_TRIANGLES || tracer->frame->triangle_count == 0)
-        return best;
-    Ray searching = *ray;
-    searching.active = is_searchable(ray);
-    if (any_lane(searching.active))
-        intersect_triangles(tracer, &searching, &best);
-    return best;
+    Hit hit;
+    nearest_hits(tracer, ray, 1, &hit);
+    return hit;
 }
 
-// Returns anything between the shaded point and the light of a shadow ray. If nothing blocks it,
-// the hit has no id, and t is the limit of the search. A primitive that the light lies on, within
-// the error of a distance, does not block it.
 static inline Hit blocking_hit(const Tracer *tracer, const Ray *ray)
 {
-    Hit best = {1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-    if (CLRT_SPHERES)
-        intersect_spheres(tracer, ray, &best);
-    Ray rest = *ray;
-    rest.active = is_searchable(ray) && best.id == NOTHING;
-    if (!CLRT_TRIANGLES || tracer->frame->triangle_count == 0 || !any_lane(rest.active))
-        return best;
-    intersect_triangles(tracer, &rest, &best);
-    return best;
-}
-
-static inline Mask is_blocked(const Tracer *tracer, const Ray *ray)
-{
-    const Hit blocker = blocking_hit(tracer, ray);
-    return blocker.id != NOTHING;
+    Hit hit;
+    blocking_hits(tracer, ray, 1, &hit);
+    return hit;
 }
 
 #endif

@@ -51,16 +51,16 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
                           is_center ? (UInt)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
-// Returns colors in steps of 2^-32.
-static inline Real3 pixel_sample_color(const Tracer *tracer, const PixelSamples *samples)
+static inline void pixel_sample_colors(const Tracer *tracer, const PixelSamples samples[PACKETS],
+                                       Real3 colors[PACKETS])
 {
-    const Ray ray =
-        camera_ray_toward(tracer->frame, 2 * LADDER_GRID * samples->pixel_x + samples->x,
-                          2 * LADDER_GRID * samples->pixel_y + samples->y, samples->active);
-    const Real3 color = trace(tracer, ray);
-    if (CLRT_STATISTICS)
-        tracer->tally->camera_rays += lane_count(samples->active);
-    return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
+    Paths paths;
+    for (uint i = 0; i < PACKETS; i++)
+        paths_start(&paths, i,
+                    camera_ray_toward(
+                        tracer->frame, 2 * LADDER_GRID * samples[i].pixel_x + samples[i].x,
+                        2 * LADDER_GRID * samples[i].pixel_y + samples[i].y, samples[i].active));
+    trace(tracer, &paths, colors);
 }
 
 static inline ULong square_of(Real steps)
@@ -108,6 +108,29 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
+// The samples of a packet: numbers [start, count) of a work-item with `samples` for each request.
+typedef struct {
+    uint samples, start, count;
+} Span;
+
+// Adds a packet's colors to the sums of its requests. `sum` holds the sums so far of a request that
+// spans several packets.
+static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 color, Span span)
+{
+    global PixelSums *place = sums + span.start / span.samples;
+    if (span.start >= span.count)
+        return;
+    if (span.samples < CLRT_LANES) {
+        store_sums(place, color, span.samples, span.count - span.start);
+        return;
+    }
+    add_samples(sum, color);
+    if ((span.start + CLRT_LANES) % span.samples == 0) {
+        *place = *sum;
+        *sum = (PixelSums){{0, 0, 0}, 0};
+    }
+}
+
 // Serves requests first to end - 1, all with the same sample count, into the same elements of
 // sums. A work-item serves ITEM_REQUESTS consecutive requests. Tallies are written at the first of
 // them, and only if statistics are compiled in.
@@ -122,19 +145,15 @@ kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, 
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
     PixelSums sum = {{0, 0, 0}, 0};
-    for (uint start = 0; start < count; start += CLRT_LANES) {
-        const PixelSamples packet = samples_of(requests + begin, samples, start, count);
-        const Real3 color = pixel_sample_color(&tracer, &packet);
-        global PixelSums *place = sums + begin + start / samples;
-        if (samples < CLRT_LANES) {
-            store_sums(place, color, samples, count - start);
-            continue;
-        }
-        add_samples(&sum, color);
-        if ((start + CLRT_LANES) % samples == 0) {
-            *place = sum;
-            sum = (PixelSums){{0, 0, 0}, 0};
-        }
+    for (uint start = 0; start < count; start += PACKETS * CLRT_LANES) {
+        PixelSamples asked[PACKETS];
+        Real3 colors[PACKETS];
+        for (uint i = 0; i < PACKETS; i++)
+            asked[i] = samples_of(requests + begin, samples, start + i * CLRT_LANES, count);
+        pixel_sample_colors(&tracer, asked, colors);
+        for (uint i = 0; i < PACKETS; i++)
+            add_packet(sums + begin, &sum, colors[i],
+                       (Span){samples, start + i * CLRT_LANES, count});
     }
     if (CLRT_STATISTICS)
         store_tally(tallies + (size_t)begin * TALLY_KINDS, &tally);

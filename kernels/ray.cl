@@ -37,18 +37,18 @@ typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_SIGNATURES
-    UInt signature; // hash of what a sample saw: surfaces and the lights that reach them
+    UInt signatures[PACKETS]; // hashes of what samples saw: surfaces and the lights that reach them
 #endif
 } Tally;
 
-// Adds a word to the signatures of the given lanes.
-static inline void sign_lanes(Tally *tally, Mask lanes, UInt word)
+// Adds a word to the signatures of the given lanes of a packet.
+static inline void sign_lanes(Tally *tally, uint packet, Mask lanes, UInt word)
 {
 #if CLRT_SIGNATURES
-    const UInt mixed = (tally->signature ^ (word + 1)) * 0x9e3779b1u;
-    tally->signature = lanes ? mixed ^ mixed >> 15 : tally->signature;
+    const UInt mixed = (tally->signatures[packet] ^ (word + 1)) * 0x9e3779b1u;
+    tally->signatures[packet] = lanes ? mixed ^ mixed >> 15 : tally->signatures[packet];
 #else
-    (void)tally, (void)lanes, (void)word;
+    (void)tally, (void)packet, (void)lanes, (void)word;
 #endif
 }
 

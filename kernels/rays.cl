@@ -2,25 +2,6 @@
 // The kernel of clrt check traces arrays of rays instead of a picture's, with the same search. It
 // is compiled after render.cl, and only if requested.
 
-// Returns the lanes that share an origin and can form one packet, as camera rays do. The others
-// are traced later.
-static inline Mask share_origin(Real3 origin, Mask left)
-{
-    return left && as_bits(origin.x) == as_bits(first_real(origin.x, left)) &&
-           as_bits(origin.y) == as_bits(first_real(origin.y, left)) &&
-           as_bits(origin.z) == as_bits(first_real(origin.z, left));
-}
-
-// Returns the camera rays of those lanes; the other lanes copy the first.
-static inline Ray shared_ray(Real3 origin, Real3 direction, Mask lanes)
-{
-    const Real3 start = real3_of(first_real(origin.x, lanes), first_real(origin.y, lanes),
-                                 first_real(origin.z, lanes));
-    const Real3 first = real3_of(first_real(direction.x, lanes), first_real(direction.y, lanes),
-                                 first_real(direction.z, lanes));
-    return (Ray){start, choose3(lanes, direction, first), NOTHING, NOTHING, RAY_CAMERA, lanes};
-}
-
 static inline void store_distances(global float *distances, Mask lanes, Real t)
 {
     const uint bits = lane_bits(lanes);
@@ -43,13 +24,11 @@ kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
     const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
     const UInt place = start + LANE_Y * PACKET_WIDTH + LANE_X;
     const Record record = record_at(rays, min(place, (UInt)(count - 1)) * 8);
-    const Real3 origin = record_real3(&record, 0, 1), direction = record_real3(&record, 4, 1);
-    Mask left = place < count;
-    while (any_lane(left)) {
-        const Mask lanes = share_origin(origin, left);
-        const Ray ray = shared_ray(origin, direction, lanes);
-        const Hit hit = nearest_hit(&tracer, &ray);
-        store_distances(distances + start, lanes, hit.t);
-        left = left && !lanes;
-    }
+    const Ray ray = {record_real3(&record, 0, 1),
+                     record_real3(&record, 4, 1),
+                     NOTHING,
+                     NOTHING,
+                     RAY_CAMERA,
+                     place < count};
+    store_distances(distances + start, ray.active, nearest_hit(&tracer, &ray).t);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rendering kernel: a work-item renders one pixel of a tile. In the packet family it renders a
-// block of BLOCK x BLOCK pixels, one packet after another.
+// The rendering kernel: a work-item renders one pixel of a tile. In the families with wide nodes it
+// renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
 #include "trace.cl"
 
 #if CLRT_LANES == 1
@@ -12,28 +12,27 @@
 #elif CLRT_LANES == 4
 #define PACKET_WIDTH  2
 #define PACKET_HEIGHT 2
-#define BLOCK         PACKET_SIDE
+#define BLOCK         BLOCK_SIDE
 #define LANE_X        (uint4)(0, 1, 0, 1)
 #define LANE_Y        (uint4)(0, 0, 1, 1)
 #elif CLRT_LANES == 8
 #define PACKET_WIDTH  4
 #define PACKET_HEIGHT 2
-#define BLOCK         PACKET_SIDE
+#define BLOCK         BLOCK_SIDE
 #define LANE_X        (uint8)(0, 1, 2, 3, 0, 1, 2, 3)
 #define LANE_Y        (uint8)(0, 0, 0, 0, 1, 1, 1, 1)
 #else
 #define PACKET_WIDTH  4
 #define PACKET_HEIGHT 4
-#define BLOCK         PACKET_SIDE
+#define BLOCK         BLOCK_SIDE
 #define LANE_X        (uint16)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)
 #define LANE_Y        (uint16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
 #endif
 
-// Colors are rounded to integer multiples of 2^-32.
-static inline Real in_steps(Real color)
-{
-    return rint(clamp_to_one(color) * 0x1p32f);
-}
+// The packets of a beam, side by side.
+#define BEAM_COLUMNS (PACKETS == 1 ? 1 : 2)
+#define BEAM_WIDTH   (PACKET_WIDTH * BEAM_COLUMNS)
+#define BEAM_HEIGHT  (PACKET_HEIGHT * (PACKETS / BEAM_COLUMNS))
 
 static inline Real mean_of(ULong sum, ulong count)
 {
@@ -46,40 +45,52 @@ typedef struct {
     Mask active;
 } Places;
 
-static inline Real3 sample_color(const Tracer *tracer, const Places *samples)
+// Computes the colors of samples in steps of 2^-32.
+static inline void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
+                                 Real3 colors[PACKETS])
 {
-    const Ray ray = camera_ray(tracer->frame, samples->x, samples->y, samples->active);
-    const Real3 color = trace(tracer, ray);
-    if (CLRT_STATISTICS)
-        tracer->tally->camera_rays += lane_count(samples->active);
-    return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
+    Paths paths;
+    for (uint i = 0; i < PACKETS; i++)
+        paths_start(&paths, i,
+                    camera_ray(tracer->frame, samples[i].x, samples[i].y, samples[i].active));
+    trace(tracer, &paths, colors);
 }
 
-// Samples are summed as integers, which is exact in any order. A constant color therefore stays
+// Sums of samples in steps of 2^-32, which are exact in any order. A constant color therefore stays
 // unchanged for any number of samples.
-static inline Real3 mean_color(const Tracer *tracer, const Places *pixels)
+typedef struct {
+    ULong red, green, blue;
+} ColorSum;
+
+static inline void add_colors(ColorSum *sum, Real3 color)
 {
-    ULong red = 0, green = 0, blue = 0;
-    const uint side = tracer->frame->samples;
-    for (uint row = 0; row < side; row++)
-        for (uint column = 0; column < side; column++) {
-            const Places samples = {pixels->x * side + column, pixels->y * side + row,
-                                    pixels->active};
-            const Real3 color = sample_color(tracer, &samples);
-            red += to_long(color.x);
-            green += to_long(color.y);
-            blue += to_long(color.z);
-        }
-    const ulong count = (ulong)side * side;
-    return real3_of(mean_of(red, count), mean_of(green, count), mean_of(blue, count));
+    sum->red += to_long(color.x);
+    sum->green += to_long(color.y);
+    sum->blue += to_long(color.z);
 }
 
-// A single sample needs no sum, whose division costs more than tracing a simple scene.
-static inline Real3 pixel_color(const Tracer *tracer, const Places *pixels)
+// Computes the mean colors of pixels. A single sample needs no sum, whose division costs more than
+// tracing a simple scene.
+static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKETS],
+                                Real3 colors[PACKETS])
 {
-    if (tracer->frame->samples > 1)
-        return mean_color(tracer, pixels);
-    return scaled3(0x1p-32f, sample_color(tracer, pixels));
+    ColorSum sums[PACKETS] = {0};
+    Places samples[PACKETS];
+    const uint side = tracer->frame->samples, count = side * side;
+    for (uint sample = 0; sample < count; sample++) {
+        for (uint i = 0; i < PACKETS; i++)
+            samples[i] = (Places){pixels[i].x * side + sample % side,
+                                  pixels[i].y * side + sample / side, pixels[i].active};
+        sample_colors(tracer, samples, colors);
+        for (uint i = 0; i < PACKETS && count > 1; i++)
+            add_colors(&sums[i], colors[i]);
+    }
+    for (uint i = 0; i < PACKETS; i++)
+        if (count > 1)
+            colors[i] = real3_of(mean_of(sums[i].red, count), mean_of(sums[i].green, count),
+                                 mean_of(sums[i].blue, count));
+        else
+            colors[i] = scaled3(0x1p-32f, colors[i]);
 }
 
 static inline void store_tally(global uint *counts, const Tally *tally)
@@ -157,6 +168,35 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
     }
 }
 
+// Returns a beam's pixels; those outside the tile are inactive.
+static inline Places places_at(const FrameData *frame, uint2 corner)
+{
+    const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;
+    return (Places){frame->tile_x + column, frame->tile_y + row,
+                    column < frame->tile_width && row < frame->tile_height};
+}
+
+// Returns the first pixel of a beam's packet.
+static inline uint2 packet_corner(uint2 beam, uint packet)
+{
+    return (uint2)(beam.x + packet % BEAM_COLUMNS * PACKET_WIDTH,
+                   beam.y + packet / BEAM_COLUMNS * PACKET_HEIGHT);
+}
+
+// Renders the beam whose first pixel is given.
+static inline void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
+{
+    const Tally none = {0};
+    Places places[PACKETS];
+    Real3 colors[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        places[i] = places_at(tracer->frame, packet_corner(beam, i));
+    pixel_colors(tracer, places, colors);
+    for (uint i = 0; i < PACKETS; i++)
+        store_packet(tracer->frame, packet_corner(beam, i), &colors[i],
+                     i == 0 ? tracer->tally : &none, output);
+}
+
 // pixels holds tile_width * tile_height colors of three floats, rows from the top. tallies holds
 // TALLY_KINDS counts per pixel, written only if statistics are compiled in. The range is padded to
 // whole work-groups.
@@ -164,14 +204,10 @@ kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tal
 {
     const Output output = {pixels, tallies};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
-    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += PACKET_HEIGHT)
-        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += PACKET_WIDTH) {
-            const UInt column = x + LANE_X, row = y + LANE_Y;
-            const Places places = {frame.tile_x + column, frame.tile_y + row,
-                                   column < frame.tile_width && row < frame.tile_height};
+    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += BEAM_HEIGHT)
+        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += BEAM_WIDTH) {
             Tally tally = {0};
             const Tracer tracer = TRACER(&tally);
-            const Real3 color = pixel_color(&tracer, &places);
-            store_packet(&frame, (uint2)(x, y), &color, &tally, &output);
+            render_beam(&tracer, (uint2)(x, y), &output);
         }
 }

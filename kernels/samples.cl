@@ -13,30 +13,39 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, U
     sample->signature = ((const uint *)&signature)[lane];
 }
 
-// Samples per work-item, taken one packet after another.
-#if CLRT_LANES == 1
-#define ITEM_SAMPLES 1
-#else
-#define ITEM_SAMPLES (PACKET_SIDE * PACKET_SIDE)
-#endif
+// Samples per work-item.
+#define ITEM_SAMPLES (BLOCK * BLOCK)
+
+// Returns the places of a packet, from number `start` on.
+static inline Places places_listed(global const uint *places, uint start, uint end)
+{
+    const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;
+    const UInt word = 2 * min(number, (UInt)(end - 1));
+    const UInt x = gather(places, word), y = gather(places, word + 1);
+    return (Places){x, y, number < end && x != NOTHING};
+}
 
 // Samples places first to end - 1 into the same elements of samples. A place is two coordinates in
 // sub-pixels; the coordinate NOTHING skips it. A work-item takes ITEM_SAMPLES consecutive places.
-// Tallies are written at the first place of each packet, and only if statistics are compiled in.
+// Tallies are written at the first place of each beam, and only if statistics are compiled in.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {
     const uint begin = first + ITEM_SAMPLES * (uint)get_global_id(0);
-    for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += CLRT_LANES) {
-        const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;
-        const UInt word = 2 * min(number, (UInt)(end - 1));
-        const UInt x = gather(places, word), y = gather(places, word + 1);
-        const Places asked = {x, y, number < end && x != NOTHING};
+    const uint beam = PACKETS * CLRT_LANES;
+    for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += beam) {
         Tally tally = {0};
         const Tracer tracer = TRACER(&tally);
-        const Real3 color = scaled3(0x1p-32f, sample_color(&tracer, &asked));
-        for (uint lane = 0; lane < min((uint)CLRT_LANES, end - start); lane++)
-            store_sample(samples + start + lane, &color, tally.signature, lane);
+        Places asked[PACKETS];
+        Real3 colors[PACKETS];
+        for (uint i = 0; i < PACKETS; i++)
+            asked[i] = places_listed(places, start + i * CLRT_LANES, end);
+        sample_colors(&tracer, asked, colors);
+        for (uint i = 0; i < PACKETS; i++)
+            colors[i] = scaled3(0x1p-32f, colors[i]);
+        for (uint i = 0; i < min(beam, end - start); i++)
+            store_sample(samples + start + i, &colors[i / CLRT_LANES],
+                         tally.signatures[i / CLRT_LANES], i % CLRT_LANES);
         if (CLRT_STATISTICS)
             store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
     }

@@ -82,10 +82,10 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray)
     Search search;
     search.tracer = tracer;
     search.ray = ray;
+    search.slabs = slabs_of(ray->origin, ray->direction);
     search.axes = shear_axes(ray->direction);
     search.shear = shear_along(ray->direction, &search.axes);
     search.origin = axes_ordered(ray->origin, &search.axes);
-    search.slabs = slabs_of(ray->origin, ray->direction);
     return search;
 }
 

@@ -91,29 +91,58 @@ typedef struct {
     Real diffuse, specular;
 } Received;
 
-// Returns a light's contribution. Surfaces turned away from the light get nothing and need no
-// shadow ray.
-static inline Received receive_light(const Tracer *tracer, uint index, const Lighting *lighting)
+// Returns the contribution of a light that reaches the lanes in is_lit.
+static inline Received receive_light(const LightSample *light, const Lighting *lighting,
+                                     Mask is_lit)
 {
     const Surface *surface = lighting->surface;
-    const LightSample light = sample_light(tracer, index, surface, lighting->wanted);
-    Received received = {0.0f, 0.0f};
-    if (!any_lane(light.faces))
-        return received;
-    if (CLRT_STATISTICS)
-        tracer->tally->shadow_rays += lane_count(light.faces);
-    const Ray ray = ray_to_light(tracer, surface, &light);
-    const Mask is_lit = light.faces && !is_blocked(tracer, &ray);
-    sign_lanes(tracer->tally, is_lit, (UInt)(index));
-    received.diffuse = is_lit ? light.intensity * light.cosine : (Real)(0.0f);
+    Received received = {is_lit ? light->intensity * light->cosine : (Real)(0.0f), 0.0f};
     const Mask shines = is_lit && lighting->material->shader == SHADER_BLINN_PHONG;
     if (!any_lane(shines))
         return received;
-    const Real3 half_vector = half_vector_of(surface, light.toward);
+    const Real3 half_vector = half_vector_of(surface, light->toward);
     const Real shine =
-        light.intensity * highlight(lighting->material, surface->normal, half_vector);
+        light->intensity * highlight(lighting->material, surface->normal, half_vector);
     received.specular = shines ? shine : (Real)(0.0f);
     return received;
+}
+
+// The sums of all lights' contributions.
+typedef struct {
+    Real3 diffuse, specular;
+} Illumination;
+
+// Adds a light's contributions to the surfaces. Those turned away from the light get nothing and
+// need no shadow ray.
+static inline void add_light(const Tracer *tracer, uint index, const Lighting lighting[PACKETS],
+                             Illumination sums[PACKETS])
+{
+    const Real3 color = load3(tracer->lights[index].color);
+    LightSample light[PACKETS];
+    Ray rays[PACKETS];
+    Hit blockers[PACKETS];
+    for (uint i = 0; i < PACKETS; i++) {
+        rays[i].active = 0;
+        light[i].faces = 0;
+        if (!any_lane(lighting[i].wanted))
+            continue;
+        light[i] = sample_light(tracer, index, lighting[i].surface, lighting[i].wanted);
+        if (!any_lane(light[i].faces))
+            continue;
+        rays[i] = ray_to_light(tracer, lighting[i].surface, &light[i]);
+        if (CLRT_STATISTICS)
+            tracer->tally->shadow_rays += lane_count(light[i].faces);
+    }
+    blocking_hits(tracer, rays, PACKETS, blockers);
+    for (uint i = 0; i < PACKETS; i++) {
+        const Mask is_lit = light[i].faces && blockers[i].id == NOTHING;
+        if (!any_lane(is_lit))
+            continue;
+        sign_lanes(tracer->tally, i, is_lit, (UInt)(index));
+        const Received received = receive_light(&light[i], &lighting[i], is_lit);
+        sums[i].diffuse = sum3(sums[i].diffuse, scaled3(received.diffuse, color));
+        sums[i].specular = sum3(sums[i].specular, scaled3(received.specular, color));
+    }
 }
 
 // Returns (ambient + weight * received) * color for each component.
@@ -124,26 +153,37 @@ static inline Real3 reflected_light(Real weight, Real3 received, Real ambient, R
                     (ambient + weight * min(received.z, BRIGHTEST)) * color.z);
 }
 
-// Returns the color of the surfaces given to lighting_of. The values of other lanes are
-// unspecified.
-static inline Real3 shade(const Tracer *tracer, const Lighting *lighting)
+// Returns the color of a surface that receives that light.
+static inline Real3 shaded_color(const Tracer *tracer, const MaterialLanes *material,
+                                 const Illumination *light)
 {
-    const MaterialLanes *material = lighting->material;
-    const Mask is_flat = material->shader == SHADER_SILHOUETTE;
-    if (!CLRT_SHADED || !any_lane(lighting->wanted))
-        return material->diffuse;
-    Real3 diffuse = real3_of(0.0f, 0.0f, 0.0f), specular = diffuse;
-    for (uint index = 0; index < tracer->frame->light_count; index++) {
-        const Received received = receive_light(tracer, index, lighting);
-        const Real3 light = load3(tracer->lights[index].color);
-        diffuse = sum3(diffuse, scaled3(received.diffuse, light));
-        specular = sum3(specular, scaled3(received.specular, light));
-    }
-    const Real3 shine = reflected_light(material->ks, specular, 0.0f, material->specular);
-    Real3 color = reflected_light(material->kd, diffuse, tracer->frame->ambient, material->diffuse);
+    const Real3 shine = reflected_light(material->ks, light->specular, 0.0f, material->specular);
+    Real3 color =
+        reflected_light(material->kd, light->diffuse, tracer->frame->ambient, material->diffuse);
     color = choose3(material->shader == SHADER_BLINN_PHONG, sum3(color, shine), color);
     color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
-    return choose3(is_flat, material->diffuse, color);
+    return choose3(material->shader == SHADER_SILHOUETTE, material->diffuse, color);
+}
+
+// Computes the colors of the surfaces given to lighting_of. The values of other lanes are
+// unspecified.
+static inline void shade(const Tracer *tracer, const Lighting lighting[PACKETS],
+                         Real3 colors[PACKETS])
+{
+    Illumination sums[PACKETS];
+    bool any = false;
+    for (uint i = 0; i < PACKETS; i++) {
+        const Real3 zero = real3_of(0.0f, 0.0f, 0.0f);
+        sums[i] = (Illumination){zero, zero};
+        any |= any_lane(lighting[i].wanted);
+    }
+    for (uint index = 0; CLRT_SHADED && any && index < tracer->frame->light_count; index++)
+        add_light(tracer, index, lighting, sums);
+    for (uint i = 0; i < PACKETS; i++)
+        if (!CLRT_SHADED || !any_lane(lighting[i].wanted))
+            colors[i] = lighting[i].material->diffuse;
+        else
+            colors[i] = shaded_color(tracer, lighting[i].material, &sums[i]);
 }
 
 #endif

@@ -102,7 +102,10 @@ typedef struct {
 } BvhPair;
 CLRT_SAME_SIZE(BvhPair, 64)
 
-// A work-item of the packet family renders PACKET_SIDE x PACKET_SIDE pixels.
+// A work-item of the families with wide nodes renders BLOCK_SIDE x BLOCK_SIDE pixels.
+#define BLOCK_SIDE 8
+
+// Refined pictures list their samples in squares of this many pixels, which form packets.
 #define PACKET_SIDE 4
 
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.

@@ -6,29 +6,63 @@
 #include "camera.cl"
 #include "shade.cl"
 
-// A camera ray's path through its reflections.
+// Colors are rounded to integer multiples of 2^-32.
+static inline Real in_steps(Real color)
+{
+    return rint(clamp_to_one(color) * 0x1p32f);
+}
+
+static inline Real3 in_steps3(Real3 color)
+{
+    return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
+}
+
+// Where a camera ray's path through its reflections has got to.
 typedef struct {
-    Ray ray;       // the last ray that was followed
-    uint level;    // rays followed
-    Real3 color;   // of the path so far
+    Real3 color;   // so far
     Real weight;   // of the next ray's color in the sample's color
-    Hit hit;       // of the last ray
-    Mask met;      // lanes with a hit; the members below are valid there
+    Mask met;      // lanes whose last ray hit; the members below are valid there
     Mask reflects; // lanes with a next ray
     Surface surface;
     MaterialLanes material;
 } Path;
 
-static inline Path path_along(Ray ray)
+// The paths of a work-item, which advance in lock step.
+typedef struct {
+    uint level;        // rays followed
+    Ray rays[PACKETS]; // the last ones
+    Hit hits[PACKETS]; // of those
+    Path paths[PACKETS];
+} Paths;
+
+static inline void paths_start(Paths *paths, uint number, Ray ray)
 {
-    return (Path){.ray = ray, .weight = 1.0f, .reflects = ray.active};
+    paths->level = 0;
+    paths->rays[number] = ray;
+    Path *path = &paths->paths[number];
+    path->color = real3_of(0.0f, 0.0f, 0.0f);
+    path->weight = 1.0f;
+    path->met = 0;
+    path->reflects = ray.active;
 }
 
-static inline void count_rays(const Path *path, Tally *tally)
+// Starts a single packet's path.
+static inline void paths_start_one(Paths *paths, Ray ray)
 {
-    tally->camera_hits += path->level == 1 ? lane_count(path->met) : 0;
-    tally->reflected_rays += path->level > 1 ? lane_count(path->ray.active) : 0;
-    tally->shaded_points += lane_count(path->met);
+    Ray none = ray;
+    none.active = 0;
+    for (uint i = 0; i < PACKETS; i++)
+        paths_start(paths, i, i == 0 ? ray : none);
+}
+
+static inline void count_rays(const Paths *paths, uint number, Tally *tally)
+{
+    const uint met = lane_count(paths->paths[number].met);
+    const uint followed = lane_count(paths->rays[number].active);
+    tally->camera_rays += paths->level == 1 ? followed : 0;
+    tally->camera_hits += paths->level == 1 ? met : 0;
+    tally->reflected_rays += paths->level > 1 ? followed : 0;
+    tally->shaded_points += met;
 }
 
 // Returns the surface's word for signatures. Each sphere is its own surface; all triangles of one
@@ -39,27 +73,50 @@ static inline UInt surface_word(const FrameData *frame, const Surface *surface)
     return surface->id < frame->sphere_count ? surface->id : of_mesh;
 }
 
-// Follows the next ray of each lane that has one, up to its surface. Returns false if no lane has
-// one.
-static inline bool path_step(const Tracer *tracer, Path *path)
+// Aims the next rays of the lanes that have one, and returns whether any has.
+static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
-    if (path->level == tracer->frame->max_level || !any_lane(path->reflects))
-        return false;
-    if (CLRT_MIRRORS && path->level > 0)
-        path->ray = ray_reflected(tracer, &path->surface, path->reflects);
-    path->level++;
-    path->hit = nearest_hit(tracer, &path->ray);
-    path->met = path->ray.active && path->hit.id != NOTHING;
+    bool any = false;
+    for (uint i = 0; i < PACKETS; i++) {
+        const Path *path = &paths->paths[i];
+        any |= any_lane(path->reflects);
+        if (!any_lane(path->reflects))
+            paths->rays[i].active = 0;
+        else if (CLRT_MIRRORS && paths->level > 0)
+            paths->rays[i] = ray_reflected(tracer, &path->surface, path->reflects);
+    }
+    return any;
+}
+
+// Reads the surfaces that the last rays hit.
+static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number)
+{
+    Path *path = &paths->paths[number];
+    const Ray *ray = &paths->rays[number];
+    const Hit *hit = &paths->hits[number];
+    path->met = ray->active && hit->id != NOTHING;
     path->reflects = 0;
     if (CLRT_STATISTICS)
-        count_rays(path, tracer->tally);
+        count_rays(paths, number, tracer->tally);
     if (!any_lane(path->met))
-        return true;
-    path->surface = surface_at(tracer, &path->ray, &path->hit, path->met);
+        return;
+    path->surface = surface_at(tracer, ray, hit, path->met);
     path->material = fetch_material(tracer, path->surface.material);
     if (CLRT_MIRRORS)
         path->reflects = path->met && path->material.reflectivity != 0.0f;
-    sign_lanes(tracer->tally, path->met, surface_word(tracer->frame, &path->surface));
+    sign_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
+}
+
+// Follows the next ray of each lane that has one, up to its surface. Returns false if no lane has
+// one.
+static inline bool paths_step(const Tracer *tracer, Paths *paths)
+{
+    if (paths->level == tracer->frame->max_level || !aim_rays(tracer, paths))
+        return false;
+    paths->level++;
+    nearest_hits(tracer, paths->rays, PACKETS, paths->hits);
+    for (uint i = 0; i < PACKETS; i++)
+        meet_surfaces(tracer, paths, i);
     return true;
 }
 
@@ -70,16 +127,26 @@ static inline Real path_share(const Path *path)
     return path->reflects ? rest : path->weight;
 }
 
-// Adds the surface's own color, and returns it.
-static inline Real3 path_shade(const Tracer *tracer, Path *path)
+static inline void path_add(Path *path, Real3 shaded)
 {
-    const Lighting lighting = lighting_of(&path->surface, &path->material, path->met);
-    const Real3 shaded = shade(tracer, &lighting);
     const Real3 color = sum3(path->color, scaled3(path_share(path), shaded));
     const Real reflected = path->reflects ? path->weight * path->material.reflectivity : 0.0f;
     path->color = choose3(path->met, color, path->color);
     path->weight = path->met ? reflected : path->weight;
-    return shaded;
+}
+
+// Adds the surfaces' own colors. shaded receives these colors where rays have hit.
+static inline void paths_shade(const Tracer *tracer, Paths *paths, Real3 shaded[PACKETS])
+{
+    Lighting lighting[PACKETS];
+    for (uint i = 0; i < PACKETS; i++) {
+        const Path *path = &paths->paths[i];
+        lighting[i] = lighting_of(&path->surface, &path->material, path->met);
+    }
+    shade(tracer, lighting, shaded);
+    for (uint i = 0; i < PACKETS; i++)
+        if (any_lane(paths->paths[i].met))
+            path_add(&paths->paths[i], shaded[i]);
 }
 
 // Returns the color of a path that ends: rays without a surface see the background.
@@ -89,13 +156,13 @@ static inline Real3 path_color(const Tracer *tracer, const Path *path)
     return sum3(path->color, scaled3(path->weight, background));
 }
 
-static inline Real3 trace(const Tracer *tracer, Ray ray)
+// Traces started paths to their ends and returns their colors in steps of 2^-32.
+static inline void trace(const Tracer *tracer, Paths *paths, Real3 colors[PACKETS])
 {
-    Path path = path_along(ray);
-    while (path_step(tracer, &path))
-        if (any_lane(path.met))
-            path_shade(tracer, &path);
-    return path_color(tracer, &path);
+    while (paths_step(tracer, paths))
+        paths_shade(tracer, paths, colors);
+    for (uint i = 0; i < PACKETS; i++)
+        colors[i] = in_steps3(path_color(tracer, &paths->paths[i]));
 }
 
 #endif

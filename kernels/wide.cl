@@ -281,17 +281,19 @@ static inline void visit_leaves(LaneSearches *searches)
     }
 }
 
-// Searches for the rays of the lanes whose bits are set. While one ray waits for memory or for its
-// last step's result, the others advance. This is a fifth faster than one ray after another.
-static NOT_INLINE void intersect_lanes(const Search *search, uint bits, Hit *best)
+// Searches below a child for the rays of the lanes whose bits are set. While one ray waits for
+// memory or for its last step's result, the others advance. This is a fifth faster than one ray
+// after another.
+static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
 {
     LaneSearches searches;
     searches.search = search;
     searches.hits = best;
     searches.ended = ALL_LANES & ~bits;
     searches.leaves = 0;
-    for (uint lane = 0; lane < CLRT_LANES; lane++) {
-        searches.child[lane] = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const uint lane = lowest_bit(bits);
+        searches.child[lane] = child;
         searches.stack[lane].count = 0;
     }
     while (searches.ended != ALL_LANES) {

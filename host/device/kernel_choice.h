@@ -8,7 +8,7 @@
 
 typedef enum {
     FAMILY_RAY,   // a work-item renders one pixel
-    FAMILY_PACKET // a work-item renders a block of PACKET_SIDE x PACKET_SIDE pixels
+    FAMILY_PACKET // a work-item renders a block of BLOCK_SIDE x BLOCK_SIDE pixels
 } KernelFamily;
 
 typedef enum {

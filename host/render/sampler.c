@@ -6,12 +6,12 @@
 
 #include <stdlib.h>
 
-#define LAUNCH_ITEMS 16384
+#define LAUNCH_ITEMS 4096
 
 // Returns the requests per work-item, ITEM_SAMPLES or ITEM_REQUESTS of the kernels.
 static uint32_t item_requests(const Renderer *renderer)
 {
-    return renderer->nodes == NODES_WIDE ? PACKET_SIDE * PACKET_SIDE : 1;
+    return renderer->nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
 }
 
 static uint32_t launch_requests(const Renderer *renderer)

@@ -62,7 +62,7 @@ void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile
 
 static size_t grid_side(NodeLayout nodes, uint32_t tile_side, uint32_t group)
 {
-    const uint32_t pixels = nodes == NODES_WIDE ? PACKET_SIDE : 1;
+    const uint32_t pixels = nodes == NODES_WIDE ? BLOCK_SIDE : 1;
     const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
     return (items + group - 1) / group * group;
 }

@@ -25,7 +25,7 @@ def compile_ahead():
 def draw(scene, options, folder, frames=1):
     """Draws a scene several times in one run of clrt. Returns the seconds of each picture."""
     frames = ["--repeat", str(frames)] if frames > 1 else []
-    done = subprocess.run([CLRT, str(scene), "-q", "-v", "-o", f"{folder}/clrt.pfm", *frames,
+    done = subprocess.run([CLRT, str(scene), "-v", "-o", f"{folder}/clrt.pfm", *frames,
                            *options], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(done.stderr)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernels that trace arrays of rays with the real functions. ray_batch.c appends this file to the
-// source of the real kernels. A work-item traces CLRT_LANES successive rays. Grids are larger than
-// the count of rays.
+// source of the real kernels. A work-item traces PACKETS * CLRT_LANES successive rays. Grids are
+// larger than the count of rays.
 
 typedef struct {
     float origin[3];
@@ -15,7 +15,7 @@ typedef struct {
     uint id;
 } TestHit;
 
-// The rays of a work-item, one per lane.
+// The rays of a packet, one per lane.
 typedef struct {
     Real3 origin, direction;
     UInt own, kind;
@@ -24,11 +24,11 @@ typedef struct {
     Mask exists; // lanes that have a ray; the others copy the last ray
 } TestRays;
 
-static inline TestRays test_rays(global const TestRay *rays, uint count)
+static inline TestRays test_rays(global const TestRay *rays, uint count, uint packet)
 {
     TestRays all;
     const UInt last = count - 1;
-    all.first = CLRT_LANES * (uint)get_global_id(0);
+    all.first = CLRT_LANES * (PACKETS * (uint)get_global_id(0) + packet);
     const UInt place = all.first + LANE_Y * PACKET_WIDTH + LANE_X;
     all.exists = place < count;
     all.index = min(place, last);
@@ -40,23 +40,6 @@ static inline TestRays test_rays(global const TestRay *rays, uint count)
     return all;
 }
 
-static inline Mask same_in_first(UInt value, Mask among)
-{
-    return value == first_lane(value, among);
-}
-
-// Returns the lanes of `left` that form a packet with the first of them: their rays have the same
-// kind, and camera rays the same origin.
-static inline Mask companions(const TestRays *rays, Mask left)
-{
-    const Real3 o = rays->origin;
-    const Mask same_kind = left && same_in_first(rays->kind, left);
-    const Mask same_origin = as_bits(o.x) == as_bits(first_real(o.x, left)) &&
-                             as_bits(o.y) == as_bits(first_real(o.y, left)) &&
-                             as_bits(o.z) == as_bits(first_real(o.z, left));
-    return same_kind && (rays->kind != (uint)RAY_CAMERA || same_origin);
-}
-
 // Returns v with the first of these lanes copied to all others.
 static inline Real3 filled_lanes(Real3 v, Mask lanes)
 {
@@ -64,14 +47,12 @@ static inline Real3 filled_lanes(Real3 v, Mask lanes)
                     lanes ? v.z : first_real(v.z, lanes));
 }
 
-// Returns the rays of these lanes. The other lanes copy the first. Reflected rays come from the
-// tracer's own function, and leave their face perpendicularly.
-static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, Mask lanes)
+// Returns the rays of these lanes, which have a kind. The other lanes copy the first. Reflected
+// rays come from the tracer's own function, and leave their face perpendicularly.
+static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, RayKind kind, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
     const Real3 direction = filled_lanes(rays->direction, lanes);
-    const UInt kinds = first_lane(rays->kind, lanes);
-    const RayKind kind = (RayKind)(*(const uint *)&kinds);
     const Surface surface = {.point = origin,
                              .face = direction,
                              .toward_viewer = negative3(direction),
@@ -92,21 +73,36 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask l
                 (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
+// Finds the hits of the rays of one kind.
+static inline void trace_kind(const Tracer *tracer, const TestRays *all, RayKind kind,
+                              bool are_shadows, global TestHit *hits)
+{
+    Ray rays[PACKETS];
+    Hit found[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        rays[i] = ray_of(tracer, &all[i], kind, all[i].exists && all[i].kind == (uint)kind);
+    if (are_shadows)
+        blocking_hits(tracer, rays, PACKETS, found);
+    else
+        nearest_hits(tracer, rays, PACKETS, found);
+    for (uint i = 0; i < PACKETS; i++)
+        if (are_shadows)
+            store_hits(hits, &all[i], rays[i].active, 0.0f,
+                       found[i].id != NOTHING ? (UInt)(1) : (UInt)(0));
+        else
+            store_hits(hits, &all[i], rays[i].active, found[i].t, found[i].id);
+}
+
 // Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
-static inline void trace_rays(const Tracer *tracer, TestRays rays, bool are_shadows,
+static inline void trace_rays(const Tracer *tracer, const TestRays *all, bool are_shadows,
                               global TestHit *hits)
 {
-    Mask left = rays.exists;
-    while (any_lane(left)) {
-        const Mask lanes = companions(&rays, left);
-        const Ray ray = ray_of(tracer, &rays, lanes);
-        Hit hit = {0.0f, NOTHING, NOTHING};
-        if (are_shadows)
-            hit.id = is_blocked(tracer, &ray) ? (UInt)(1) : (UInt)(0);
-        else
-            hit = nearest_hit(tracer, &ray);
-        store_hits(hits, &rays, lanes, hit.t, hit.id);
-        left = left && !lanes;
+    for (uint kind = RAY_CAMERA; kind <= RAY_SHADOW; kind++) {
+        bool any = false;
+        for (uint i = 0; i < PACKETS; i++)
+            any |= any_lane(all[i].exists && all[i].kind == kind);
+        if (any)
+            trace_kind(tracer, all, (RayKind)kind, are_shadows, hits);
     }
 }
 
@@ -123,48 +119,60 @@ static inline void trace_rays(const Tracer *tracer, TestRays rays, bool are_shad
 kernel void batch_nearest(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    trace_rays(&tracer, test_rays(rays, count), false, hits);
+    TestRays all[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        all[i] = test_rays(rays, count, i);
+    trace_rays(&tracer, all, false, hits);
 }
 
 kernel void batch_blocked(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    trace_rays(&tracer, test_rays(rays, count), true, hits);
+    TestRays all[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        all[i] = test_rays(rays, count, i);
+    trace_rays(&tracer, all, true, hits);
+}
+
+// The id of a ray that hits nothing, from a surface that the point at its end does not light.
+#define LEAVE_SHADOWED 0xfffffffeu
+
+// Traces rays from the surfaces that these lanes' rays hit. See batch_leave.
+static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, const Ray *ray,
+                                  Real3 outward, global TestHit *hits)
+{
+    const Hit first = nearest_hit(tracer, ray);
+    const Mask met = ray->active && first.id != NOTHING;
+    Hit second = {0.0f, NOTHING, NOTHING};
+    if (any_lane(met)) {
+        const Surface surface = surface_at(tracer, ray, &first, met);
+        const Mask inward = dot_product(outward, surface.face) < 0.0f;
+        const Real3 direction = choose3(inward, negative3(outward), outward);
+        const Ray next = {surface.point, direction, surface.id, surface.index, RAY_REFLECTED, met};
+        second = nearest_hit(tracer, &next);
+        const LightSample light = {
+            .position = sum3(surface.point, direction), .toward = direction, .faces = met};
+        const Ray shadow = ray_to_light(tracer, &surface, &light);
+        const Mask dark = blocking_hit(tracer, &shadow).id != NOTHING;
+        second.id = second.id == NOTHING && dark ? (UInt)(LEAVE_SHADOWED) : second.id;
+    }
+    store_hits(hits, all, ray->active, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
 }
 
 // Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or
-// the opposite one, whichever leaves the face. The id is LEAVE_SHADOWED if the ray hits nothing but
-// the point at its end does not light the surface. t is 0 without a surface.
-#define LEAVE_SHADOWED 0xfffffffeu
-
+// the opposite one, whichever leaves the face. The id can be LEAVE_SHADOWED. t is 0 without a
+// surface.
 kernel void batch_leave(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    const TestRays all = test_rays(rays, count);
-    const Record record = record_at(outward, all.index * 3);
-    const Real3 chosen = record_real3(&record, 0, 1);
-    Mask left = all.exists;
-    while (any_lane(left)) {
-        const Mask lanes = companions(&all, left);
-        const Ray ray = ray_of(&tracer, &all, lanes);
-        const Hit first = nearest_hit(&tracer, &ray);
-        const Mask met = lanes && first.id != NOTHING;
-        Hit second = {0.0f, NOTHING, NOTHING};
-        if (any_lane(met)) {
-            const Surface surface = surface_at(&tracer, &ray, &first, met);
-            const Mask inward = dot_product(chosen, surface.face) < 0.0f;
-            const Real3 direction = choose3(inward, negative3(chosen), chosen);
-            const Ray next = {surface.point, direction,     surface.id,
-                              surface.index, RAY_REFLECTED, met};
-            second = nearest_hit(&tracer, &next);
-            const LightSample light = {
-                .position = sum3(surface.point, direction), .toward = direction, .faces = met};
-            const Ray shadow = ray_to_light(&tracer, &surface, &light);
-            const Mask dark = is_blocked(&tracer, &shadow);
-            second.id = second.id == NOTHING && dark ? (UInt)(LEAVE_SHADOWED) : second.id;
+    for (uint i = 0; i < PACKETS; i++) {
+        const TestRays all = test_rays(rays, count, i);
+        const Record record = record_at(outward, all.index * 3);
+        for (uint kind = RAY_CAMERA; kind <= RAY_SHADOW; kind++) {
+            const Ray ray = ray_of(&tracer, &all, (RayKind)kind, all.exists && all.kind == kind);
+            if (any_lane(ray.active))
+                leave_surfaces(&tracer, &all, &ray, record_real3(&record, 0, 1), hits);
         }
-        store_hits(hits, &all, lanes, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
-        left = left && !lanes;
     }
 }
 
@@ -176,9 +184,7 @@ static inline float distance_alone(global const TriangleBlock *triangles, uint b
     Hit hit = {INFINITY, NOTHING, NOTHING};
     if (CLRT_PACKET) {
         const BlockPlace at = {&triangles[block], place, block * WIDE + place};
-        const Corners corners = {corner_from(&at, 0, packet), corner_from(&at, 1, packet),
-                                 corner_from(&at, 2, packet)};
-        intersect_packet_triangle(&at, packet, &corners, packet->active, &hit);
+        intersect_packet_triangle(&at, packet, lanes_of(1), &hit);
         return lane_real(&hit.t, 0);
     }
     const LaneRay ray = lane_ray(&packet->rays, 0);
@@ -201,11 +207,11 @@ kernel void batch_each(BATCH_ARGUMENTS)
     if (block >= count)
         return;
     BATCH_TRACER
-    TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&tracer, &all, lanes_of(1));
-    const UInt classes = ray_classes(ray.direction);
-    Packet packet; // only the first lane is active
-    packet_gather(&packet, &tracer, &ray, 1, lane_uint(&classes, 0) / 8);
+    const TestRays all = test_rays(rays, 1, 0);
+    const RayKind kind = (RayKind)lane_uint(&all.kind, 0);
+    const Ray ray = ray_of(&tracer, &all, kind, lanes_of(1));
+    Packet packet;
+    packet_prepare(&packet, &tracer, &ray);
     for (uint place = 0; place < WIDE; place++) {
         const uint id = triangles[block].id[place] & ~TRIANGLE_MARKS;
         if (triangles[block].id[place] != NOTHING)
@@ -218,39 +224,42 @@ kernel void batch_each(BATCH_ARGUMENTS)
 static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
 {
     UInt met = 0;
+    const Bounds bounds = bounds_over(packet, 1);
     for (; lanes != 0; lanes &= lanes - 1) {
         const uint lane = lowest_bit(lanes);
         float8 entry;
         uint near = lane_bits(
-            CLRT_PACKET ? children_near(&nodes[lane], packet, INFINITY, &entry)
+            CLRT_PACKET ? children_near(&nodes[lane], &bounds, INFINITY, &entry)
                         : children_hit(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
-        for (uint child = 0; child < 2 && CLRT_PACKET; child++)
-            if ((lane_bits(lanes_in_child(&nodes[lane], child, packet, INFINITY)) >> lane & 1) == 0)
+        for (uint child = 0; child < 2 && CLRT_PACKET; child++) {
+            const Mask inside = lanes_in_child(&nodes[lane], child, packet, &bounds, INFINITY);
+            if ((lane_bits(inside) >> lane & 1) == 0)
                 near &= ~(1u << child);
+        }
         ((uint *)&met)[lane] = near & 3;
     }
     return met;
 }
 
 // Stores which boxes of its own node each ray meets: bit 0 of id for the first, bit 1 for the
-// second. Like reflected rays, rays with different origins form packets.
+// second. Rays whose directions share their signs form packets.
 kernel void batch_boxes(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    TestRays all = test_rays(rays, count);
-    all.kind = (UInt)((uint)RAY_REFLECTED);
-    const UInt classes = ray_classes(all.direction);
-    Mask left = all.exists;
-    while (any_lane(left)) {
-        const Mask lanes = left && same_in_first(classes, left);
-        const UInt wanted = first_lane(classes, left);
-        Ray ray = ray_of(&tracer, &all, lanes);
-        ray.direction = filled_lanes(all.direction, lanes);
-        Packet packet;
-        packet_gather(&packet, &tracer, &ray, lane_bits(lanes), lane_uint(&wanted, 0) / 8);
-        store_hits(hits, &all, lanes, 0.0f,
-                   boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
-        left = left && !lanes;
+    for (uint i = 0; i < PACKETS; i++) {
+        const TestRays all = test_rays(rays, count, i);
+        const Octants octants = octants_of(all.direction);
+        for (uint signs = 0; signs < 8; signs++) {
+            const Mask lanes = all.exists && lanes_of(lanes_in_octant(&octants, signs));
+            if (!any_lane(lanes))
+                continue;
+            Ray ray = ray_of(&tracer, &all, RAY_REFLECTED, lanes);
+            ray.direction = filled_lanes(all.direction, lanes);
+            Packet packet;
+            packet_prepare(&packet, &tracer, &ray);
+            store_hits(hits, &all, lanes, 0.0f,
+                       boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
+        }
     }
 }
 #else
@@ -261,8 +270,8 @@ kernel void batch_each(BATCH_ARGUMENTS)
     if (place >= count)
         return;
     BATCH_TRACER
-    const TestRays all = test_rays(rays, 1);
-    const Ray ray = ray_of(&tracer, &all, 1);
+    const TestRays all = test_rays(rays, 1, 0);
+    const Ray ray = ray_of(&tracer, &all, (RayKind)all.kind, 1);
     const Search search = search_along(&tracer, &ray);
     const Real t = triangle_distance(&triangles[place], &search);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
@@ -275,8 +284,8 @@ kernel void batch_boxes(BATCH_ARGUMENTS)
     if (place >= count)
         return;
     BATCH_TRACER
-    const TestRays all = test_rays(rays, count);
-    const Ray ray = ray_of(&tracer, &all, 1);
+    const TestRays all = test_rays(rays, count, 0);
+    const Ray ray = ray_of(&tracer, &all, (RayKind)all.kind, 1);
     const Search search = search_along(&tracer, &ray);
     Real2 entry, leave;
     intersect_slabs(&nodes[place], &search, INFINITY, &entry, &leave);
