@@ -12,7 +12,7 @@ from work import CLRT, ROOT, SharedWork, main
 PAGE = ROOT / "docs/tutorial.md"
 SHOWCASE = ROOT / "scenes/showcase.scn"
 SCRIPT = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-# Pictures of many colors are reduced to 256 of them for their size, which changes them by up to 1 %.
+# Pictures of many colors are reduced to 256 of them for their size, which changes values by up to 0.055.
 REDUCED = [f"tutorial/step{step}.png" for step in (8, 9, 10)]
 PICTURES = re.findall(r"\]\((tutorial/[^)]+\.png)\)", PAGE.read_text())
 
@@ -51,7 +51,7 @@ class Tutorial(SharedWork):
     def test_the_page_shows_the_pictures_of_its_commands(self):
         for picture in PICTURES:
             mine = f"studio/{pathlib.Path(picture).name}"
-            limit = "rmse=1.2%" if picture in REDUCED else "max=0"
+            limit = "max=0.06" if picture in REDUCED else "max=0"
             self.clrt("compare", mine, ROOT / "docs" / picture, "--fail", limit)
 
     def test_the_last_scene_is_the_showcase(self):
