@@ -3,11 +3,10 @@
 # Provokes the faults of docs/troubleshooting.md and compares their messages with the page's. Usage:
 # test_troubleshooting.py CLRT 1|0, with 0 for a build without the window
 import re
-import shutil
 import sys
 import unittest
 
-from work import CLRT, NO_OPENCL, ROOT, SCENE, Work, main
+from work import NO_OPENCL, ROOT, SCENE, Work, main
 
 PAGE = (ROOT / "docs/troubleshooting.md").read_text()
 HAS_WINDOW = sys.argv[2] == "1"
@@ -52,9 +51,6 @@ class Messages(Work):
         self.write(a_ply=INSIDE_OUT)
         yield scene("mesh a.ply\n", "check")
         yield scene("mesh models/figure.ply\n")
-        shutil.copy(CLRT, self.work / "alone")
-        self.write(a_obj="v 0 0 0\n")
-        yield self.run_clrt("a.obj", *SMALL, before=["sh", "-c", 'shift; exec ./alone "$@"', "sh"]).stderr
         yield scene("sphear 0 0 0 1\n")
         yield run(SCENE, *SMALL, "--expect-hash", "0123456789abcdef0123456789abcdef")
         yield run(SCENE, *SMALL, "--time", "1e-6")
