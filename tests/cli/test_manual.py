@@ -10,6 +10,7 @@ import subprocess
 import sys
 import unittest
 
+import grammar
 import shells
 from work import CLRT, ROOT, Work, main
 
@@ -89,15 +90,10 @@ class Pages(Work):
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_every_statement_of_scenes_is_in_their_page(self):
         page = read_page(PAGES[1])
-        grammar = (ROOT / "host/scene/scn.c").read_text()
-        statements = re.findall(r'^    \{"(\w+)",\s*"(.*?)",', grammar, re.MULTILINE)
-        self.assertGreater(len(statements), 10)
-        for keyword, usage in statements:
+        self.assertGreater(len(grammar.usages()), 10)
+        for keyword in grammar.usages():
             self.assertRegex(page, rf" {keyword} [A-Z0o\[s]")
-        properties = re.search(
-            r"properties\[\] = \{(.*?)\}", (ROOT / "host/scene/define.c").read_text(), re.DOTALL
-        )[1]
-        for name in re.findall(r'"(\w+)"', properties):
+        for name in grammar.properties():
             self.assertIn(f" {name} ", page)
 
     def test_the_scene_of_the_page_is_drawn(self):

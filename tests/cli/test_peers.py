@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that every feature that tools/manual/peers.md claims for clrt has an existing test. Usage:
+# Tests that every feature that docs/peers.md claims for clrt has an existing test. Usage:
 # test_peers.py CTEST BUILD_FOLDER
 import json
 import pathlib
@@ -10,14 +10,15 @@ import sys
 import unittest
 
 CTEST, BUILD = sys.argv[1:3]
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "tools/manual/peers.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/peers.md"
 PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", "OSPRay Studio", "Embree",
          "F3D", "Radiance", "tinybvh", "appleseed", "nobody", "all but"]
 
 
 def rows():
-    """Returns the cells of every row of the tables, without the heads."""
-    lines = [line for line in PAGE.read_text().splitlines() if line.startswith("|")]
+    """Returns the cells of every row of the tables of features, without the heads."""
+    tables = PAGE.read_text().split("\n## Sources of the tables\n")[1]
+    lines = [line for line in tables.splitlines() if line.startswith("|")]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     return [row for row in cells if row[0] != "what" and set(row[0]) != {"-"}]
 

@@ -29,6 +29,8 @@ INSTALLED = [
     "share/fish/vendor_completions.d/clrt.fish",
     "share/man/man1/clrt.1.gz",
     "share/man/man5/clrt-scene.5.gz",
+    "share/vim/vimfiles/ftdetect/clrt.vim",
+    "share/vim/vimfiles/syntax/clrt.vim",
     "share/zsh/site-functions/_clrt",
 ]
 CACHE = (BUILD / "CMakeCache.txt").read_text()

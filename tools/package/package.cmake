@@ -18,6 +18,7 @@ foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian"
 endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY tools/editors/vim/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vim/vimfiles)
 
 # Debian has no package request that the changelog could close. lintian -I makes three more remarks,
 # all harmless. CPack's strip keeps the section .comment, and shlibs replaces a symbols file. The

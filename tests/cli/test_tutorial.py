@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Follows docs/tutorial.md: writes its scenes, runs its commands and compares the pictures with the
+# page's. Usage: test_tutorial.py CLRT
+import pathlib
+import re
+import subprocess
+import unittest
+
+from work import CLRT, ROOT, SharedWork, main
+
+PAGE = ROOT / "docs/tutorial.md"
+SHOWCASE = ROOT / "scenes/showcase.scn"
+SCRIPT = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+# Pictures of many colors are reduced to 256 of them for their size, which changes values by up to 0.055.
+REDUCED = [f"tutorial/step{step}.png" for step in (8, 9, 10)]
+PICTURES = re.findall(r"\]\((tutorial/[^)]+\.png)\)", PAGE.read_text())
+
+
+def shell_text(kind, text):
+    """Returns the commands for a block. A scene that starts with the size replaces the file, and
+    other scene texts are added to it."""
+    if kind == "sh":
+        return text
+    return f"cat {'>' if text.startswith('size') else '>>'}studio.scn <<'END'\n{text}END\n"
+
+
+def statements(scene):
+    """Returns the statements of a scene without comments and without the size."""
+    lines = (line.partition("#")[0].split() for line in scene.read_text().splitlines())
+    return [line for line in lines if line and line[0] != "size"]
+
+
+@unittest.skipUnless((ROOT / "scenes/models/coral.ply").exists(), "the models of scenes/ are not built")
+class Tutorial(SharedWork):
+    def prepare(self):
+        home = self.work / "clrt"
+        (home / "build").mkdir(parents=True)
+        (home / "build/release").symlink_to(CLRT.parent)
+        (home / "scenes").symlink_to(ROOT / "scenes")
+        script = "set -eu\n" + "".join(shell_text(*block) for block in SCRIPT)
+        done = subprocess.run(["bash", "-c", script], cwd=home, capture_output=True, text=True, timeout=1200)
+        if done.returncode != 0:
+            raise AssertionError(f"the tutorial's commands fail:\n{done.stderr}")
+
+    def test_ten_steps_have_a_picture_each(self):
+        self.assertEqual(PICTURES, [f"tutorial/step{step}.png" for step in range(1, 11)])
+        for picture in PICTURES:
+            self.assertLess((ROOT / "docs" / picture).stat().st_size, 40e3, picture)
+
+    def test_the_page_shows_the_pictures_of_its_commands(self):
+        for picture in PICTURES:
+            mine = f"studio/{pathlib.Path(picture).name}"
+            limit = "max=0.06" if picture in REDUCED else "max=0"
+            self.clrt("compare", mine, ROOT / "docs" / picture, "--fail", limit)
+
+    def test_the_last_scene_is_the_showcase(self):
+        mine, its = statements(self.work / "studio/studio.scn"), statements(SHOWCASE)
+        self.assertEqual(sorted(mine), sorted(its))
+        self.clrt(SHOWCASE, "--aa", "-s", "320x180", "-o", "showcase.png", "-q")
+        self.clrt("compare", "showcase.png", "studio/step9.png", "--fail", "max=0")
+
+
+if __name__ == "__main__":
+    main(1)
