@@ -64,7 +64,7 @@ const char *image_format_names(void)
 #ifdef CLRT_WITH_OPENIMAGEIO
     return "png, jpg, tif, ppm, exr, hdr, pfm";
 #else
-    return "png, pfm";
+    return "png, pfm (more after tools/setup images && tools/render)";
 #endif
 }
 

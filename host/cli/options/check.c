@@ -89,7 +89,8 @@ static bool check_window(Options *options, Error *error)
 static bool check_window(Options *options, Error *error)
 {
     (void)options;
-    return error_set(error, "this build has no window: write the picture with -o FILE");
+    return error_set(error, "this build has no window: write the picture with -o FILE, or add the "
+                            "window: tools/setup window && tools/render SCENE");
 }
 #endif
 
