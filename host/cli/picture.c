@@ -279,6 +279,7 @@ static ExitCode finish(Picture *picture, double start, Error *error)
     resume_close(&picture->resume, run->report.complete);
     if (picture->stopped_by > 0)
         return picture_fail_stopped(picture, error);
+    picture_print_end(picture);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
     return run->report.goal_missed ? picture_fail_goal(run, error) : EXIT_DONE;
@@ -327,7 +328,7 @@ ExitCode picture_make(Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
-    Picture picture = {.run = run, .path = options->output_path};
+    Picture picture = {.run = run, .path = options->output_path, .moment = start};
     stop_watch();
     ExitCode code = check_files(&picture, error);
     if (code == EXIT_DONE)

@@ -1,23 +1,65 @@
 // SPDX-License-Identifier: MIT
-// On a terminal, one line is rewritten and shows the remaining time. A log gets a line for every
-// tenth of the picture, but none in the first second.
+// On a terminal, one line is rewritten and shows the remaining time, or the time spent on compiling
+// kernels. A log gets a line for every tenth of the picture, but none in the first second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
 #include "cli/process.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-Progress progress_begin(bool silent)
+bool progress_on_terminal(void)
 {
     const char *kind = getenv("TERM");
-    const bool dumb = kind == NULL || strcmp(kind, "dumb") == 0;
+    return isatty(STDERR_FILENO) && kind != NULL && strcmp(kind, "dumb") != 0;
+}
+
+Progress progress_begin(bool silent)
+{
     Progress progress = {
-        .silent = silent, .terminal = isatty(STDERR_FILENO) && !dumb, .start = clock_seconds()};
+        .silent = silent, .terminal = progress_on_terminal(), .start = clock_seconds()};
     return progress;
+}
+
+// The builds that are running, and the start of the first.
+static struct {
+    pthread_mutex_t mutex;
+    unsigned builds;
+    double start;
+} compiling = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+
+// Rewrites the line every second until the last build ends.
+static void *show_seconds(void *unused)
+{
+    bool is_running = true;
+    while (is_running) {
+        pthread_mutex_lock(&compiling.mutex);
+        is_running = compiling.builds > 0;
+        if (is_running)
+            fprintf(stderr, "\r\033[Kcompiling kernels, %.0f s", clock_seconds() - compiling.start);
+        pthread_mutex_unlock(&compiling.mutex);
+        if (is_running)
+            sleep(1);
+    }
+    return unused;
+}
+
+void progress_show_compiling(bool begins)
+{
+    pthread_t thread;
+    pthread_mutex_lock(&compiling.mutex);
+    if (!begins && --compiling.builds == 0)
+        fprintf(stderr, "\r\033[K");
+    if (begins && compiling.builds++ == 0) {
+        compiling.start = clock_seconds();
+        if (pthread_create(&thread, NULL, show_seconds, NULL) == 0)
+            pthread_detach(thread);
+    }
+    pthread_mutex_unlock(&compiling.mutex);
 }
 
 // Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier
