@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 
+#include <stdio.h>
 #include <string.h>
 
 bool option_argument_is_optional(const Option *option)
@@ -35,6 +36,20 @@ static bool store_part(const Option *option, double *part, const char *text, Err
                      text);
 }
 
+// Rejects an area. If text is one number, suggests a square.
+static bool reject_area(const Option *option, const char *text, Error *error)
+{
+    int64_t side;
+    char letter[] = {'-', option->letter, '\0'}, square[80] = "";
+    const char *end = text + strlen(text);
+    if (integer_parse(text, end, &side) == end && side >= 1 && side <= option->limit)
+        snprintf(square, sizeof square, ": perhaps %s%s %lldx%lld",
+                 option->letter != 0 ? letter : "--", option->letter != 0 ? "" : option->name,
+                 (long long)side, (long long)side);
+    return error_set(error, "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s",
+                     option->name, (long long)option->limit, text, square);
+}
+
 static bool store_area(const Option *option, uint32_t *area, const char *text, Error *error)
 {
     int64_t width, height;
@@ -42,8 +57,7 @@ static bool store_area(const Option *option, uint32_t *area, const char *text, E
     const char *cross = integer_parse(text, end, &width);
     if (cross == NULL || *cross != 'x' || integer_parse(cross + 1, end, &height) != end ||
         width < 1 || width > option->limit || height < 1 || height > option->limit)
-        return error_set(error, "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'",
-                         option->name, (long long)option->limit, text);
+        return reject_area(option, text, error);
     area[0] = (uint32_t)width;
     area[1] = (uint32_t)height;
     return true;

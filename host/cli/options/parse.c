@@ -11,6 +11,7 @@
 #include <assert.h>
 #include <getopt.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FIRST_LONG 256 // getopt returns this plus the row of a long option; larger than any letter
 
@@ -32,13 +33,32 @@ static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
     *shorts = '\0';
 }
 
-static bool unknown_option(const char *word, Error *error)
+// Names of other programs for options of clrt.
+static const struct {
+    const char *name, *option;
+} synonyms[] = {
+    {"samples", "aa=N"},   {"spp", "aa=N"},        {"antialias", "aa=N"},
+    {"width", "size=WxH"}, {"height", "size=WxH"}, {"resolution", "size"},
+    {"camera", "view"},    {"depth", "max-level"}, {"bounces", "max-level"},
+    {"cores", "threads"},  {"gamma", "encode"},    {"animation", "turntable"},
+};
+
+// Returns the option that text names in other programs, or the one with a similar name, or NULL.
+static const char *similar_option(const char *text, size_t length)
 {
     const char *names[OPTIONS_MOST];
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, text, length) == 0)
+            return synonyms[i].option;
     for (size_t i = 0; i < option_count; i++)
         names[i] = option_table[i].name;
+    return word_nearest(text, length, names, option_count);
+}
+
+static bool unknown_option(const char *word, Error *error)
+{
     const char *name = word + strspn(word, "-");
-    const char *nearest = word_nearest(name, strcspn(name, "="), names, option_count);
+    const char *nearest = similar_option(name, strcspn(name, "="));
     if (nearest == NULL || strncmp(word, "--", 2) != 0)
         return error_set(error, "unknown option '%s'; clrt --help lists them", word);
     return error_set(error, "unknown option '%s', perhaps --%s", word, nearest);
@@ -109,12 +129,24 @@ static bool read_scene(Options *options, int count, char **arguments, Error *err
         return error_set(error, "no scene is named; clrt --help shows the usage");
     if (optind + 1 < count)
         return error_set(error,
-                         "one scene at a time: '%s' comes after '%s' (values of --aa and --stats "
-                         "need an equals sign)",
+                         "one scene at a time: '%s' comes after '%s' (values of --stats and --json "
+                         "follow an equals sign)",
                          arguments[optind + 1], arguments[optind]);
     options->scene_path = arguments[optind];
     return kernel_check_request(&options->kernel, error) &&
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
+}
+
+// Returns whether the next word is a valid value of an option with an optional value that is not a
+// file, as in "--aa 4".
+static bool check_loose_value(const Option *option, const char *word, Error *error)
+{
+    Options scratch;
+    Error unused = {0};
+    return option->fallback == NULL || optarg != NULL || word == NULL || access(word, F_OK) == 0 ||
+           !option_store(option, &scratch, word, &unused) ||
+           error_set(error, "the value of --%s follows an equals sign: --%s=%s", option->name,
+                     option->name, word);
 }
 
 // Reads all options. Afterwards optind is the index of the first operand.
@@ -136,7 +168,8 @@ static bool read_options(Options *options, int count, char **arguments, Error *e
             return unknown_option(word != NULL && optind > 1 ? arguments[optind - 1] : word, error);
         const size_t row = option_of(found);
         if (!mark_given(options, row, error) ||
-            !option_store(&option_table[row], options, optarg, error))
+            !option_store(&option_table[row], options, optarg, error) ||
+            !check_loose_value(&option_table[row], arguments[optind], error))
             return false;
     }
 }
