@@ -176,6 +176,7 @@ static bool write_picture(Picture *picture, Error *error)
     provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
+                                    .exposure = options->exposure,
                                     .left = run->settings.left,
                                     .top = run->settings.top,
                                     .whole_width = render_whole_width(&run->settings),

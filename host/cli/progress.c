@@ -7,6 +7,7 @@
 #include "cli/process.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,25 +26,14 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-// The builds that are running, and the start of the first.
-static struct {
-    pthread_mutex_t mutex;
-    unsigned builds;
-    double start;
-} compiling = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+static atomic_uint running_builds;
 
 // Rewrites the line every second until the last build ends.
 static void *show_seconds(void *unused)
 {
-    bool is_running = true;
-    while (is_running) {
-        pthread_mutex_lock(&compiling.mutex);
-        is_running = compiling.builds > 0;
-        if (is_running)
-            fprintf(stderr, "\r\033[Kcompiling kernels, %.0f s", clock_seconds() - compiling.start);
-        pthread_mutex_unlock(&compiling.mutex);
-        if (is_running)
-            sleep(1);
+    for (unsigned seconds = 0; atomic_load(&running_builds) > 0; seconds++) {
+        fprintf(stderr, "\r\033[Kcompiling kernels, %u s", seconds);
+        sleep(1);
     }
     return unused;
 }
@@ -51,15 +41,11 @@ static void *show_seconds(void *unused)
 void progress_show_compiling(bool begins)
 {
     pthread_t thread;
-    pthread_mutex_lock(&compiling.mutex);
-    if (!begins && --compiling.builds == 0)
-        fprintf(stderr, "\r\033[K");
-    if (begins && compiling.builds++ == 0) {
-        compiling.start = clock_seconds();
-        if (pthread_create(&thread, NULL, show_seconds, NULL) == 0)
-            pthread_detach(thread);
-    }
-    pthread_mutex_unlock(&compiling.mutex);
+    if (!begins && atomic_fetch_sub(&running_builds, 1) == 1)
+        fputs("\r\033[K", stderr);
+    if (begins && atomic_fetch_add(&running_builds, 1) == 0 &&
+        pthread_create(&thread, NULL, show_seconds, NULL) == 0)
+        pthread_detach(thread);
 }
 
 // Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier

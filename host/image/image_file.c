@@ -104,7 +104,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
 {
     unsigned char *bytes = NULL;
     if (!format->is_float) {
-        bytes = encode_bytes(framebuffer, settings->encoding, cause);
+        bytes = encode_bytes(framebuffer, settings, cause);
         if (bytes == NULL)
             return false;
     }

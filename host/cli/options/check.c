@@ -107,6 +107,13 @@ static bool check_format(Options *options, Error *error)
                      image_format_names());
 }
 
+static bool check_exposure(const Options *options, Error *error)
+{
+    return options->exposure == 0 || !image_format_is_float(options->format) ||
+           error_set(error, "--exposure is for 8-bit files: %s holds the traced colors",
+                     options->format);
+}
+
 static bool check_certainty(const Options *options, Error *error)
 {
     if (!aov_needs(options->aovs, AOV_NEEDS_CERTAINTY))
@@ -201,10 +208,10 @@ bool options_check_purpose(Options *options, Error *error)
         return check_window(options, error);
     if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    return check_format(options, error) && check_aovs(options, error) &&
-           check_part(options, error) && check_resume(options, error) &&
-           check_frames(options, error) && check_certainty(options, error) &&
-           check_streams(options, error);
+    return check_format(options, error) && check_exposure(options, error) &&
+           check_aovs(options, error) && check_part(options, error) &&
+           check_resume(options, error) && check_frames(options, error) &&
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

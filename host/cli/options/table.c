@@ -25,6 +25,8 @@ const Option option_table[] = {
      "write this format regardless of the ending (default for standard output: png)"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "values of 8-bit files: raw (default) or srgb"},
+    {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE,
+     "multiply the colors of 8-bit files by 2^EV, as the keys + and - do in the window"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
      "add channels to an EXR file; the names are below; all adds those that need no reference"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
