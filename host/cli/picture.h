@@ -13,6 +13,7 @@ typedef struct {
     const char *path; // of the output file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
+    Framebuffer film;       // the frames of an animated file, below each other; empty without one
     Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
     uint32_t *samples;      // samples per pixel, for the layers; NULL if all pixels have the same

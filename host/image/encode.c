@@ -14,7 +14,7 @@ void encode_channels(const float *values, size_t count, Encoding encoding, doubl
 {
     const float factor = (float)gain;
     for (size_t i = 0; i < count; i++) {
-        const double value = fmin((double)(values[i] * factor), 1);
+        const double value = (double)(values[i] * factor < 1 ? values[i] * factor : 1);
         const double shown = encoding == ENCODE_SRGB ? srgb_curve(value) : value;
         bytes[i] = (unsigned char)(shown * 255 + 0.5);
     }

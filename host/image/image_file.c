@@ -25,7 +25,7 @@ static const Format formats[] = {
 #ifdef CLRT_WITH_OPENIMAGEIO
     {"jpg", "jpeg", false},  {"jpeg", "jpeg", false}, {"tif", "tiff", false},
     {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"exr", "openexr", true},
-    {"hdr", "hdr", true},
+    {"hdr", "hdr", true},    {"gif", "gif", false},
 #endif
 };
 
@@ -114,6 +114,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
         .width = (int)framebuffer->width,
         .height = (int)framebuffer->height,
+        .frames = (int)settings->frames,
         .left = (int)settings->left,
         .top = (int)settings->top,
         .whole_width = (int)settings->whole_width,

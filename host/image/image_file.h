@@ -14,9 +14,10 @@ typedef struct {
 } ImageText;
 
 typedef struct {
-    const char *format; // png, jpg, tif, ppm, exr, hdr or pfm
+    const char *format; // png, jpg, tif, ppm, exr, hdr, gif or pfm
     Encoding encoding;  // for 8-bit formats; float formats store values unchanged
     double exposure;    // for 8-bit formats, in stops
+    uint32_t frames;    // of a GIF, below each other in the framebuffer; 0 counts as 1
     const ImageText *texts;
     size_t text_count;
     // A crop's position in the whole picture and the whole picture's size, for formats that store

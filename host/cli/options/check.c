@@ -94,6 +94,9 @@ static bool check_window(Options *options, Error *error)
 }
 #endif
 
+// The way to films that clrt does not write; their name follows.
+#define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
+
 static bool check_format(Options *options, Error *error)
 {
     const char *path = options->output_path;
@@ -102,9 +105,14 @@ static bool check_format(Options *options, Error *error)
             strcmp(path, "-") == 0 ? image_format_named("png") : image_format_of_path(path);
     if (options->format == NULL && strcmp(path, "-") == 0)
         options->format = "pfm";
-    return options->format != NULL ||
-           error_set(error, "%s: the ending names no format; this build writes %s", path,
-                     image_format_names());
+    if (options->format == NULL)
+        return error_set(error, "%s: the ending names no format; this build writes %s%s%s", path,
+                         image_format_names(), frames_are_many(&options->frames) ? FILM : "",
+                         frames_are_many(&options->frames) ? path : "");
+    options->frames.is_film = strcmp(options->format, "gif") == 0;
+    return !options->frames.is_film || frames_are_many(&options->frames) ||
+           error_set(error, "a GIF holds the pictures of --turntable or --frames: give one, or "
+                            "another format");
 }
 
 static bool check_exposure(const Options *options, Error *error)

@@ -4,7 +4,6 @@
 
 #include "base/number.h"
 
-#include <stdio.h>
 #include <string.h>
 
 bool option_argument_is_optional(const Option *option)
@@ -36,28 +35,18 @@ static bool store_part(const Option *option, double *part, const char *text, Err
                      text);
 }
 
-// Rejects an area. If text is one number, suggests a square.
-static bool reject_area(const Option *option, const char *text, Error *error)
-{
-    int64_t side;
-    char letter[] = {'-', option->letter, '\0'}, square[80] = "";
-    const char *end = text + strlen(text);
-    if (integer_parse(text, end, &side) == end && side >= 1 && side <= option->limit)
-        snprintf(square, sizeof square, ": perhaps %s%s %lldx%lld",
-                 option->letter != 0 ? letter : "--", option->letter != 0 ? "" : option->name,
-                 (long long)side, (long long)side);
-    return error_set(error, "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s",
-                     option->name, (long long)option->limit, text, square);
-}
-
 static bool store_area(const Option *option, uint32_t *area, const char *text, Error *error)
 {
     int64_t width, height;
     const char *end = text + strlen(text);
     const char *cross = integer_parse(text, end, &width);
+    const bool is_side = cross == end && width >= 1 && width <= option->limit;
     if (cross == NULL || *cross != 'x' || integer_parse(cross + 1, end, &height) != end ||
         width < 1 || width > option->limit || height < 1 || height > option->limit)
-        return reject_area(option, text, error);
+        return error_set(error,
+                         "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s%s%s%s",
+                         option->name, (long long)option->limit, text, is_side ? ", perhaps " : "",
+                         is_side ? text : "", is_side ? "x" : "", is_side ? text : "");
     area[0] = (uint32_t)width;
     area[1] = (uint32_t)height;
     return true;

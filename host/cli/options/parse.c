@@ -37,28 +37,22 @@ static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
 static const struct {
     const char *name, *option;
 } synonyms[] = {
-    {"samples", "aa=N"},   {"spp", "aa=N"},        {"antialias", "aa=N"},
-    {"width", "size=WxH"}, {"height", "size=WxH"}, {"resolution", "size"},
-    {"camera", "view"},    {"depth", "max-level"}, {"bounces", "max-level"},
-    {"cores", "threads"},  {"gamma", "encode"},    {"animation", "turntable"},
+    {"samples", "aa=N"},      {"spp", "aa=N"},        {"width", "size=WxH"},
+    {"height", "size=WxH"},   {"resolution", "size"}, {"depth", "max-level"},
+    {"bounces", "max-level"}, {"camera", "view"},
 };
-
-// Returns the option that text names in other programs, or the one with a similar name, or NULL.
-static const char *similar_option(const char *text, size_t length)
-{
-    const char *names[OPTIONS_MOST];
-    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
-        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, text, length) == 0)
-            return synonyms[i].option;
-    for (size_t i = 0; i < option_count; i++)
-        names[i] = option_table[i].name;
-    return word_nearest(text, length, names, option_count);
-}
 
 static bool unknown_option(const char *word, Error *error)
 {
+    const char *names[OPTIONS_MOST];
     const char *name = word + strspn(word, "-");
-    const char *nearest = similar_option(name, strcspn(name, "="));
+    const size_t length = strcspn(name, "=");
+    for (size_t i = 0; i < option_count; i++)
+        names[i] = option_table[i].name;
+    const char *nearest = word_nearest(name, length, names, option_count);
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, name, length) == 0)
+            nearest = synonyms[i].option;
     if (nearest == NULL || strncmp(word, "--", 2) != 0)
         return error_set(error, "unknown option '%s'; clrt --help lists them", word);
     return error_set(error, "unknown option '%s', perhaps --%s", word, nearest);
@@ -137,8 +131,7 @@ static bool read_scene(Options *options, int count, char **arguments, Error *err
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
-// Returns whether the next word is a valid value of an option with an optional value that is not a
-// file, as in "--aa 4".
+// Rejects a word after an option, as in "--aa 4", that is a valid value of the option and no file.
 static bool check_loose_value(const Option *option, const char *word, Error *error)
 {
     Options scratch;

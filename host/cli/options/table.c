@@ -84,7 +84,7 @@ const Option option_table[] = {
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
-     "each; numbers replace #### in the file's name or precede its ending"},
+     "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
     {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw views A to B, or pictures A to B of the turntable, or every S-th of them"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
