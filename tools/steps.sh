@@ -44,7 +44,12 @@ step() {
         echo "$name: failed after $((SECONDS - begun)) s" >&2
         exit 1
     }
-    echo "$name: done in $((SECONDS - begun)) s; next: $next" >&2
+    step_had_no_work || echo "$name: done in $((SECONDS - begun)) s; next: $next" >&2
+}
+
+# Returns whether the last step was a build of files that are all up to date.
+step_had_no_work() {
+    grep -q "^ninja: no work to do" "$step_log"
 }
 
 step_log=$(mktemp)

@@ -26,25 +26,25 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-static atomic_uint running_builds;
+static atomic_uint running_builds, series; // series counts the times that a first build began
 
-// Rewrites the line every second until the last build ends.
-static void *show_seconds(void *unused)
+// Rewrites the line every second until the last build of the series ends.
+static void *show_seconds(void *own)
 {
-    for (unsigned seconds = 0; atomic_load(&running_builds) > 0; seconds++) {
+    for (unsigned seconds = 0; running_builds > 0 && series == (uintptr_t)own; seconds++) {
         fprintf(stderr, "\r\033[Kcompiling kernels, %u s", seconds);
         sleep(1);
     }
-    return unused;
+    return NULL;
 }
 
 void progress_show_compiling(bool begins)
 {
     pthread_t thread;
-    if (!begins && atomic_fetch_sub(&running_builds, 1) == 1)
+    if (!begins && --running_builds == 0)
         fputs("\r\033[K", stderr);
-    if (begins && atomic_fetch_add(&running_builds, 1) == 0 &&
-        pthread_create(&thread, NULL, show_seconds, NULL) == 0)
+    if (begins && running_builds++ == 0 &&
+        pthread_create(&thread, NULL, show_seconds, (void *)(uintptr_t)++series) == 0)
         pthread_detach(thread);
 }
 
