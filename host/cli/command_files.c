@@ -43,7 +43,8 @@ static bool add_journal(FilePlan *plan, const Options *options, Error *error)
 
 static bool add_outputs(FilePlan *plan, const Options *options, Error *error)
 {
-    const bool are_many = options->output_path != NULL && frames_are_many(&options->frames);
+    const bool are_many = options->output_path != NULL && !options->frames.is_film &&
+                          frames_are_many(&options->frames);
     const struct {
         const char *role, *path;
     } outputs[] = {

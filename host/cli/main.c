@@ -41,6 +41,8 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
     run.report.options = options;
     run.report.settings = &run.settings;
     cache_open(&run.cache);
+    if (progress_on_terminal() && !options->quiet)
+        run.cache.announce = progress_show_compiling;
     limit_threads(options->threads);
     const ExitCode code = perform_stages(&run, error);
     run_free(&run);

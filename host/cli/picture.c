@@ -15,6 +15,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // The context of the render observer.
 typedef struct {
@@ -165,17 +166,46 @@ static bool write_reference(const Picture *picture, Error *error)
            reference_write(picture, path, error);
 }
 
+// Allocates the film, which is empty at first.
+static bool open_film(Picture *picture, Error *error)
+{
+    const RenderSettings *settings = &picture->run->settings;
+    const uint64_t rows = (uint64_t)frames_count(&picture->run->options->frames) * settings->height;
+    if (rows > INT32_MAX)
+        return error_set(error, "the pictures are too many for one file");
+    const bool ok = framebuffer_make(&picture->film, settings->width, (uint32_t)rows, error);
+    picture->film.height = 0;
+    return ok;
+}
+
+// Returns the number of frames in the film.
+static uint32_t add_to_film(Picture *picture)
+{
+    Framebuffer *film = &picture->film;
+    const Framebuffer *frame = &picture->framebuffer;
+    memcpy(film->pixels + (size_t)film->width * film->height, frame->pixels,
+           (size_t)frame->width * frame->height * sizeof *frame->pixels);
+    film->height += frame->height;
+    return film->height / frame->height;
+}
+
 static bool write_picture(Picture *picture, Error *error)
 {
     Run *run = picture->run;
     Provenance provenance;
     const Options *options = run->options;
     double moment = clock_seconds();
+    const bool is_film = options->frames.is_film;
     framebuffer_hash(&picture->framebuffer, run->report.pixel_hash);
+    const uint32_t film_frames = is_film ? add_to_film(picture) : 0;
+    if (is_film && film_frames < frames_count(&options->frames) && picture->stopped_by == 0)
+        return true;
     report_fill_provenance(&provenance, &run->report);
     provenance_list(&provenance);
     const ImageSettings settings = {.format = options->format,
                                     .encoding = options->encoding,
+                                    .exposure = options->exposure,
+                                    .frames = film_frames,
                                     .left = run->settings.left,
                                     .top = run->settings.top,
                                     .whole_width = render_whole_width(&run->settings),
@@ -183,8 +213,11 @@ static bool write_picture(Picture *picture, Error *error)
                                     .texts = provenance.list,
                                     .text_count = options->no_metadata ? 0 : provenance.count,
                                     .layers = picture->layers.count > 0 ? &picture->layers : NULL};
-    const bool ok = image_write(&picture->framebuffer, picture->path, &settings, error);
+    const bool ok = image_write(is_film ? &picture->film : &picture->framebuffer, picture->path,
+                                &settings, error);
     run->report.write = run_lap(&moment);
+    if (ok && picture->stopped_by == 0)
+        picture_print_end(picture);
     return ok;
 }
 
@@ -306,16 +339,18 @@ static ExitCode make_frames(Picture *picture, double start, Error *error)
     ExitCode outcome = EXIT_DONE;
     const Frames *frames = &run->options->frames;
     const uint32_t count = frames_count(frames);
+    if (frames->is_film && !open_film(picture, error))
+        return EXIT_OUTPUT;
     for (uint32_t place = 0; place < count && outcome <= EXIT_FAULTS; place++) {
         const uint32_t number = frames_at(frames, place);
-        if (stop_signal() != 0) {
+        if (stop_signal() != 0 && !frames->is_film) {
             error_set(error, "stopped: %u of %u pictures are drawn", place, count);
             return (ExitCode)(128 + stop_signal());
         }
         char *name = frames_name(run->options->output_path, number, error);
         if (name == NULL)
             return EXIT_OUTPUT;
-        picture->path = name;
+        picture->path = frames->is_film ? picture->path : name;
         const ExitCode code = make_frame(picture, number, start, error);
         outcome = code > outcome ? code : outcome;
         free(name);
@@ -327,7 +362,7 @@ ExitCode picture_make(Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
-    Picture picture = {.run = run, .path = options->output_path};
+    Picture picture = {.run = run, .path = options->output_path, .moment = start};
     stop_watch();
     ExitCode code = check_files(&picture, error);
     if (code == EXIT_DONE)
@@ -337,6 +372,7 @@ ExitCode picture_make(Run *run, Error *error)
                    ? make_frames(&picture, start, error)
                    : make_frame(&picture, options->view, start, error);
     clear(&picture);
+    framebuffer_free(&picture.film);
     resume_close(&picture.resume, false);
     return code;
 }

@@ -13,12 +13,14 @@ typedef struct {
     const char *path; // of the output file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
+    Framebuffer film;       // the frames of an animated file, below each other; empty without one
     Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
     uint32_t *samples;      // samples per pixel, for the layers; NULL if all pixels have the same
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // a signal; 0 if the picture is complete
+    double moment;          // the end of the previous frame, or the start of the run
 } Picture;
 
 // Prints a note if the error goal is so large that the user may have meant a percentage.
@@ -27,6 +29,10 @@ void picture_warn_of_goal(const Options *options);
 // With --verbose, print the scene, the device and the kernels, and the start of each picture.
 void picture_print_setup(const Run *run);
 void picture_print_beginning(const Picture *picture);
+
+// On a terminal, prints the file's name, the picture's size and the seconds since picture->moment,
+// and sets the moment to the current time.
+void picture_print_end(Picture *picture);
 
 // Fill error for a picture that misses its goal or is stopped, and return the exit status.
 ExitCode picture_fail_goal(const Run *run, Error *error);

@@ -51,6 +51,15 @@ void picture_print_beginning(const Picture *picture)
                 (unsigned long long)tile_count(&run->settings));
 }
 
+void picture_print_end(Picture *picture)
+{
+    const Framebuffer *framebuffer = &picture->framebuffer;
+    const double seconds = run_lap(&picture->moment);
+    if (progress_on_terminal() && !picture->run->options->quiet && strcmp(picture->path, "-") != 0)
+        fprintf(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
+                framebuffer->height, seconds);
+}
+
 ExitCode picture_fail_goal(const Run *run, Error *error)
 {
     const Report *report = &run->report;

@@ -1,23 +1,51 @@
 // SPDX-License-Identifier: MIT
-// On a terminal, one line is rewritten and shows the remaining time. A log gets a line for every
-// tenth of the picture, but none in the first second.
+// On a terminal, one line is rewritten and shows the remaining time, or the time spent on compiling
+// kernels. A log gets a line for every tenth of the picture, but none in the first second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
 #include "cli/process.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-Progress progress_begin(bool silent)
+bool progress_on_terminal(void)
 {
     const char *kind = getenv("TERM");
-    const bool dumb = kind == NULL || strcmp(kind, "dumb") == 0;
+    return isatty(STDERR_FILENO) && kind != NULL && strcmp(kind, "dumb") != 0;
+}
+
+Progress progress_begin(bool silent)
+{
     Progress progress = {
-        .silent = silent, .terminal = isatty(STDERR_FILENO) && !dumb, .start = clock_seconds()};
+        .silent = silent, .terminal = progress_on_terminal(), .start = clock_seconds()};
     return progress;
+}
+
+static atomic_uint running_builds, series; // series counts the times that a first build began
+
+// Rewrites the line every second until the last build of the series ends.
+static void *show_seconds(void *own)
+{
+    for (unsigned seconds = 0; running_builds > 0 && series == (uintptr_t)own; seconds++) {
+        fprintf(stderr, "\r\033[Kcompiling kernels, %u s", seconds);
+        sleep(1);
+    }
+    return NULL;
+}
+
+void progress_show_compiling(bool begins)
+{
+    pthread_t thread;
+    if (!begins && --running_builds == 0)
+        fputs("\r\033[K", stderr);
+    if (begins && running_builds++ == 0 &&
+        pthread_create(&thread, NULL, show_seconds, (void *)(uintptr_t)++series) == 0)
+        pthread_detach(thread);
 }
 
 // Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier

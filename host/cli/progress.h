@@ -15,6 +15,13 @@ typedef struct {
 
 Progress progress_begin(bool silent);
 
+// Returns whether standard error is a terminal that can rewrite lines.
+bool progress_on_terminal(void);
+
+// A Cache's announce for terminals. Shows a line with the elapsed seconds, and clears it at the end
+// of the last build.
+void progress_show_compiling(bool begins);
+
 // A RenderObserver's tile_done; context must point to a Progress.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 

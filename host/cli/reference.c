@@ -217,6 +217,7 @@ bool reference_measure(Picture *picture, Error *error)
 bool reference_write(const Picture *picture, const char *path, Error *error)
 {
     const ImageSettings settings = {.format = image_format_of_path(path),
-                                    .encoding = picture->run->options->encoding};
+                                    .encoding = picture->run->options->encoding,
+                                    .exposure = picture->run->options->exposure};
     return image_write(&picture->reference, path, &settings, error);
 }

@@ -44,6 +44,8 @@ static json_t *settings_json(const Report *report)
                              "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw",
                              "precision", kernel_precision_name(report->choice->precision));
     add_tree(json, report);
+    if (options->exposure != 0)
+        json_object_set_new(json, "exposure", json_real(options->exposure));
     if (report->turned > 0)
         json_object_set_new(json, "turned", json_real(report->turned));
     if (render_is_part(settings))

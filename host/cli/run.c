@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "scene/scn.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // Below this number of triangles, the background thread makes no kernel, because building the tree
@@ -37,7 +38,8 @@ static uint32_t max_level_of(const Options *options, const Scene *scene)
 {
     const char *format = options->format != NULL ? options->format : "png";
     if (options->fits_level)
-        return truncation_level(scene, image_format_half_step(format, options->encoding));
+        return truncation_level(scene, image_format_half_step(format, options->encoding) /
+                                           exp2(options->exposure));
     if (options->max_level < 0 && options->error_goal > 0)
         return truncation_level(scene, options->error_goal * TRUNCATION_PART);
     return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;

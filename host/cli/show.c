@@ -8,6 +8,7 @@
 #include "view/status_text.h"
 #include "view/viewer.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,6 +40,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      .smooth = options->samples > 1,
                                      .uses_bvh = options->uses_bvh,
                                      .encoding = options->encoding,
+                                     .exposure = (int)lround(2 * options->exposure),
                                      .tracer = {.device = options->device,
                                                 .kernel = options->kernel,
                                                 .specialization = options->specialization,

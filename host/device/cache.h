@@ -13,6 +13,9 @@ typedef struct {
     char kernels[CACHE_PATH_SIZE]; // holds PoCL's files; "" if unknown
     bool owns_kernels;             // only clrt stores files in `kernels`
     bool temporary;                // cache_close removes `folder`
+    // Called with true before a program is compiled and with false afterwards, on any thread; may
+    // be NULL.
+    void (*announce)(bool begins);
 } Cache;
 
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that is

@@ -122,7 +122,11 @@ static void drop_manifest(CacheBuild *build, const char *path)
 void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key)
 {
     char path[MANIFEST_PATH_SIZE];
-    *build = (CacheBuild){.cache = cache, .key = key, .lock = cache_lock(cache)};
+    *build = (CacheBuild){.cache = cache, .key = key};
+    build->is_announced = cache->announce != NULL && !cache_has_program(cache, key);
+    if (build->is_announced)
+        cache->announce(true);
+    build->lock = cache_lock(cache);
     if (cache->folder[0] == '\0')
         return;
     build->loaded_count = find_loaded(cache).count;
@@ -160,6 +164,8 @@ void cache_build_end(CacheBuild *build, bool works)
             write_manifest(build, &kernels);
     }
     cache_unlock(build->lock);
+    if (build->is_announced)
+        build->cache->announce(false);
     free(build->manifest);
     *build = (CacheBuild){.lock = -1};
 }

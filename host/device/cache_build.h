@@ -12,6 +12,7 @@ typedef struct {
     char *manifest;        // lines of the intact manifest; NULL without one; owned
     unsigned loaded_count; // kernels that the process had loaded before the build
     int lock;
+    bool is_announced; // cache->announce waits for the end of the build
 } CacheBuild;
 
 // Waits for the lock, and removes the program's files if some are damaged. Borrows cache and key.

@@ -118,7 +118,7 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
 void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream)
 {
     unsigned char bytes[3];
-    encode_channels(color, 3, report->options->encoding, bytes);
+    encode_channels(color, 3, report->options->encoding, 1, bytes);
     fprintf(stream, "the pixel's color (%.9g, %.9g, %.9g), in 8 bits %u %u %u\n", (double)color[0],
             (double)color[1], (double)color[2], bytes[0], bytes[1], bytes[2]);
 }

@@ -25,7 +25,7 @@ static const Format formats[] = {
 #ifdef CLRT_WITH_OPENIMAGEIO
     {"jpg", "jpeg", false},  {"jpeg", "jpeg", false}, {"tif", "tiff", false},
     {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"exr", "openexr", true},
-    {"hdr", "hdr", true},
+    {"hdr", "hdr", true},    {"gif", "gif", false},
 #endif
 };
 
@@ -64,7 +64,7 @@ const char *image_format_names(void)
 #ifdef CLRT_WITH_OPENIMAGEIO
     return "png, jpg, tif, ppm, exr, hdr, pfm";
 #else
-    return "png, pfm";
+    return "png, pfm (more after tools/setup images && tools/render)";
 #endif
 }
 
@@ -104,7 +104,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
 {
     unsigned char *bytes = NULL;
     if (!format->is_float) {
-        bytes = encode_bytes(framebuffer, settings->encoding, cause);
+        bytes = encode_bytes(framebuffer, settings, cause);
         if (bytes == NULL)
             return false;
     }
@@ -114,6 +114,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
         .width = (int)framebuffer->width,
         .height = (int)framebuffer->height,
+        .frames = (int)settings->frames,
         .left = (int)settings->left,
         .top = (int)settings->top,
         .whole_width = (int)settings->whole_width,

@@ -14,8 +14,10 @@ typedef struct {
 } ImageText;
 
 typedef struct {
-    const char *format; // png, jpg, tif, ppm, exr, hdr or pfm
+    const char *format; // png, jpg, tif, ppm, exr, hdr, gif or pfm
     Encoding encoding;  // for 8-bit formats; float formats store values unchanged
+    double exposure;    // for 8-bit formats, in stops
+    uint32_t frames;    // of a GIF, below each other in the framebuffer; 0 counts as 1
     const ImageText *texts;
     size_t text_count;
     // A crop's position in the whole picture and the whole picture's size, for formats that store
@@ -53,10 +55,12 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);
 
-// Rounds count values to the nearest of 256 steps. ENCODE_SRGB applies the sRGB curve (IEC
-// 61966-2-1) first.
-void encode_channels(const float *values, size_t count, Encoding encoding, unsigned char *bytes);
+// Multiplies count values by gain, limits them to 1 and rounds them to the nearest of 256 steps.
+// ENCODE_SRGB applies the sRGB curve (IEC 61966-2-1) before rounding.
+void encode_channels(const float *values, size_t count, Encoding encoding, double gain,
+                     unsigned char *bytes);
 
 // Encodes a whole picture as width * height * 3 bytes. The caller frees them; NULL if memory runs
 // out.
-unsigned char *encode_bytes(const Framebuffer *framebuffer, Encoding encoding, Error *error);
+unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSettings *settings,
+                            Error *error);

@@ -83,18 +83,32 @@ void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
         spec.attribute("ImageDescription", lines);
 }
 
-bool write_pixels(OIIO::ImageOutput &output, const ImageModulePicture &picture, OIIO::TypeDesc type)
+// Writes an animation of 20 frames per second, as subimages.
+bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
+                  const ImageModulePicture &picture)
 {
-    return picture.layer_count > 0 ? write_strips(output, picture)
-                                   : output.write_image(type, picture.pixels);
+    OIIO::ImageSpec spec = whole;
+    spec.height = spec.full_height = picture.height / picture.frames;
+    spec.attribute("FramesPerSecond", 20.0f);
+    const char *pixels = static_cast<const char *>(picture.pixels);
+    const std::vector<OIIO::ImageSpec> specs(static_cast<size_t>(picture.frames), spec);
+    bool ok = output.open(picture.path, picture.frames, specs.data());
+    for (int frame = 0; ok && frame < picture.frames; frame++)
+        ok = (frame == 0 || output.open(picture.path, spec, OIIO::ImageOutput::AppendSubimage)) &&
+             output.write_image(spec.format,
+                                pixels + spec.image_bytes() * static_cast<size_t>(frame));
+    return ok;
 }
 
 // Closes the writer while its target still exists, even after a failure.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
-    const bool written =
-        output.open(picture.path, spec) && write_pixels(output, picture, spec.format);
+    const bool written = picture.frames > 0                 ? write_frames(output, spec, picture)
+                         : !output.open(picture.path, spec) ? false
+                         : picture.layer_count > 0
+                             ? write_strips(output, picture)
+                             : output.write_image(spec.format, picture.pixels);
     return output.close() && written;
 }
 

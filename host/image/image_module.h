@@ -16,6 +16,7 @@ typedef struct {
     const char *format; /* OpenImageIO's name of the format */
     const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
     int width, height;
+    int frames; /* of an animation, below each other; 0: one picture */
     int left, top, whole_width, whole_height; /* of a crop; whole_width is 0 without one */
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */

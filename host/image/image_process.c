@@ -17,7 +17,7 @@
 
 // In the socket, zero-terminated strings, the pixels and the layers follow the request.
 typedef struct {
-    uint64_t width, height, is_float, text_count;
+    uint64_t width, height, frames, is_float, text_count;
     uint64_t left, top, whole_width, whole_height;
     uint64_t string_size, pixel_size;
     uint64_t layer_count, layer_size;
@@ -77,6 +77,7 @@ static bool send_request(const ImageModulePicture *picture)
 {
     Request request = {.width = (uint64_t)picture->width,
                        .height = (uint64_t)picture->height,
+                       .frames = (uint64_t)picture->frames,
                        .left = (uint64_t)picture->left,
                        .top = (uint64_t)picture->top,
                        .whole_width = (uint64_t)picture->whole_width,
@@ -118,6 +119,7 @@ static ImageModulePicture picture_of(const Request *request)
 {
     ImageModulePicture picture = {.width = (int)request->width,
                                   .height = (int)request->height,
+                                  .frames = (int)request->frames,
                                   .left = (int)request->left,
                                   .top = (int)request->top,
                                   .whole_width = (int)request->whole_width,

@@ -5,6 +5,7 @@
 #include "image/formats.h"
 
 #include <errno.h>
+#include <math.h>
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +70,8 @@ static void write_rows(png_structp png, const Picture *picture)
     const size_t width = picture->framebuffer->width;
     for (size_t row = 0; row < picture->framebuffer->height; row++) {
         encode_channels(picture->framebuffer->pixels[row * width], 3 * width,
-                        picture->settings->encoding, picture->row);
+                        picture->settings->encoding, exp2(picture->settings->exposure),
+                        picture->row);
         png_write_row(png, picture->row);
     }
 }

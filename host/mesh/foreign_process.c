@@ -52,7 +52,10 @@ static bool find_program(char path[COMPANION_PATH_SIZE], const char *model, Erro
 static bool find_program(char path[COMPANION_PATH_SIZE], const char *model, Error *error)
 {
     (void)path;
-    return error_set(error, "%s: this build reads only PLY meshes, because it lacks Assimp", model);
+    return error_set(error,
+                     "%s: this build reads only PLY meshes, because it lacks Assimp; add it: "
+                     "tools/setup meshes && tools/render SCENE",
+                     model);
 }
 #endif
 

@@ -49,7 +49,8 @@ extern const size_t aov_count; // at most 32
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds the channels of a comma-separated list to *set. Fails on an unknown or repeated name.
+// Adds the channels of a comma-separated list to *set. "all" stands for all that need no reference.
+// Fails on an unknown or repeated name.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
 // Returns whether any channel in set has this need.

@@ -190,11 +190,15 @@ static const struct {
 static bool unknown_statement(const Tokens *tokens, Token token)
 {
     const char *keywords[STATEMENT_COUNT];
-    for (size_t i = 0; i < STATEMENT_COUNT; i++)
+    char list[256] = "";
+    for (size_t i = 0; i < STATEMENT_COUNT; i++) {
         keywords[i] = statements[i].keyword;
+        strncat(list, i == 0 ? "" : ", ", 3);
+        strncat(list, keywords[i], 16);
+    }
     const char *nearest = word_nearest(token.text, token.length, keywords, STATEMENT_COUNT);
     if (nearest == NULL)
-        return tokens_fail(tokens, token, "expected a statement");
+        return tokens_fail(tokens, token, "expected a statement (%s)", list);
     return tokens_fail(tokens, token, "unknown statement (did you mean '%s'?)", nearest);
 }
 

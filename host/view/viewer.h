@@ -12,6 +12,7 @@ typedef struct {
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     bool smooth, uses_bvh;  // initial values
     Encoding encoding;
+    int exposure; // initial, in half stops
     TracerOptions tracer;
     const char *keys;    // keys to play; may be NULL
     uint32_t quit_after; // number of frames to show; 0: until the user quits

@@ -35,10 +35,11 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
     if (is_first && settings->view > viewer->scene.viewpoint_count)
         return error_set(error, "%s has %zu viewpoints, so there is no view %u",
                          settings->scene_path, viewer->scene.viewpoint_count, settings->view);
-    if (is_first)
+    if (is_first) {
         viewer->state =
             state_begin(&viewer->scene, settings->view, settings->smooth, settings->uses_bvh);
-    else
+        viewer->state.exposure = settings->exposure;
+    } else
         (viewer->model->path == before ? state_adopt : state_open)(&viewer->state, &viewer->scene);
     viewer->request.subject++;
     return views_load(&viewer->views, viewer->model, error) && follow_files(viewer, error);

@@ -74,11 +74,10 @@ static void clear(const Frame *frame)
 {
     const Scene *scene = &frame->model->scene;
     const double gain = state_gain(frame->state);
-    float color[3] = {(float)fmin(scene->background.x * gain, 1),
-                      (float)fmin(scene->background.y * gain, 1),
-                      (float)fmin(scene->background.z * gain, 1)};
+    const float color[3] = {(float)scene->background.x, (float)scene->background.y,
+                            (float)scene->background.z};
     unsigned char bytes[3];
-    encode_channels(color, 3, frame->encoding, bytes);
+    encode_channels(color, 3, frame->encoding, gain, bytes);
     glClearColor((float)bytes[0] / 255, (float)bytes[1] / 255, (float)bytes[2] / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }

@@ -6,13 +6,16 @@ import os
 import subprocess
 import sys
 
-from work import FORMATS, NO_OPENCL, ROOT, SCENE, SharedWork, Work, main, no_fp64
+from work import FORMATS, HAS_EXR, NO_OPENCL, ROOT, SCENE, SharedWork, Work, main, no_fp64
 
 HAS_WINDOW, NO_FP64 = sys.argv[3] == "ON", no_fp64(sys.argv[4])
 CUBE = str(ROOT / "scenes/cube.ply")
 SMALL = [SCENE, "-s", "48x32", "-o"]
+FORMAT_NAMES = ", ".join(FORMATS) + ("" if HAS_EXR else " (more after tools/setup images && tools/render)")
 FILE = [SCENE, "-o", "a.pfm"]
-ONE_SCENE = "one scene at a time: '{}' comes after 'a.scn' (values of --aa and --stats need an equals sign)"
+ONE_SCENE = "one scene at a time: '{}' comes after 'a.scn' (values of --stats and --json follow an equals sign)"
+AFTER_EQUALS_SIGN = "the value of --aa follows an equals sign: --aa=4"
+SIZE = "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '{}'"
 KEYS = "--keys and --quit-after are for the window: leave out -o"
 NO_FILE = "cannot be opened: No such file or directory"
 REFUSALS = [
@@ -25,8 +28,18 @@ REFUSALS = [
     (2, "--size wants a value", [SCENE, "--size"]),
     (2, "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '0x5'", [*FILE, "--size", "0x5"]),
     (2, ONE_SCENE.format("b.scn"), ["a.scn", "b.scn", "-o", "a.pfm"]),
-    (2, ONE_SCENE.format("4"), ["a.scn", "--aa", "4", "-o", "a.pfm"]),
-    (2, f"a.xyz: the ending names no format; this build writes {', '.join(FORMATS)}", ["none.scn", "-o", "a.xyz"]),
+    (2, AFTER_EQUALS_SIGN, ["a.scn", "--aa", "4", "-o", "a.pfm"]),
+    (2, AFTER_EQUALS_SIGN, ["--aa", "4", "a.scn", "-o", "a.pfm"]),
+    (2, AFTER_EQUALS_SIGN, ["--aa", "4", "-o", "a.pfm"]),
+    (2, ONE_SCENE.format("b.json"), ["a.scn", "--stats", "b.json", "-o", "a.pfm"]),
+    (2, SIZE.format("640") + ", perhaps 640x640", ["a.scn", "-s", "640"]),
+    (2, SIZE.format("0"), ["a.scn", "-s", "0"]),
+    (2, SIZE.format("640x"), ["a.scn", "-s", "640x"]),
+    (2, "--tile wants WIDTHxHEIGHT, each between 1 and 65536, not '64', perhaps 64x64", [*FILE, "--tile", "64"]),
+    (2, "unknown option '--samples=4', perhaps --aa=N", [*FILE, "--samples=4"]),
+    (2, "unknown option '--width', perhaps --size=WxH", [*FILE, "--width", "640"]),
+    (2, "unknown option '--bounces', perhaps --max-level", [*FILE, "--bounces", "4"]),
+    (2, f"a.xyz: the ending names no format; this build writes {FORMAT_NAMES}", ["none.scn", "-o", "a.xyz"]),
     (2, "--aa, --aa-adaptive, --error and --time each choose the samples: give one",
      [*FILE, "--aa=3", "--aa-adaptive"]),
     (2, "--aa-adaptive wants a number above 0 and up to 1, not '2'", [*FILE, "--aa-adaptive=2"]),
@@ -67,7 +80,8 @@ class Usage(Work):
 
     def test_without_a_file_there_must_be_a_window(self):
         if not HAS_WINDOW:
-            self.refuses(2, "this build has no window: write the picture with -o FILE", SCENE)
+            self.refuses(2, "this build has no window: write the picture with -o FILE, or add the window: "
+                         "tools/setup window && tools/render SCENE", SCENE)
             return
         told = self.clrt(SCENE, code=2, WAYLAND_DISPLAY=None, DISPLAY=":12345")
         self.assertRegex(told, r"^clrt: no window can be opened \(.*\): write the picture with -o FILE\n$")

@@ -29,6 +29,7 @@ TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
     "format": (PLAIN, PLAIN + ["--format", "png"]),
     "encode": (PLAIN + ["--format", "png"], PLAIN + ["--format", "png", "--encode", "srgb"]),
+    "exposure": (PLAIN + ["--format", "png"], PLAIN + ["--format", "png", "--exposure", "1"]),
     "aov": (PLAIN + ["--format", "exr"], PLAIN + ["--format", "exr", "--aov", "depth"]),
     "no-metadata": (PLAIN + ["--format", "png"], PLAIN + ["--format", "png", "--no-metadata"]),
     "hash": (PLAIN, PLAIN + ["--hash"]),

@@ -34,6 +34,23 @@ class Files(SharedWork):
         self.clrt(*SMALL, "srgb.png", "--encode", "srgb")
         self.expect_png("srgb.png", "plain.pfm", srgb)
 
+    def test_exposure_multiplies_colors_of_8_bit_files_alone(self):
+        for stops in "1", "-1.5":
+            self.clrt(*SMALL, "bright.png", "--exposure", stops, "--encode", "srgb")
+            self.expect_png("bright.png", "plain.pfm", lambda value: srgb(min(1, value * 2 ** float(stops))))
+        self.assertEqual(self.clrt(*SMALL, "bright.png", "--exposure", "2", "--hash"),
+                         self.clrt(*SMALL, "plain.png", "--hash"))
+        self.refuses(2, "--exposure is for 8-bit files: pfm holds the traced colors",
+                     *SMALL, "bright.pfm", "--exposure", "1")
+        self.refuses(2, "--exposure wants stops between -8 and 8, not '9'", *SMALL, "a.png", "--exposure", "9")
+
+    def test_the_ci_recipe_renders_the_picture_of_its_hash(self):
+        recipe = (ROOT / "docs/ci-recipe.yml").read_text()
+        (program, scene, *words), = (line.split()[2:] for line in recipe.splitlines() if "tools/render" in line)
+        self.assertEqual(program, "clrt/tools/render")
+        self.clrt(scene.replace("clrt", str(ROOT), 1), *words)
+        self.assertIn(f"path: {words[words.index('-o') + 1]}\n", recipe)
+
     def test_png_of_one_pixel_and_of_many_chunks_hold_the_picture(self):
         for name, words in (("one", ["-s", "1x1"]), ("many", ["-s", "801x603", "--aa"])):
             for ending in "png", "pfm":

@@ -3,10 +3,12 @@
 # Tests runs with many pictures. Each numbered file must equal the picture that is drawn alone.
 # Usage: test_frames.py CLRT FORMATS
 import json
+import re
 import signal
+import subprocess
 
 from pictures import read_exr, read_header
-from work import SCENE, Work, main, needs_exr
+from work import HAS_EXR, SCENE, Work, main, needs_exr
 
 SMALL = [SCENE, "-s", "32x24"]
 TURNED = [(5, 0, 2), (0, 5, 2), (-5, 0, 2), (0, -5, 2)]
@@ -57,6 +59,38 @@ class Frames(Work):
         some = self.clrt(*SMALL, "--turntable", "6", "--frames", "2-6:3", "-o", "some.pfm", "--hash").split()
         self.assertEqual(some, [hashes[1], hashes[4]])
         self.assertEqual(self.names(".pfm")[6:], ["some.0002.pfm", "some.0005.pfm"])
+
+    @needs_exr
+    def test_a_gif_holds_all_pictures(self):
+        words = ["--turntable", "5", "--aa", "-s", "21x16", SCENE]
+        hashes = self.clrt(*words, "-o", "a.png", "--hash")
+        for name in "a.gif", "b.gif":
+            self.assertEqual(self.clrt(*words, "-o", name, "--hash"), hashes)
+        self.assertEqual(self.names(".gif"), ["a.gif", "b.gif"])
+        self.assert_same_bytes("a.gif", "b.gif")
+        data = self.bytes_of("a.gif")
+        self.assertEqual(data[:10], b"GIF89a" + bytes([21, 0, 16, 0]))
+        # A graphic control extension with a delay of 5 hundredths, and an image of the whole size.
+        frame = rb"\x21\xf9\x04.\x05\x00.\x00\x2c\0\0\0\0\x15\0\x10\0"
+        self.assertEqual(len(re.findall(frame, data, re.DOTALL)), 5)
+
+    def test_one_picture_is_no_film_and_other_films_are_ffmpeg_s(self):
+        if HAS_EXR:
+            self.refuses(2, "a GIF holds the pictures of --turntable or --frames: give one, or another format",
+                         *SMALL, "-o", "a.gif")
+        told = self.clrt(*SMALL, "--turntable", "3", "-o", "a.mp4", code=2)
+        self.assertTrue(told.endswith("; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 "
+                                      "-i turn.%04d.png a.mp4\n"), told)
+
+    @needs_exr
+    def test_a_stopped_film_holds_its_pictures(self):
+        process = self.start(SCENE, "-s", "300x300", "--aa=4", "--turntable", "500", "-o", "a.gif", "--hash",
+                             stdout=subprocess.PIPE)
+        process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        told = process.communicate()[1]
+        self.assertEqual(process.returncode, 130, told)
+        self.assertEqual(self.bytes_of("a.gif")[:6], b"GIF89a")
 
     def test_metadata_tell_the_turn(self):
         self.clrt(*SMALL, "--turntable", "8", "--frames", "2-3", "-o", "a.png")

@@ -33,7 +33,8 @@ COLORED = models.obj(COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0),
 class WithoutAssimp(Work):
     def test_a_format_that_needs_it_is_refused_in_one_sentence(self):
         self.write(a_obj="", a_scn="mesh a.obj\n")
-        sentence = "a.obj: this build reads only PLY meshes, because it lacks Assimp"
+        sentence = "a.obj: this build reads only PLY meshes, because it lacks Assimp; add it: " \
+                   "tools/setup meshes && tools/render SCENE"
         self.fails(sentence, "a.obj")
         self.fails("a.scn:1:6: " + sentence, "a.scn")
 

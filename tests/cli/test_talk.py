@@ -6,6 +6,7 @@
 import json
 import os
 import pty
+import shutil
 import signal
 import time
 import unittest
@@ -85,6 +86,41 @@ class StandardInput(Talk):
         self.assertIn("-o FILE", self.clrt("-", code=2))
 
 
+class Terminal(Talk):
+    def on_terminal(self, *words):
+        """Returns what clrt prints on a terminal, with a cache without kernels."""
+        ours, theirs = pty.openpty()
+        environment = {**os.environ, "TERM": "xterm", "POCL_CACHE_DIR": str(self.work / "cache")}
+        process = self.start(*words, stderr=theirs, env=environment)
+        os.close(theirs)
+        text = b""
+        try:
+            while chunk := os.read(ours, 4096):
+                text += chunk
+        except OSError:  # the program has closed the terminal
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(), 0, text)
+        return text
+
+    def test_compiling_is_announced_once_and_written_files_always(self):
+        compiling, wrote = rb"^\r\x1b\[Kcompiling kernels, 0 s", rb"(?m)^wrote a\.pfm \(16x12, \d+\.\d\d s\)\r$"
+        picture = [*SMALL, "-o", "a.pfm"]
+        text = self.on_terminal(*picture)
+        self.assertRegex(text, compiling)
+        self.assertRegex(text.split(b"\x1b[K")[-1], wrote)
+        text = self.on_terminal(*picture)
+        self.assertNotIn(b"compiling", text)
+        self.assertRegex(text.split(b"\x1b[K")[-1], wrote)
+        self.assertEqual(self.on_terminal(*picture, "-q"), b"")
+
+    def test_every_command_announces_compiling(self):
+        for words in (["--warm"], [*SMALL, "-o", "a.pfm", "--stats"], ["check", SCENE, "--json"],
+                      [*SMALL, "--explain-pixel", "3,3"]):
+            shutil.rmtree(self.work / "cache", ignore_errors=True)
+            self.assertIn(b"compiling kernels, 0 s", self.on_terminal(*words), words)
+
+
 class Stopped(Talk):
     def talk_on_terminal(self, **environment):
         """Returns the terminal output of a stopped picture."""
@@ -109,7 +145,7 @@ class Stopped(Talk):
         for setting in {}, {"NO_COLOR": "1"}:
             text = self.talk_on_terminal(TERM="xterm", **setting)
             self.assertNotRegex(text, rb"\x1b\[[0-9;]*m")
-        self.assertTrue(text.startswith(b"\r\x1b[Ktracing "), text)
+        self.assertRegex(text, rb"^(\r\x1b\[K(compiling kernels, \d+ s)?)*\r\x1b\[Ktracing ")
         line, stopped = text.split(b"\r\x1b[Kclrt: ")
         self.assertNotIn(b"\n", line)
         self.assertRegex(stopped, rb"^stopped: a\.pfm is incomplete, with \d+ of 144 tiles\r\n$")

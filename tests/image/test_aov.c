@@ -314,9 +314,23 @@ static void a_name_that_is_no_channel_is_refused_with_the_nearest(void **state)
     assert_non_null(strstr(other.text, "--aov wants names among depth, normal, position"));
 }
 
+static void all_stands_for_the_channels_without_a_reference(void **state)
+{
+    AovSet set = 0, every = 0;
+    Error error = {0};
+    (void)state;
+    for (size_t i = 0; i < aov_count; i++)
+        assert_true(aov_read_list(aov_table[i].name, &every, &error));
+    assert_true(aov_read_list("all", &set, &error));
+    assert_false(aov_needs(set, AOV_NEEDS_REFERENCE));
+    assert_true(aov_read_list("all,error", &set, &error));
+    assert_int_equal(set, every);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_stands_for_the_channels_without_a_reference),
         cmocka_unit_test(channels_of_small_scenes_are_what_the_oracle_sees),
         cmocka_unit_test(channels_of_a_mesh_are_what_the_oracle_sees),
         cmocka_unit_test(channels_are_in_the_coordinates_of_a_scene_far_away),

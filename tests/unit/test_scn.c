@@ -233,7 +233,9 @@ static void unknown_words_get_the_nearest_one(void **state)
     (void)state;
     expect_error("spheer 0 0 0 1",
                  "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'");
-    expect_error("??", "1:1: expected a statement: found '\?\?'");
+    expect_error("??", "1:1: expected a statement (ambient, background, camera, define, light, "
+                       "material, max_level, mesh, normals, ply_file, sides, size, sphere, up): "
+                       "found '\?\?'");
     expect_error("define gold matte\nmaterial gild",
                  "2:10: undefined material (did you mean 'gold'?): "
                  "found 'gild'; the statement is 'material "

@@ -258,9 +258,9 @@ def stats_tell_the_times_of_frames(screen):
 
 
 def options_choose_what_the_window_opens_with(screen):
-    window = Window(screen, SCENE, "--aa=3", "--no-bvh", "--view", "4", "--bvh", "midpoint",
+    window = Window(screen, SCENE, "--aa=3", "--no-bvh", "--view", "4", "--bvh", "midpoint", "--exposure", "1",
                     "--keys", "h")
-    window.wait("view 4, AA 3x3, BVH off", "320x240")
+    window.wait("view 4, AA 3x3, BVH off", "exposure +1.0", "320x240")
     window.wait("help on")
     window.close()
 

@@ -14,6 +14,7 @@ target_include_directories(
   clrt_library PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/host/library>
                       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(clrt_library PRIVATE clrt_cl)
+add_dependencies(installable clrt_library)
 target_link_options(clrt_library PRIVATE -Wl,--version-script=${library_map})
 
 # Debian splits a library into a package for running programs and a package for building them.

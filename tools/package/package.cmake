@@ -14,6 +14,7 @@ foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian"
     DEPENDS ${CMAKE_SOURCE_DIR}/${source}
     VERBATIM)
   add_custom_target(compress_${name} ALL DEPENDS ${folder}/${name}.gz)
+  add_dependencies(installable compress_${name})
   install(FILES ${folder}/${name}.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endforeach()
 install(FILES README.md tools/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -89,9 +89,13 @@ static bool check_window(Options *options, Error *error)
 static bool check_window(Options *options, Error *error)
 {
     (void)options;
-    return error_set(error, "this build has no window: write the picture with -o FILE");
+    return error_set(error, "this build has no window: write the picture with -o FILE, or add the "
+                            "window: tools/setup window && tools/render SCENE");
 }
 #endif
+
+// The way to films that clrt does not write; their name follows.
+#define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
 static bool check_format(Options *options, Error *error)
 {
@@ -101,9 +105,21 @@ static bool check_format(Options *options, Error *error)
             strcmp(path, "-") == 0 ? image_format_named("png") : image_format_of_path(path);
     if (options->format == NULL && strcmp(path, "-") == 0)
         options->format = "pfm";
-    return options->format != NULL ||
-           error_set(error, "%s: the ending names no format; this build writes %s", path,
-                     image_format_names());
+    if (options->format == NULL)
+        return error_set(error, "%s: the ending names no format; this build writes %s%s%s", path,
+                         image_format_names(), frames_are_many(&options->frames) ? FILM : "",
+                         frames_are_many(&options->frames) ? path : "");
+    options->frames.is_film = strcmp(options->format, "gif") == 0;
+    return !options->frames.is_film || frames_are_many(&options->frames) ||
+           error_set(error, "a GIF holds the pictures of --turntable or --frames: give one, or "
+                            "another format");
+}
+
+static bool check_exposure(const Options *options, Error *error)
+{
+    return options->exposure == 0 || !image_format_is_float(options->format) ||
+           error_set(error, "--exposure is for 8-bit files: %s holds the traced colors",
+                     options->format);
 }
 
 static bool check_certainty(const Options *options, Error *error)
@@ -200,10 +216,10 @@ bool options_check_purpose(Options *options, Error *error)
         return check_window(options, error);
     if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    return check_format(options, error) && check_aovs(options, error) &&
-           check_part(options, error) && check_resume(options, error) &&
-           check_frames(options, error) && check_certainty(options, error) &&
-           check_streams(options, error);
+    return check_format(options, error) && check_exposure(options, error) &&
+           check_aovs(options, error) && check_part(options, error) &&
+           check_resume(options, error) && check_frames(options, error) &&
+           check_certainty(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

@@ -12,6 +12,7 @@
 typedef struct {
     uint32_t first, last, step; // last is 0 without --frames
     uint32_t turntable;         // steps per full turn; 0: frames are views
+    bool is_film;               // one animated file instead of numbered files
 } Frames;
 
 // Parses "A-B" or "A-B:S"; returns false if text is malformed.

@@ -40,10 +40,13 @@ static bool store_area(const Option *option, uint32_t *area, const char *text, E
     int64_t width, height;
     const char *end = text + strlen(text);
     const char *cross = integer_parse(text, end, &width);
+    const bool is_side = cross == end && width >= 1 && width <= option->limit;
     if (cross == NULL || *cross != 'x' || integer_parse(cross + 1, end, &height) != end ||
         width < 1 || width > option->limit || height < 1 || height > option->limit)
-        return error_set(error, "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'",
-                         option->name, (long long)option->limit, text);
+        return error_set(error,
+                         "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s%s%s%s",
+                         option->name, (long long)option->limit, text, is_side ? ", perhaps " : "",
+                         is_side ? text : "", is_side ? "x" : "", is_side ? text : "");
     area[0] = (uint32_t)width;
     area[1] = (uint32_t)height;
     return true;

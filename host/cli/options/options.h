@@ -59,6 +59,7 @@ typedef enum {
 #define TIME_GOAL_MOST 1000000 // seconds
 
 // The largest values of options.
+#define EXPOSURE_MOST   8 // stops, as the window's keys allow
 #define VIEW_MOST       1000000
 #define GROUP_SIDE_MOST 1024
 #define THREADS_MOST    4096
@@ -104,6 +105,7 @@ typedef struct {
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;
+    double exposure;           // in stops
     bool no_metadata;          // omit the metadata of picture files
     bool hash;                 // print the hash of the pixels
     const char *expected_hash; // of the pixels; NULL: do not check

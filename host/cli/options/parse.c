@@ -11,6 +11,7 @@
 #include <assert.h>
 #include <getopt.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FIRST_LONG 256 // getopt returns this plus the row of a long option; larger than any letter
 
@@ -32,13 +33,26 @@ static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
     *shorts = '\0';
 }
 
+// Names of other programs for options of clrt.
+static const struct {
+    const char *name, *option;
+} synonyms[] = {
+    {"samples", "aa=N"},      {"spp", "aa=N"},        {"width", "size=WxH"},
+    {"height", "size=WxH"},   {"resolution", "size"}, {"depth", "max-level"},
+    {"bounces", "max-level"}, {"camera", "view"},
+};
+
 static bool unknown_option(const char *word, Error *error)
 {
     const char *names[OPTIONS_MOST];
+    const char *name = word + strspn(word, "-");
+    const size_t length = strcspn(name, "=");
     for (size_t i = 0; i < option_count; i++)
         names[i] = option_table[i].name;
-    const char *name = word + strspn(word, "-");
-    const char *nearest = word_nearest(name, strcspn(name, "="), names, option_count);
+    const char *nearest = word_nearest(name, length, names, option_count);
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, name, length) == 0)
+            nearest = synonyms[i].option;
     if (nearest == NULL || strncmp(word, "--", 2) != 0)
         return error_set(error, "unknown option '%s'; clrt --help lists them", word);
     return error_set(error, "unknown option '%s', perhaps --%s", word, nearest);
@@ -109,12 +123,23 @@ static bool read_scene(Options *options, int count, char **arguments, Error *err
         return error_set(error, "no scene is named; clrt --help shows the usage");
     if (optind + 1 < count)
         return error_set(error,
-                         "one scene at a time: '%s' comes after '%s' (values of --aa and --stats "
-                         "need an equals sign)",
+                         "one scene at a time: '%s' comes after '%s' (values of --stats and --json "
+                         "follow an equals sign)",
                          arguments[optind + 1], arguments[optind]);
     options->scene_path = arguments[optind];
     return kernel_check_request(&options->kernel, error) &&
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
+}
+
+// Rejects a word after an option, as in "--aa 4", that is a valid value of the option and no file.
+static bool check_loose_value(const Option *option, const char *word, Error *error)
+{
+    Options scratch;
+    Error unused = {0};
+    return option->fallback == NULL || optarg != NULL || word == NULL || access(word, F_OK) == 0 ||
+           !option_store(option, &scratch, word, &unused) ||
+           error_set(error, "the value of --%s follows an equals sign: --%s=%s", option->name,
+                     option->name, word);
 }
 
 // Reads all options. Afterwards optind is the index of the first operand.
@@ -136,7 +161,8 @@ static bool read_options(Options *options, int count, char **arguments, Error *e
             return unknown_option(word != NULL && optind > 1 ? arguments[optind - 1] : word, error);
         const size_t row = option_of(found);
         if (!mark_given(options, row, error) ||
-            !option_store(&option_table[row], options, optarg, error))
+            !option_store(&option_table[row], options, optarg, error) ||
+            !check_loose_value(&option_table[row], arguments[optind], error))
             return false;
     }
 }

@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 
+#include <math.h>
 #include <string.h>
 
 bool set_output(Options *options, const char *text, Error *error)
@@ -17,6 +18,15 @@ bool set_format(Options *options, const char *text, Error *error)
     options->format = image_format_named(text);
     return options->format != NULL ||
            error_set(error, "--format wants one of %s, not '%s'", image_format_names(), text);
+}
+
+bool set_exposure(Options *options, const char *text, Error *error)
+{
+    const char *end = text + strlen(text);
+    return (number_parse(text, end, &options->exposure) == end &&
+            fabs(options->exposure) <= EXPOSURE_MOST) ||
+           error_set(error, "--exposure wants stops between -%d and %d, not '%s'", EXPOSURE_MOST,
+                     EXPOSURE_MOST, text);
 }
 
 bool set_aov(Options *options, const char *text, Error *error)

@@ -25,8 +25,10 @@ const Option option_table[] = {
      "write this format regardless of the ending (default for standard output: png)"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "values of 8-bit files: raw (default) or srgb"},
+    {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE,
+     "multiply the colors of 8-bit files by 2^EV, as the keys + and - do in the window"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
-     "add channels to an EXR file; the names are below"},
+     "add channels to an EXR file; the names are below; all adds those that need no reference"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
     {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
@@ -82,7 +84,7 @@ const Option option_table[] = {
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
-     "each; numbers replace #### in the file's name or precede its ending"},
+     "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
     {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw views A to B, or pictures A to B of the turntable, or every S-th of them"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,

@@ -78,19 +78,11 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
     return ok ? layer : NULL;
 }
 
-// Encodes count pixels from first on, multiplied by gain. Values above 1 become 1.
+// Encodes count pixels from first on, multiplied by gain.
 static void encode_row(const Canvas *canvas, Layer *layer, size_t first, size_t count, double gain)
 {
-    enum { STEP = 256 };
-    float values[3 * STEP];
-    const float factor = (float)gain;
-    for (size_t done = 0; done < count; done += STEP) {
-        const size_t step = count - done < STEP ? count - done : STEP;
-        const float *source = layer->framebuffer.pixels[first + done];
-        for (size_t i = 0; i < 3 * step; i++)
-            values[i] = source[i] * factor < 1 ? source[i] * factor : 1;
-        encode_channels(values, 3 * step, canvas->encoding, layer->bytes + 3 * (first + done));
-    }
+    encode_channels(layer->framebuffer.pixels[first], 3 * count, canvas->encoding, gain,
+                    layer->bytes + 3 * first);
 }
 
 static void encode_tile(const Canvas *canvas, Layer *layer, const Tile *tile, double gain)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+# Steps of tools/setup, tools/render and tools/test, which source this file. On a terminal, a line
+# below the output is rewritten at least every second and shows the step, its percentage and its
+# time. Elsewhere only the lines about finished steps appear.
+set -o pipefail
+
+on_terminal() {
+    [ -t 2 ] && [ "${TERM-dumb}" != dumb ]
+}
+
+# Shows the progress of a command whose output it reads. Lines of ninja, ctest and apt-get
+# (APT::Status-Fd) contain a percentage. Passes lines through that match the pattern $2, if given.
+show_progress() {
+    local name=$1 passed=${2-} percent= line= part status
+    while :; do
+        status=0
+        IFS= read -r -t 1 part || status=$?
+        line+=$part
+        [ $status -eq 0 ] || [ $status -gt 128 ] || break
+        printf '\r\033[K%s%s, %s s' "$name" "$percent" $((SECONDS - begun)) >&2
+        [ $status -eq 0 ] || continue
+        if [[ $line =~ ^[\ \[]*([0-9]+)/([0-9]+)[\ \]] ]]; then
+            percent=", $((100 * BASH_REMATCH[1] / BASH_REMATCH[2])) %"
+        elif [[ $line =~ ^(dl|pm)status:[^:]*:([0-9]+) ]]; then
+            percent=", ${BASH_REMATCH[2]} %"
+        fi
+        [ -z "$passed" ] || [[ ! $line =~ $passed ]] || printf '\r\033[K%s\n' "$line"
+        line=
+    done
+    printf '\r\033[K' >&2
+}
+
+# step NAME NEXT COMMAND...: runs the command and stores its output in the file $step_log. If the
+# command fails, prints the output and exits.
+step() {
+    local name=$1 next=$2 begun=$SECONDS
+    shift 2
+    if on_terminal; then
+        "$@" 2>&1 | tee "$step_log" | show_progress "$name"
+    else
+        "$@" >"$step_log" 2>&1
+    fi || {
+        cat "$step_log" >&2
+        echo "$name: failed after $((SECONDS - begun)) s" >&2
+        exit 1
+    }
+    step_had_no_work || echo "$name: done in $((SECONDS - begun)) s; next: $next" >&2
+}
+
+# Returns whether the last step was a build of files that are all up to date.
+step_had_no_work() {
+    grep -q "^ninja: no work to do" "$step_log"
+}
+
+step_log=$(mktemp)
+trap 'rm -f "$step_log"' EXIT
