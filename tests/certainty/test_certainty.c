@@ -8,6 +8,7 @@
 #include "extremes/support/tier.h"
 #include "image/inline_scenes.h"
 #include "scene/scn.h"
+#include "unit/cmocka_all.h"
 
 #include <math.h>
 #include <string.h>
@@ -124,10 +125,9 @@ static void judge(const Sum *sum)
     assert_int_equal(sum->poor, 0);
 }
 
-static void certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", 990);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/matte.scn", 990);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", 990);
@@ -137,10 +137,9 @@ static void certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic(voi
     judge(&sum);
 }
 
-static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -152,10 +151,9 @@ static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **st
     judge(&sum);
 }
 
-static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     for (size_t i = 0; i < extreme_scene_count; i++) {
         Scene scene = extreme_scenes[i].make();
         check_views(&sum, &scene, extreme_scenes[i].name, 0);
@@ -164,58 +162,38 @@ static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(voi
     judge(&sum);
 }
 
-static void certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic)
 {
-    InlineScenes scenes;
-    Error error = {0};
     Sum sum = {0};
-    (void)state;
-    require(inline_scenes_write(&scenes, &error), &error);
     for (int scene = 0; scene < INLINE_COUNT; scene++) {
         char path[INLINE_PATH_SIZE];
-        inline_scenes_path(&scenes, (InlineScene)scene, path);
+        inline_scenes_path((InlineScene)scene, path);
         check_file(&sum, path, 0);
     }
-    inline_scenes_remove(&scenes);
     judge(&sum);
 }
 
 // A tie between coincident triangles is as certain as a hit of either alone.
-static void coincident_triangles_are_certified(void **state)
+TEST(coincident_triangles_are_certified)
 {
     Sum sum = {0};
-    (void)state;
     Scene scene = extreme_coincident();
     check_views(&sum, &scene, "coincident", 980);
     scene_free(&scene);
     judge(&sum);
 }
 
-static int open_office(void **state)
+SET_UP(open_office)
 {
     Error error = {0};
-    (void)state;
     if (office_open(&office, &error))
         return 0;
     print_message("%s\n", error.text);
     return -1;
 }
 
-static int close_office(void **state)
+TEAR_DOWN(close_office)
 {
-    (void)state;
     office_close(&office);
     return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(coincident_triangles_are_certified),
-        cmocka_unit_test(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic),
-    };
-    return cmocka_run_group_tests(tests, open_office, close_office);
 }

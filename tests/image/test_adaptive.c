@@ -28,9 +28,8 @@ static const char *const scenes[] = {SCENES "simple.scn", SCENES "reflections.sc
                                      CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
-static void every_form_threads_and_tree_refine_the_same(void **state)
+TEST(every_form_threads_and_tree_refine_the_same)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         PictureRequest usual = adaptive(square(scenes[scene], 97), 0.02f);
         usual.height = 61;
@@ -39,9 +38,8 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
 }
 
 // The second step knows more samples around a cell, but it reuses all existing samples.
-static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
+TEST(refining_in_steps_takes_as_many_samples_as_at_once)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         uint64_t samples[2];
         PictureRequest once = adaptive(square(scenes[scene], 120), 0.01f);
@@ -91,25 +89,22 @@ static void expect_error_of_uniform(const char *scene, const Saving *saving)
     framebuffer_free(&refined);
 }
 
-static void a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them(void **state)
+TEST(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them)
 {
-    (void)state;
     static const Saving saving = {0.1f, 4, 8};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         expect_error_of_uniform(scenes[scene], &saving);
 }
 
-static void a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them(void **state)
+TEST(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them)
 {
-    (void)state;
     static const Saving saving = {0.03f, 8, 25};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         expect_error_of_uniform(scenes[scene], &saving);
 }
 
-static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
+TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
 {
-    (void)state;
     uint64_t samples;
     PictureRequest request = adaptive(square(scenes[0], 30), 0.001f);
     request.max_level = 0;
@@ -138,9 +133,8 @@ static const char *write_spheres(const double radii[], int count)
 }
 
 // Neighboring spheres are three pixels apart.
-static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
+TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
 {
-    (void)state;
     static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
     double expected = 0, sum = 0;
     PictureRequest request = adaptive(square(write_spheres(radii, 6), 181), 1);
@@ -175,9 +169,8 @@ static const char *write_faint_sphere(void)
     return path;
 }
 
-static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
+TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)
 {
-    (void)state;
     uint64_t samples;
     PictureRequest plain = square(write_faint_sphere(), 100), many = plain;
     many.samples = 32;
@@ -191,18 +184,4 @@ static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
     framebuffer_free(&first);
     framebuffer_free(&exact);
     remove(request.scene_path);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
-        cmocka_unit_test(refining_in_steps_takes_as_many_samples_as_at_once),
-        cmocka_unit_test(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them),
-        cmocka_unit_test(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them),
-        cmocka_unit_test(a_picture_of_one_color_takes_a_sample_a_pixel),
-        cmocka_unit_test(a_faint_outline_is_placed_with_two_samples_a_pixel),
-        cmocka_unit_test(thousands_of_spheres_smaller_than_pixels_are_all_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

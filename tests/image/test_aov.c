@@ -156,17 +156,15 @@ static void check(const char *path, uint32_t step)
     scene_free(&scene);
 }
 
-static void channels_of_small_scenes_are_what_the_oracle_sees(void **state)
+TEST(channels_of_small_scenes_are_what_the_oracle_sees)
 {
-    (void)state;
     check(SOURCE_SCENE("scenes/reflections.scn"), 2);
     check(SOURCE_SCENE("scenes/silhouette.scn"), 4);
     check(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
 }
 
-static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
+TEST(channels_of_a_mesh_are_what_the_oracle_sees)
 {
-    (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -174,11 +172,10 @@ static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
     check(SOURCE_SCENE("scenes/creature.scn"), 8);
 }
 
-static void channels_are_in_the_coordinates_of_a_scene_far_away(void **state)
+TEST(channels_are_in_the_coordinates_of_a_scene_far_away)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
     check(path, 2);
 }
 
@@ -225,9 +222,8 @@ static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP3
                                        {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}};
 #define CHOICES (sizeof choices / sizeof *choices)
 
-static void every_form_of_the_kernels_gives_the_same_channels(void **state)
+TEST(every_form_of_the_kernels_gives_the_same_channels)
 {
-    (void)state;
     for (size_t i = 0; i < CHOICES; i++) {
         PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
         request.choice = choices[i];
@@ -235,10 +231,9 @@ static void every_form_of_the_kernels_gives_the_same_channels(void **state)
     }
 }
 
-static void every_form_over_one_kind_of_nodes_counts_the_same_tests(void **state)
+TEST(every_form_over_one_kind_of_nodes_counts_the_same_tests)
 {
     const KernelChoice own = form_choice();
-    (void)state;
     for (size_t i = 0; i < CHOICES; i++) {
         PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
         request.choice = choices[i];
@@ -247,10 +242,9 @@ static void every_form_over_one_kind_of_nodes_counts_the_same_tests(void **state
     }
 }
 
-static void tiles_change_no_channel(void **state)
+TEST(tiles_change_no_channel)
 {
     PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
     request.tile_width = 13;
     request.tile_height = 7;
     check_same(&request, JUDGED ",samples,boxtests,tritests");
@@ -265,13 +259,12 @@ static double sum_of(const Layers *layers, uint32_t channel)
     return sum;
 }
 
-static void tests_and_bounces_of_pixels_add_up_to_those_of_the_picture(void **state)
+TEST(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture)
 {
     Layers layers;
     uint64_t tallies[TALLY_KINDS];
     Framebuffer picture = {0};
     PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
     request.choice = choices[0];
     request.tallies = tallies;
     take_values(&request, "bounces,boxtests,tritests", &layers, &picture);
@@ -289,12 +282,11 @@ static void tests_and_bounces_of_pixels_add_up_to_those_of_the_picture(void **st
     framebuffer_free(&picture);
 }
 
-static void the_picture_keeps_its_bits_with_channels(void **state)
+TEST(the_picture_keeps_its_bits_with_channels)
 {
     Layers layers;
     Framebuffer picture = {0}, plain = {0};
     PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
     draw(&request, &plain);
     take_values(&request, JUDGED ",boxtests", &layers, &picture);
     assert_true(pictures_equal(&picture, &plain));
@@ -303,29 +295,12 @@ static void the_picture_keeps_its_bits_with_channels(void **state)
     framebuffer_free(&plain);
 }
 
-static void a_name_that_is_no_channel_is_refused_with_the_nearest(void **state)
+TEST(a_name_that_is_no_channel_is_refused_with_the_nearest)
 {
     AovSet set = 0;
     Error error = {0}, other = {0};
-    (void)state;
     assert_false(aov_read_list("depth,normals", &set, &error));
     assert_string_equal(error.text, "--aov knows no channel 'normals', perhaps normal");
     assert_false(aov_read_list("depth,", &set, &other));
     assert_non_null(strstr(other.text, "--aov wants names among depth, normal, position"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(channels_of_small_scenes_are_what_the_oracle_sees),
-        cmocka_unit_test(channels_of_a_mesh_are_what_the_oracle_sees),
-        cmocka_unit_test(channels_are_in_the_coordinates_of_a_scene_far_away),
-        cmocka_unit_test(every_form_of_the_kernels_gives_the_same_channels),
-        cmocka_unit_test(every_form_over_one_kind_of_nodes_counts_the_same_tests),
-        cmocka_unit_test(tiles_change_no_channel),
-        cmocka_unit_test(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture),
-        cmocka_unit_test(the_picture_keeps_its_bits_with_channels),
-        cmocka_unit_test(a_name_that_is_no_channel_is_refused_with_the_nearest),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

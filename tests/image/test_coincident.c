@@ -133,10 +133,9 @@ static uint32_t expected_id(uint32_t pair, Sides sides)
     return NOTHING;
 }
 
-static void the_lowest_id_that_may_be_met_is_seen_at_every_pixel(void **state)
+TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
 {
     char first[TEMPORARY_PATH], second[TEMPORARY_PATH], scene[TEMPORARY_PATH];
-    (void)state;
     write_pairs(first, false);
     write_pairs(second, true);
     for (size_t form = 0; form < FORMS; form++) {
@@ -226,9 +225,8 @@ static void assert_same(const Framebuffer *one, Framebuffer *other)
     framebuffer_free(other);
 }
 
-static void a_copy_of_a_mesh_changes_no_bit_of_its_picture(void **state)
+TEST(a_copy_of_a_mesh_changes_no_bit_of_its_picture)
 {
-    (void)state;
     for (size_t form = 0; form < FORMS; form++)
         for (int two_sided = 0; two_sided < 2; two_sided++) {
             const char *sides = two_sided == 1 ? "two" : "one";
@@ -241,9 +239,8 @@ static void a_copy_of_a_mesh_changes_no_bit_of_its_picture(void **state)
         }
 }
 
-static void turning_the_corners_of_all_triangles_changes_no_bit(void **state)
+TEST(turning_the_corners_of_all_triangles_changes_no_bit)
 {
-    (void)state;
     for (size_t form = 0; form < FORMS; form++) {
         Framebuffer usual = draw_sheet(0, -1, "one", &forms[form]);
         for (int order = 1; order < 3; order++) {
@@ -252,14 +249,4 @@ static void turning_the_corners_of_all_triangles_changes_no_bit(void **state)
         }
         framebuffer_free(&usual);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_lowest_id_that_may_be_met_is_seen_at_every_pixel),
-        cmocka_unit_test(a_copy_of_a_mesh_changes_no_bit_of_its_picture),
-        cmocka_unit_test(turning_the_corners_of_all_triangles_changes_no_bit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,28 +125,25 @@ static void check_scene(const char *path, uint32_t samples)
     }
 }
 
-static void what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form(void **state)
+TEST(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
-    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
+    inline_scenes_path(INLINE_MIRRORS, path);
     check_scene(path, 1);
 }
 
-static void the_same_of_several_samples(void **state)
+TEST(the_same_of_several_samples)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     check_scene(SOURCE_SCENE("scenes/reflections.scn"), 3);
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
     check_scene(path, 2);
 }
 
-static void the_same_of_a_large_mesh(void **state)
+TEST(the_same_of_a_large_mesh)
 {
-    (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -218,25 +215,13 @@ static void check_bounds_of(const char *path, const KernelChoice *choice)
     assert_true(bounds.largest <= 1 && bounds.largest > 1e-3);
 }
 
-static void distances_are_off_by_less_than_is_told(void **state)
+TEST(distances_are_off_by_less_than_is_told)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[0]);
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[2]);
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
     check_bounds_of(path, &choices[1]);
-    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
+    inline_scenes_path(INLINE_MIRRORS, path);
     check_bounds_of(path, &choices[0]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form),
-        cmocka_unit_test(the_same_of_several_samples),
-        cmocka_unit_test(the_same_of_a_large_mesh),
-        cmocka_unit_test(distances_are_off_by_less_than_is_told),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

@@ -128,9 +128,8 @@ static void assert_floor(const Told *told, uint32_t level, size_t number, double
 
 // The eye is at a distance of 5 from the center of a sphere of radius 1, so the hit is at 4. The
 // hit faces the light at the eye: ambient 0.1 plus 0.5 * 0.5 * 1, times 0.8.
-static void a_sphere_seen_head_on(void **state)
+TEST(a_sphere_seen_head_on)
 {
-    (void)state;
     const Told told = tell(SCENE("light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\n"
                                  "camera 0 -5 0 0 0 0 90\n"),
                            2, 2);
@@ -148,9 +147,8 @@ static void a_sphere_seen_head_on(void **state)
 
 // The ray of pixel (0, 0) has direction (-0.8, 1, 0.8), which misses the sphere by 3.7 from its
 // center.
-static void a_ray_past_the_sphere(void **state)
+TEST(a_ray_past_the_sphere)
 {
-    (void)state;
     const Told told = tell(SCENE("light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\n"
                                  "camera 0 -5 0 0 0 0 90\n"),
                            0, 0);
@@ -165,9 +163,8 @@ static void a_ray_past_the_sphere(void **state)
 
 // The light is 4 above the point (1e-3, 0, 0). Between them is a ball of radius 0.5, whose lowest
 // point is 0.5 away. The eye is sqrt(16 + 0.16) away.
-static void a_point_under_a_ball(void **state)
+TEST(a_point_under_a_ball)
 {
-    (void)state;
     const Told told = tell(SCENE(LAMP_OVER_BALL "camera 1e-3 -4 0.4 1e-3 0 0 90\n"), 2, 2);
     assert_floor(&told, 0, 0, 4.019950);
     assert_vector(told.rays[0].normal, 0, 0, 1);
@@ -183,9 +180,8 @@ static void a_point_under_a_ball(void **state)
 // radius of 4 * 0.169031 = 0.676123. At 0.65, the light is at a distance of sqrt(0.65^2 + 16) =
 // 4.052468. The ball's center is 1.091310 along this line and 0.481182 off it. The hit is sqrt(0.25
 // - 0.481182^2) = 0.135860 before the center: at 0.955450.
-static void a_point_just_inside_a_shadows_edge(void **state)
+TEST(a_point_just_inside_a_shadows_edge)
 {
-    (void)state;
     const Told told = tell(SCENE(LAMP_OVER_BALL "camera 0.65 -4 0.4 0.65 0 0 90\n"), 2, 2);
     assert_floor(&told, 0, 0, 4.019950);
     assert_int_equal(told.lights[0].state, LIGHT_BLOCKED);
@@ -196,9 +192,8 @@ static void a_point_just_inside_a_shadows_edge(void **state)
 }
 
 // At 0.7, the light is sqrt(0.49 + 16) away, its cosine is 4 / 4.060788, and nothing occludes it.
-static void a_point_just_outside_a_shadows_edge(void **state)
+TEST(a_point_just_outside_a_shadows_edge)
 {
-    (void)state;
     const Told told = tell(SCENE(LAMP_OVER_BALL "camera 0.7 -4 0.4 0.7 0 0 90\n"), 2, 2);
     assert_floor(&told, 0, 0, 4.019950);
     assert_int_equal(told.lights[0].state, LIGHT_SEEN);
@@ -211,9 +206,8 @@ static void a_point_just_outside_a_shadows_edge(void **state)
 // and reflected rays have length 4. Each reflection halves the weight, and rays of level 3 see the
 // background. The light is at (0, -+2, 2) from every hit, at the cosine 1 / sqrt(2). Each ball adds
 // 0.1 + 0.5 * 0.707107 = 0.453553 with weights 1/2, 1/4 and 1/8. The background adds 1/8 of blue.
-static void a_mirror_of_a_mirror_of_a_mirror(void **state)
+TEST(a_mirror_of_a_mirror_of_a_mirror)
 {
-    (void)state;
     const Told told = tell(SCENE("light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0 1\n"
                                  "camera 0 0 0 0 1 0 90\n"),
                            2, 2);
@@ -237,9 +231,8 @@ static void a_mirror_of_a_mirror_of_a_mirror(void **state)
 // The line x = 0 is at a distance of 0.999 from the ball's center. Half its chord is sqrt(1 -
 // 0.999^2) = 0.0447102, so the ray from y = -5 hits after 4.955290. The light is 4 to the left at
 // the height of the hit, so its cosine is the normal's 0.999.
-static void a_ray_that_grazes_a_sphere(void **state)
+TEST(a_ray_that_grazes_a_sphere)
 {
-    (void)state;
     const Told told = tell(SCENE("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\n"
                                  "camera 0 -5 0 0 0 0 90\n"),
                            2, 2);
@@ -251,9 +244,8 @@ static void a_ray_that_grazes_a_sphere(void **state)
 }
 
 // From 0.001 above the floor to a point 4 away, in triangle 0, which is below the diagonal.
-static void a_ray_that_grazes_the_floor(void **state)
+TEST(a_ray_that_grazes_the_floor)
 {
-    (void)state;
     const Told told = tell(SCENE("light 1 0 4 1\nmaterial plain\nply_file floor.ply\n"
                                  "camera 1 -4 0.001 1 0 0 90\n"),
                            2, 2);
@@ -266,9 +258,8 @@ static void a_ray_that_grazes_the_floor(void **state)
 
 // From the center of a mirror ball. The first ray has length 1, and reflected rays have length 2.
 // The wall's normal points outward, away from the light inside.
-static void a_mirror_ball_seen_from_inside(void **state)
+TEST(a_mirror_ball_seen_from_inside)
 {
-    (void)state;
     const Told told = tell(SCENE("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\n"
                                  "camera 0 0 0 0 1 0 90\n"),
                            2, 2);
@@ -285,9 +276,8 @@ static void a_mirror_ball_seen_from_inside(void **state)
 // From below, the one-sided floor is invisible. The two-sided floor a unit higher is visible, with
 // its normal turned down. The one-sided floor occludes the light a unit below it, because the
 // shadow ray meets its front. (1, -2) is in triangle 0 of both.
-static void floors_seen_from_below(void **state)
+TEST(floors_seen_from_below)
 {
-    (void)state;
     const Told told = tell(SCENE("light 1 -2 -1 1\nmaterial plain\nply_file floor.ply\nsides two\n"
                                  "mesh floor.ply translate 0 0 1\n"
                                  "up 0 1 0\ncamera 1 -2 -2 1 -2 0 90\n"),
@@ -306,9 +296,8 @@ static void floors_seen_from_below(void **state)
 
 // The light is 10 beside and 5 below the point. The normal (0.6, 0, 0.8) faces it at the cosine
 // (0.6 * 10 - 0.8 * 5) / sqrt(125). The face points up, away from the light.
-static void a_face_turned_away_from_a_light(void **state)
+TEST(a_face_turned_away_from_a_light)
 {
-    (void)state;
     const Told told = tell(SCENE("light 11 -2 -5 1\nmaterial plain\nply_file leaning.ply\n"
                                  "up 0 1 0\ncamera 1 -2 4 1 -2 0 90\n"),
                            2, 2);
@@ -320,10 +309,9 @@ static void a_face_turned_away_from_a_light(void **state)
     assert_number(told.color[0], 0.08);
 }
 
-static int make_folder(void **state)
+SET_UP(make_folder)
 {
     char path[96];
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/clrt-explain-XXXXXX");
     if (mkdtemp(folder) == NULL)
         return -1;
@@ -332,10 +320,9 @@ static int make_folder(void **state)
     return 0;
 }
 
-static int remove_folder(void **state)
+TEAR_DOWN(remove_folder)
 {
     char path[96];
-    (void)state;
     snprintf(path, sizeof path, "%s/floor.ply", folder);
     unlink(path);
     snprintf(path, sizeof path, "%s/leaning.ply", folder);
@@ -343,22 +330,4 @@ static int remove_folder(void **state)
     snprintf(path, sizeof path, "%s/scene.scn", folder);
     unlink(path);
     return rmdir(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sphere_seen_head_on),
-        cmocka_unit_test(a_ray_past_the_sphere),
-        cmocka_unit_test(a_point_under_a_ball),
-        cmocka_unit_test(a_point_just_inside_a_shadows_edge),
-        cmocka_unit_test(a_point_just_outside_a_shadows_edge),
-        cmocka_unit_test(a_mirror_of_a_mirror_of_a_mirror),
-        cmocka_unit_test(a_ray_that_grazes_a_sphere),
-        cmocka_unit_test(a_ray_that_grazes_the_floor),
-        cmocka_unit_test(a_mirror_ball_seen_from_inside),
-        cmocka_unit_test(floors_seen_from_below),
-        cmocka_unit_test(a_face_turned_away_from_a_light),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -43,9 +43,8 @@ static PictureRequest small_request(size_t scene)
     return request;
 }
 
-static void every_way_to_find_triangles_draws_the_same(void **state)
+TEST(every_way_to_find_triangles_draws_the_same)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         const PictureRequest sah = small_request(scene);
         PictureRequest others[] = {sah, sah};
@@ -55,9 +54,8 @@ static void every_way_to_find_triangles_draws_the_same(void **state)
     }
 }
 
-static void every_form_of_the_kernels_draws_the_same(void **state)
+TEST(every_form_of_the_kernels_draws_the_same)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         PictureRequest usual = in_form(small_request(scene), &choices[0]), others[CHOICE_COUNT * 4];
         usual.samples = 1;
@@ -73,9 +71,8 @@ static void every_form_of_the_kernels_draws_the_same(void **state)
     }
 }
 
-static void every_form_draws_pictures_of_a_few_pixels(void **state)
+TEST(every_form_draws_pictures_of_a_few_pixels)
 {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
     for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
         PictureRequest usual = small_request(SCENE_COUNT - 1), others[CHOICE_COUNT - 1];
@@ -88,9 +85,8 @@ static void every_form_draws_pictures_of_a_few_pixels(void **state)
     }
 }
 
-static void every_size_of_tiles_and_work_groups_draws_the_same(void **state)
+TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
-    (void)state;
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
     static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
     enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
@@ -111,9 +107,8 @@ static void every_size_of_tiles_and_work_groups_draws_the_same(void **state)
     }
 }
 
-static void counting_changes_no_pixel(void **state)
+TEST(counting_changes_no_pixel)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         uint64_t tallies[TALLY_KINDS];
         const PictureRequest usual = small_request(scene);
@@ -167,22 +162,19 @@ static void expect_specials_same(const KernelChoice *choice)
     }
 }
 
-static void specialized_rays_draw_what_general_ones_do(void **state)
+TEST(specialized_rays_draw_what_general_ones_do)
 {
-    (void)state;
     expect_specials_same(&choices[0]);
 }
 
-static void specialized_packets_draw_what_general_ones_do(void **state)
+TEST(specialized_packets_draw_what_general_ones_do)
 {
-    (void)state;
     const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
     expect_specials_same(&packet);
 }
 
-static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(void **state)
+TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         const PictureRequest sah = in_form(small_request(scene), &fp64);
         PictureRequest others[] = {sah, sah, sah};
@@ -196,15 +188,13 @@ static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(
     }
 }
 
-static void specialized_fp64_draws_what_the_general_program_does(void **state)
+TEST(specialized_fp64_draws_what_the_general_program_does)
 {
-    (void)state;
     expect_specials_same(&fp64);
 }
 
-static void fp64_draws_another_picture_than_fp32(void **state)
+TEST(fp64_draws_another_picture_than_fp32)
 {
-    (void)state;
     const PictureRequest reference = in_form(small_request(0), &fp64);
     const PictureRequest usual = in_form(reference, &choices[0]);
     Framebuffer first = rendered(&reference), second = rendered(&usual);
@@ -212,21 +202,4 @@ static void fp64_draws_another_picture_than_fp32(void **state)
     assert_memory_not_equal(first.pixels, second.pixels, size);
     framebuffer_free(&first);
     framebuffer_free(&second);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_way_to_find_triangles_draws_the_same),
-        cmocka_unit_test(every_form_of_the_kernels_draws_the_same),
-        cmocka_unit_test(every_form_draws_pictures_of_a_few_pixels),
-        cmocka_unit_test(every_size_of_tiles_and_work_groups_draws_the_same),
-        cmocka_unit_test(counting_changes_no_pixel),
-        cmocka_unit_test(specialized_rays_draw_what_general_ones_do),
-        cmocka_unit_test(specialized_packets_draw_what_general_ones_do),
-        cmocka_unit_test(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups),
-        cmocka_unit_test(specialized_fp64_draws_what_the_general_program_does),
-        cmocka_unit_test(fp64_draws_another_picture_than_fp32),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

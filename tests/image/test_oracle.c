@@ -68,10 +68,9 @@ static void check_course(const char *name, uint32_t step)
         check(path, step);
 }
 
-static void the_courses_small_scenes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_courses_small_scenes_are_drawn_as_the_oracle_does)
 {
     const uint32_t step = 1;
-    (void)state;
     check_course("silhouette.scn", step);
     check_course("matte.scn", step);
     check_course("blinn_phong.scn", step);
@@ -79,18 +78,16 @@ static void the_courses_small_scenes_are_drawn_as_the_oracle_does(void **state)
     check_course("simple.scn", step);
 }
 
-static void the_courses_meshes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_courses_meshes_are_drawn_as_the_oracle_does)
 {
     const uint32_t step = COURSE_MESH_STEP;
-    (void)state;
     check_course("cow.scn", step);
     check_course("buddha.scn", step);
 }
 
-static void the_projects_small_scenes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_projects_small_scenes_are_drawn_as_the_oracle_does)
 {
     const uint32_t step = 1;
-    (void)state;
     check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", step);
     check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", step);
     check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", step);
@@ -99,10 +96,9 @@ static void the_projects_small_scenes_are_drawn_as_the_oracle_does(void **state)
     check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", step);
 }
 
-static void the_projects_meshes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_projects_meshes_are_drawn_as_the_oracle_does)
 {
     const uint32_t step = PROJECT_MESH_STEP;
-    (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -114,45 +110,26 @@ static void the_projects_meshes_are_drawn_as_the_oracle_does(void **state)
 static void check_inline(InlineScene scene)
 {
     char path[INLINE_PATH_SIZE];
-    inline_scenes_path(&inline_scenes, scene, path);
+    inline_scenes_path(scene, path);
     check(path, 1);
 }
 
-static void two_sided_open_meshes_are_drawn_as_the_oracle_does(void **state)
+TEST(two_sided_open_meshes_are_drawn_as_the_oracle_does)
 {
-    (void)state;
     check_inline(INLINE_OPEN_SHEET);
 }
 
-static void facets_and_mirrors_are_drawn_as_the_oracle_does(void **state)
+TEST(facets_and_mirrors_are_drawn_as_the_oracle_does)
 {
-    (void)state;
     check_inline(INLINE_MIRRORS);
 }
 
-static void a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does(void **state)
+TEST(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does)
 {
-    (void)state;
     check_inline(INLINE_FAR_AWAY);
 }
 
-static void creases_under_distant_lights_are_drawn_as_the_oracle_does(void **state)
+TEST(creases_under_distant_lights_are_drawn_as_the_oracle_does)
 {
-    (void)state;
     check_inline(INLINE_DISTANT_LIGHTS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_courses_small_scenes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_courses_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_projects_small_scenes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_projects_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(two_sided_open_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(facets_and_mirrors_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does),
-        cmocka_unit_test(creases_under_distant_lights_are_drawn_as_the_oracle_does),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

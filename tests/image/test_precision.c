@@ -123,9 +123,8 @@ static bool has_models(void)
     return false;
 }
 
-static void every_pixel_of_small_scenes_is_the_oracles(void **state)
+TEST(every_pixel_of_small_scenes_is_the_oracles)
 {
-    (void)state;
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", all);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/matte.scn", all);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", all);
@@ -134,19 +133,17 @@ static void every_pixel_of_small_scenes_is_the_oracles(void **state)
     check_oracle(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", all);
 }
 
-static void every_compared_pixel_of_meshes_is_the_oracles(void **state)
+TEST(every_compared_pixel_of_meshes_is_the_oracles)
 {
-    (void)state;
     if (!has_models())
         return;
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/creature.scn", meshes);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/figure.scn", meshes);
 }
 
-static void every_compared_pixel_of_the_courses_scenes_is_the_oracles(void **state)
+TEST(every_compared_pixel_of_the_courses_scenes_is_the_oracles)
 {
     static const char *const names[] = {"reflections.scn", "cow.scn"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[COURSE_PATH_SIZE];
         course_path(path, "scenes", names[i]);
@@ -155,12 +152,11 @@ static void every_compared_pixel_of_the_courses_scenes_is_the_oracles(void **sta
     }
 }
 
-static void every_pixel_of_unusual_scenes_is_the_oracles(void **state)
+TEST(every_pixel_of_unusual_scenes_is_the_oracles)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        inline_scenes_path(&inline_scenes, (InlineScene)scene, path);
+        inline_scenes_path((InlineScene)scene, path);
         check_oracle(path, all);
     }
 }
@@ -193,9 +189,8 @@ static void check_fp32(const char *name, uint64_t share)
     assert_true(holds);
 }
 
-static void fp32_differs_in_few_pixels(void **state)
+TEST(fp32_differs_in_few_pixels)
 {
-    (void)state;
     check_fp32("silhouette", 0);
     check_fp32("matte", 0);
     check_fp32("blinn_phong", 0);
@@ -204,25 +199,11 @@ static void fp32_differs_in_few_pixels(void **state)
 }
 
 // Mirrors that face each other amplify every rounding. Only the showcase has many such mirrors.
-static void fp32_differs_in_few_pixels_of_meshes(void **state)
+TEST(fp32_differs_in_few_pixels_of_meshes)
 {
-    (void)state;
     if (!has_models())
         return;
     check_fp32("creature", 2);
     check_fp32("figure", 5);
     check_fp32("showcase", 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pixel_of_small_scenes_is_the_oracles),
-        cmocka_unit_test(every_compared_pixel_of_meshes_is_the_oracles),
-        cmocka_unit_test(every_compared_pixel_of_the_courses_scenes_is_the_oracles),
-        cmocka_unit_test(every_pixel_of_unusual_scenes_is_the_oracles),
-        cmocka_unit_test(fp32_differs_in_few_pixels),
-        cmocka_unit_test(fp32_differs_in_few_pixels_of_meshes),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

@@ -48,34 +48,21 @@ static void check(Counts expected)
     assert_true(tallies[TALLY_SHADOW_RAYS] <= expected.shadow_rays);
 }
 
-static void unshaded_and_shaded_scenes_hit_as_often_as_the_courses(void **state)
+TEST(unshaded_and_shaded_scenes_hit_as_often_as_the_courses)
 {
-    (void)state;
     check((Counts){"silhouette.scn", 95935, 95935, 0, 0});
     check((Counts){"matte.scn", 95935, 95935, 0, 191870});
     check((Counts){"blinn_phong.scn", 95935, 95935, 0, 191870});
     check((Counts){"simple.scn", 98036, 98036, 0, 196072});
 }
 
-static void reflections_are_followed_as_often_as_the_courses(void **state)
+TEST(reflections_are_followed_as_often_as_the_courses)
 {
-    (void)state;
     check((Counts){"reflections.scn", 95935, 118573, 114328, 237146});
 }
 
-static void large_meshes_are_hit_as_often_as_the_courses(void **state)
+TEST(large_meshes_are_hit_as_often_as_the_courses)
 {
-    (void)state;
     check((Counts){"cow.scn", 95935, 95935, 0, 191870});
     check((Counts){"buddha.scn", 95935, 95935, 0, 191870});
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unshaded_and_shaded_scenes_hit_as_often_as_the_courses),
-        cmocka_unit_test(reflections_are_followed_as_often_as_the_courses),
-        cmocka_unit_test(large_meshes_are_hit_as_often_as_the_courses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

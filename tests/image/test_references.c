@@ -59,44 +59,27 @@ static void check(const char *scene_name, const char *reference_name, uint32_t s
     trial_free(&trial);
 }
 
-static void silhouettes_are_the_courses(void **state)
+TEST(silhouettes_are_the_courses)
 {
-    (void)state;
     check("silhouette.scn", "silhouette.exr", 1, 30);
 }
 
-static void matte_surfaces_are_the_courses(void **state)
+TEST(matte_surfaces_are_the_courses)
 {
-    (void)state;
     check("matte.scn", "matte.exr", 1, 30);
 }
 
-static void highlights_are_the_courses(void **state)
+TEST(highlights_are_the_courses)
 {
-    (void)state;
     check("blinn_phong.scn", "blinn_phong.exr", 1, 30);
 }
 
-static void reflections_are_the_courses(void **state)
+TEST(reflections_are_the_courses)
 {
-    (void)state;
     check("reflections.scn", "reflections.exr", 1, 30);
 }
 
-static void four_samples_a_pixel_are_the_courses(void **state)
+TEST(four_samples_a_pixel_are_the_courses)
 {
-    (void)state;
     check("reflections.scn", "reflections-aa.exr", 2, 120);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(silhouettes_are_the_courses),
-        cmocka_unit_test(matte_surfaces_are_the_courses),
-        cmocka_unit_test(highlights_are_the_courses),
-        cmocka_unit_test(reflections_are_the_courses),
-        cmocka_unit_test(four_samples_a_pixel_are_the_courses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,9 +136,8 @@ static double light_around(const Framebuffer *picture, Corner center)
     return light;
 }
 
-static void thousands_of_triangles_smaller_than_pixels_are_all_seen(void **state)
+TEST(thousands_of_triangles_smaller_than_pixels_are_all_seen)
 {
-    (void)state;
     Drawing drawing = drawing_of(GRID * GRID);
     const double area = add_grid(&drawing);
     const PictureRequest request = request_of(&drawing, 1);
@@ -189,17 +188,15 @@ static void expect_unbroken(double light, double from, double to)
     drawing_free(&drawing);
 }
 
-static void a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line(void **state)
+TEST(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line)
 {
-    (void)state;
     expect_unbroken(1, -40, 55);
     expect_unbroken(0.02, -40, 55); // too little contrast for refinement by contrast
     expect_unbroken(0.02, 7.3, 7.3);
 }
 
-static void backs_of_one_sided_triangles_take_no_samples(void **state)
+TEST(backs_of_one_sided_triangles_take_no_samples)
 {
-    (void)state;
     uint64_t samples;
     Drawing drawing = drawing_of(GRID * GRID);
     add_grid(&drawing);
@@ -242,9 +239,8 @@ static uint64_t samples_of(Drawing *drawing)
     return samples;
 }
 
-static void a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one(void **state)
+TEST(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one)
 {
-    (void)state;
     const double half = 60.3;
     Drawing fine = drawing_of(2 * FINE * FINE), plain = drawing_of(2);
     add_wall(&fine, 2 * half);
@@ -253,9 +249,8 @@ static void a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one(void
     assert_int_equal(samples_of(&fine), samples_of(&plain));
 }
 
-static void every_form_and_any_threads_find_the_same(void **state)
+TEST(every_form_and_any_threads_find_the_same)
 {
-    (void)state;
     static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
                                            {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
     Drawing drawing = drawing_of(GRID * GRID + 2);
@@ -274,16 +269,4 @@ static void every_form_and_any_threads_find_the_same(void **state)
     }
     framebuffer_free(&first);
     drawing_free(&drawing);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thousands_of_triangles_smaller_than_pixels_are_all_seen),
-        cmocka_unit_test(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line),
-        cmocka_unit_test(backs_of_one_sided_triangles_take_no_samples),
-        cmocka_unit_test(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one),
-        cmocka_unit_test(every_form_and_any_threads_find_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

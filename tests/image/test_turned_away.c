@@ -221,16 +221,14 @@ static void check_outside(const Solid *solid)
         }
 }
 
-static void faces_turned_away_get_no_light_through_a_one_sided_mesh(void **state)
+TEST(faces_turned_away_get_no_light_through_a_one_sided_mesh)
 {
     const Solid solid = ball();
-    (void)state;
     check_outside(&solid);
 }
 
-static void a_sphere_seen_from_outside_is_lit_by_its_normal_alone(void **state)
+TEST(a_sphere_seen_from_outside_is_lit_by_its_normal_alone)
 {
-    (void)state;
     check_outside(NULL);
 }
 
@@ -248,24 +246,21 @@ static void check_inside(const Solid *solid)
     }
 }
 
-static void no_light_enters_a_closed_two_sided_mesh(void **state)
+TEST(no_light_enters_a_closed_two_sided_mesh)
 {
     const Solid solid = ball();
-    (void)state;
     check_inside(&solid);
 }
 
-static void no_light_enters_a_sphere(void **state)
+TEST(no_light_enters_a_sphere)
 {
-    (void)state;
     check_inside(NULL);
 }
 
 // The light is in the planes of all spokes, within rounding.
-static void all_points_of_a_triangle_agree_about_a_light_in_its_plane(void **state)
+TEST(all_points_of_a_triangle_agree_about_a_light_in_its_plane)
 {
     const Solid solid = spokes();
-    (void)state;
     for (size_t form = 0; form < FORMS; form++) {
         Seen seen[SIDE * SIDE];
         uint32_t dark[SPOKES] = {0}, lit[SPOKES] = {0}, spokes_seen = 0;
@@ -280,16 +275,4 @@ static void all_points_of_a_triangle_agree_about_a_light_in_its_plane(void **sta
         }
         assert_in_range(spokes_seen, SPOKES / 2, SPOKES);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_turned_away_get_no_light_through_a_one_sided_mesh),
-        cmocka_unit_test(a_sphere_seen_from_outside_is_lit_by_its_normal_alone),
-        cmocka_unit_test(no_light_enters_a_closed_two_sided_mesh),
-        cmocka_unit_test(no_light_enters_a_sphere),
-        cmocka_unit_test(all_points_of_a_triangle_agree_about_a_light_in_its_plane),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

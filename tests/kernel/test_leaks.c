@@ -27,9 +27,8 @@ typedef struct {
 
 static Stage stage;
 
-static int open_stage(void **state)
+SET_UP(open_stage)
 {
-    (void)state;
     Error error = {0};
     cache_open(&stage.cache);
     bool ok = device_open(&stage.device, getenv("CLRT_DEVICE"), &error);
@@ -46,9 +45,8 @@ static int open_stage(void **state)
     return ok ? 0 : -1;
 }
 
-static int close_stage(void **state)
+TEAR_DOWN(close_stage)
 {
-    (void)state;
     for (size_t form = 0; form < FORMS; form++)
         ray_caster_close(&stage.casters[form]);
     device_close(&stage.device);
@@ -112,9 +110,8 @@ static LeakCount leaks_of(const Mesh *mesh, size_t form)
     return count;
 }
 
-static void a_closed_ring_has_no_leaks_at_any_edge_or_point(void **state)
+TEST(a_closed_ring_has_no_leaks_at_any_edge_or_point)
 {
-    (void)state;
     Mesh mesh = ring(1, vec3(0, 0, 0));
     for (size_t form = 0; form < FORMS; form++) {
         const LeakCount count = leaks_of(&mesh, form);
@@ -127,9 +124,8 @@ static void a_closed_ring_has_no_leaks_at_any_edge_or_point(void **state)
     mesh_free(&mesh);
 }
 
-static void a_ring_far_away_and_turned_inside_out_has_none_either(void **state)
+TEST(a_ring_far_away_and_turned_inside_out_has_none_either)
 {
-    (void)state;
     Mesh mesh = ring(0x1p-8, vec3(1000, -2000, 3000));
     for (size_t i = 0; i < mesh.triangle_count; i++) {
         const uint32_t corner = mesh.triangles[i][1];
@@ -143,9 +139,8 @@ static void a_ring_far_away_and_turned_inside_out_has_none_either(void **state)
     mesh_free(&mesh);
 }
 
-static void a_missing_triangle_leaks(void **state)
+TEST(a_missing_triangle_leaks)
 {
-    (void)state;
     Mesh mesh = ring(1, vec3(0, 0, 0));
     memcpy(mesh.triangles[700], mesh.triangles[mesh.triangle_count - 1], sizeof *mesh.triangles);
     mesh.triangle_count--;
@@ -185,23 +180,11 @@ static Mesh cracked_ring(double gap)
     return cracked;
 }
 
-static void a_vertex_off_its_neighbors_edge_leaves_a_crack_that_leaks(void **state)
+TEST(a_vertex_off_its_neighbors_edge_leaves_a_crack_that_leaks)
 {
-    (void)state;
     Mesh mesh = cracked_ring(0.02);
     assert_int_equal(closedness_of(&mesh).open.count, 3);
     for (size_t form = 0; form < FORMS; form++)
         assert_in_range(leaks_of(&mesh, form).leaks.count, 1, 10);
     mesh_free(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_closed_ring_has_no_leaks_at_any_edge_or_point),
-        cmocka_unit_test(a_ring_far_away_and_turned_inside_out_has_none_either),
-        cmocka_unit_test(a_missing_triangle_leaks),
-        cmocka_unit_test(a_vertex_off_its_neighbors_edge_leaves_a_crack_that_leaks),
-    };
-    return cmocka_run_group_tests(tests, open_stage, close_stage);
 }

@@ -20,16 +20,14 @@ static ClrtRenderer *open_renderer(uint32_t threads)
     return opened;
 }
 
-static int open_all(void **state)
+SET_UP(open_all)
 {
-    (void)state;
     renderer = open_renderer(0);
     return 0;
 }
 
-static int close_all(void **state)
+TEAR_DOWN(close_all)
 {
-    (void)state;
     clrt_renderer_free(renderer);
     return 0;
 }
@@ -59,11 +57,10 @@ static float *draw(ClrtRenderer *with, const ClrtScene *scene, const ClrtPicture
     return rgb;
 }
 
-static void a_loaded_scene_is_the_programs_picture(void **state)
+TEST(a_loaded_scene_is_the_programs_picture)
 {
     static const char *const names[] = {"scenes/reflections.scn", "scenes/simple.scn",
                                         "scenes/blinn_phong.scn", "tests/image/every_feature.scn"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const ClrtPicture picture = {.size = sizeof picture, .width = 150, .height = 131};
         ClrtScene *scene = load(program_file(names[i]));
@@ -74,9 +71,8 @@ static void a_loaded_scene_is_the_programs_picture(void **state)
     }
 }
 
-static void a_lone_mesh_is_framed_as_the_program_frames_it(void **state)
+TEST(a_lone_mesh_is_framed_as_the_program_frames_it)
 {
-    (void)state;
     const ClrtPicture picture = {.size = sizeof picture, .width = 64, .height = 64};
     ClrtScene *scene = load(program_file("scenes/tetrahedron.ply"));
     float *expected = program_draw(program_file("scenes/tetrahedron.ply"), "", 64, 64);
@@ -85,9 +81,8 @@ static void a_lone_mesh_is_framed_as_the_program_frames_it(void **state)
     clrt_scene_free(scene);
 }
 
-static void views_samples_and_levels_are_the_programs(void **state)
+TEST(views_samples_and_levels_are_the_programs)
 {
-    (void)state;
     ClrtScene *scene = load(program_file("scenes/reflections.scn"));
     const ClrtPicture picture = {
         .size = sizeof picture, .width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1};
@@ -98,9 +93,8 @@ static void views_samples_and_levels_are_the_programs(void **state)
     clrt_scene_free(scene);
 }
 
-static void a_filled_scene_is_the_programs_picture_of_the_same_file(void **state)
+TEST(a_filled_scene_is_the_programs_picture_of_the_same_file)
 {
-    (void)state;
     char *path = filled_write();
     ClrtScene *scene = filled_make();
     for (uint32_t view = 1; view <= 2; view++) {
@@ -114,9 +108,8 @@ static void a_filled_scene_is_the_programs_picture_of_the_same_file(void **state
     filled_remove(path);
 }
 
-static void the_info_counts_what_was_filled_in(void **state)
+TEST(the_info_counts_what_was_filled_in)
 {
-    (void)state;
     ClrtScene *scene = filled_make();
     ClrtSceneInfo info = {.size = sizeof info};
     assert_true(clrt_scene_get_info(scene, &info, NULL));
@@ -132,9 +125,8 @@ static void the_info_counts_what_was_filled_in(void **state)
     clrt_scene_free(scene);
 }
 
-static void a_camera_of_the_pictures_own_takes_the_views_place(void **state)
+TEST(a_camera_of_the_pictures_own_takes_the_views_place)
 {
-    (void)state;
     ClrtScene *scene = filled_make();
     ClrtPicture picture = {.size = sizeof picture, .width = 90, .height = 70, .view = 2};
     float *by_view = draw(renderer, scene, &picture);
@@ -145,9 +137,8 @@ static void a_camera_of_the_pictures_own_takes_the_views_place(void **state)
     clrt_scene_free(scene);
 }
 
-static void a_scene_that_was_changed_is_drawn_changed(void **state)
+TEST(a_scene_that_was_changed_is_drawn_changed)
 {
-    (void)state;
     const ClrtPicture picture = {.size = sizeof picture, .width = 40, .height = 30};
     const double black[3] = {0, 0, 0}, center[3] = {0, 0, 3};
     const size_t bytes = 3 * 40 * 30 * sizeof(float);
@@ -173,9 +164,8 @@ static bool count_tiles(void *user, uint64_t tiles_done, uint64_t tiles)
     return true;
 }
 
-static void progress_counts_every_tile(void **state)
+TEST(progress_counts_every_tile)
 {
-    (void)state;
     uint64_t last = 0;
     const ClrtPicture picture = {.size = sizeof picture,
                                  .width = 300,
@@ -210,9 +200,8 @@ static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t t
     return same == count;
 }
 
-static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
+TEST(a_stopped_picture_has_whole_tiles_and_leaves_the_rest)
 {
-    (void)state;
     ClrtError error;
     ClrtPicture picture = {.size = sizeof picture, .width = 600, .height = 200};
     ClrtScene *scene = filled_make();
@@ -233,20 +222,4 @@ static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
     free(rgb);
     free(whole);
     clrt_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_loaded_scene_is_the_programs_picture),
-        cmocka_unit_test(a_lone_mesh_is_framed_as_the_program_frames_it),
-        cmocka_unit_test(views_samples_and_levels_are_the_programs),
-        cmocka_unit_test(a_filled_scene_is_the_programs_picture_of_the_same_file),
-        cmocka_unit_test(the_info_counts_what_was_filled_in),
-        cmocka_unit_test(a_camera_of_the_pictures_own_takes_the_views_place),
-        cmocka_unit_test(a_scene_that_was_changed_is_drawn_changed),
-        cmocka_unit_test(progress_counts_every_tile),
-        cmocka_unit_test(a_stopped_picture_has_whole_tiles_and_leaves_the_rest),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
 }

@@ -14,16 +14,14 @@ static const double bad_numbers[] = {(double)NAN, (double)INFINITY, -(double)INF
                                      -DBL_MAX};
 #define BAD_NUMBERS (sizeof bad_numbers / sizeof *bad_numbers)
 
-static int open_scene(void **state)
+SET_UP(open_scene)
 {
-    (void)state;
     scene = filled_make();
     return 0;
 }
 
-static int close_scene(void **state)
+TEAR_DOWN(close_scene)
 {
-    (void)state;
     clrt_scene_free(scene);
     return 0;
 }
@@ -35,9 +33,8 @@ static ClrtSceneInfo info_of(void)
     return info;
 }
 
-static void what_is_null_is_named(void **state)
+TEST(what_is_null_is_named)
 {
-    (void)state;
     const double three[3] = {0, 0, 0};
     const ClrtMaterial matte = {.size = sizeof matte};
     ClrtSceneInfo info = {.size = sizeof info};
@@ -64,9 +61,8 @@ static void what_is_null_is_named(void **state)
     clrt_scene_free(NULL);
 }
 
-static void numbers_out_of_range_are_refused(void **state)
+TEST(numbers_out_of_range_are_refused)
 {
-    (void)state;
     const double origin[3] = {0, 0, 0};
     const ClrtSceneInfo before = info_of();
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
@@ -89,9 +85,8 @@ static void numbers_out_of_range_are_refused(void **state)
     assert_memory_equal(&before, &after, sizeof before);
 }
 
-static void no_material_of_impossible_numbers_is_added(void **state)
+TEST(no_material_of_impossible_numbers_is_added)
 {
-    (void)state;
     const ClrtMaterial matte = {.size = sizeof matte, .shading = CLRT_SHADING_MATTE};
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         ClrtMaterial bad[6] = {matte, matte, matte, matte, matte, matte};
@@ -126,9 +121,8 @@ static ClrtMesh good_mesh(void)
                       .triangle_count = 1};
 }
 
-static void meshes_that_point_nowhere_are_refused(void **state)
+TEST(meshes_that_point_nowhere_are_refused)
 {
-    (void)state;
     const uint32_t outside[3] = {0, 1, 3}, huge[3] = {UINT32_MAX, 1, 2};
     ClrtMesh mesh = good_mesh();
     mesh.positions = NULL;
@@ -155,9 +149,8 @@ static void meshes_that_point_nowhere_are_refused(void **state)
     ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "material 4294967295");
 }
 
-static void vertices_that_are_no_points_are_refused(void **state)
+TEST(vertices_that_are_no_points_are_refused)
 {
-    (void)state;
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         double positions[3][3];
         float normals[3][3] = {{0}};
@@ -173,9 +166,8 @@ static void vertices_that_are_no_points_are_refused(void **state)
     }
 }
 
-static void impossible_cameras_are_refused(void **state)
+TEST(impossible_cameras_are_refused)
 {
-    (void)state;
     const ClrtCamera good = filled_cameras[0];
     ClrtCamera bad = good;
     memcpy(bad.look_at, bad.eye, sizeof bad.eye);
@@ -198,25 +190,10 @@ static void impossible_cameras_are_refused(void **state)
     }
 }
 
-static void files_that_are_not_there_are_told(void **state)
+TEST(files_that_are_not_there_are_told)
 {
-    (void)state;
     ClrtError error = faults_blank();
     faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
                   "/nowhere/at all.scn");
     assert_null(clrt_scene_load("", NULL));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_null_is_named),
-        cmocka_unit_test(numbers_out_of_range_are_refused),
-        cmocka_unit_test(no_material_of_impossible_numbers_is_added),
-        cmocka_unit_test(meshes_that_point_nowhere_are_refused),
-        cmocka_unit_test(vertices_that_are_no_points_are_refused),
-        cmocka_unit_test(impossible_cameras_are_refused),
-        cmocka_unit_test(files_that_are_not_there_are_told),
-    };
-    return cmocka_run_group_tests(tests, open_scene, close_scene);
 }

@@ -53,9 +53,8 @@ static void draw_at_once(ClrtScene *scenes[2], float *expected[2])
     pthread_barrier_destroy(&start);
 }
 
-static void renderers_are_made_and_draw_at_once_in_threads_of_their_own(void **state)
+TEST(renderers_are_made_and_draw_at_once_in_threads_of_their_own)
 {
-    (void)state;
     char *path = filled_write();
     const char *loaded = program_file("scenes/reflections.scn");
     const char *options = "--aa=2 --max-level 5";
@@ -69,12 +68,4 @@ static void renderers_are_made_and_draw_at_once_in_threads_of_their_own(void **s
         clrt_scene_free(scenes[i]);
     }
     filled_remove(path);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(renderers_are_made_and_draw_at_once_in_threads_of_their_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

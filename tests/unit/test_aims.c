@@ -53,9 +53,8 @@ static void release(Fixture *all)
     weld_free(&all->weld);
 }
 
-static void every_edge_and_point_is_aimed_at_once(void **state)
+TEST(every_edge_and_point_is_aimed_at_once)
 {
-    (void)state;
     Fixture all = aimed(faces, 4, 64);
     assert_int_equal(all.aims.total, 6 + 4);
     assert_int_equal(all.aims.count, 6 + 4);
@@ -66,9 +65,8 @@ static void every_edge_and_point_is_aimed_at_once(void **state)
     release(&all);
 }
 
-static void a_mesh_turned_inside_out_is_aimed_at_from_outside_too(void **state)
+TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
 {
-    (void)state;
     uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     Fixture all = aimed_as(turned, 4, 64, true);
     for (size_t i = 0; i < 10; i++)
@@ -76,9 +74,8 @@ static void a_mesh_turned_inside_out_is_aimed_at_from_outside_too(void **state)
     release(&all);
 }
 
-static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
+TEST(an_open_edge_is_aimed_at_beyond_it_too)
 {
-    (void)state;
     Fixture all = aimed(faces, 3, 64);
     assert_int_equal(all.aims.total, 6 + 4 + 3);
     // The missing face is opposite the corner (1, 1, 1).
@@ -90,18 +87,16 @@ static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
     release(&all);
 }
 
-static void no_more_aims_are_kept_than_asked_for(void **state)
+TEST(no_more_aims_are_kept_than_asked_for)
 {
-    (void)state;
     Fixture all = aimed(faces, 4, 3);
     assert_int_equal(all.aims.total, 10);
     assert_int_equal(all.aims.count, 3);
     release(&all);
 }
 
-static void rays_from_afar_start_outside_and_end_at_their_aims(void **state)
+TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 {
-    (void)state;
     Fixture all = aimed(faces, 4, 64);
     const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     assert_true(count >= 6 && count <= 10);
@@ -118,9 +113,8 @@ static void rays_from_afar_start_outside_and_end_at_their_aims(void **state)
     release(&all);
 }
 
-static void rays_are_judged_by_where_they_end(void **state)
+TEST(rays_are_judged_by_where_they_end)
 {
-    (void)state;
     Fixture all = aimed(faces, 4, 64);
     aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
@@ -140,17 +134,4 @@ static void rays_are_judged_by_where_they_end(void **state)
     }
     assert_true(again);
     release(&all);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_edge_and_point_is_aimed_at_once),
-        cmocka_unit_test(a_mesh_turned_inside_out_is_aimed_at_from_outside_too),
-        cmocka_unit_test(an_open_edge_is_aimed_at_beyond_it_too),
-        cmocka_unit_test(no_more_aims_are_kept_than_asked_for),
-        cmocka_unit_test(rays_from_afar_start_outside_and_end_at_their_aims),
-        cmocka_unit_test(rays_are_judged_by_where_they_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,8 @@ static uint32_t random_below(uint64_t *state, uint32_t end)
     return (uint32_t)(*state >> 33) % end;
 }
 
-static void cells_have_room_in_pixels_with_a_slot(void **state)
+TEST(cells_have_room_in_pixels_with_a_slot)
 {
-    (void)state;
     Slots slots;
     Error error;
     assert_true(slots_make(&slots, WIDTH, HEIGHT, &error));
@@ -43,9 +42,8 @@ static void cells_have_room_in_pixels_with_a_slot(void **state)
     slots_free(&slots);
 }
 
-static void ranges_of_pixels_are_added_and_found_as_a_whole(void **state)
+TEST(ranges_of_pixels_are_added_and_found_as_a_whole)
 {
-    (void)state;
     Slots slots;
     Error error;
     assert_true(slots_make(&slots, WIDTH, HEIGHT, &error));
@@ -80,9 +78,8 @@ static bool is_wide(const CellSet *set, uint32_t column, uint32_t row)
     return wide;
 }
 
-static void pixels_are_wide_beside_a_corner_that_is_all_held(void **state)
+TEST(pixels_are_wide_beside_a_corner_that_is_all_held)
 {
-    (void)state;
     Slots slots;
     Error error;
     uint64_t random = 1;
@@ -102,14 +99,4 @@ static void pixels_are_wide_beside_a_corner_that_is_all_held(void **state)
     cell_set_free(&set);
     cell_set_free(&wide);
     slots_free(&slots);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_have_room_in_pixels_with_a_slot),
-        cmocka_unit_test(ranges_of_pixels_are_added_and_found_as_a_whole),
-        cmocka_unit_test(pixels_are_wide_beside_a_corner_that_is_all_held),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,9 +101,8 @@ static Closedness closedness(const char *points, const char *faces)
     return mesh_census(points, faces).closedness;
 }
 
-static void a_tetrahedron_is_closed(void **state)
+TEST(a_tetrahedron_is_closed)
 {
-    (void)state;
     const Closedness found = closedness(tetrahedron, tetrahedron_faces);
     assert_true(found.is_closed);
     assert_false(found.is_inside_out);
@@ -112,17 +111,15 @@ static void a_tetrahedron_is_closed(void **state)
     assert_int_equal(found.pinched.count + found.duplicates.count, 0);
 }
 
-static void a_tetrahedron_turned_over_is_inside_out(void **state)
+TEST(a_tetrahedron_turned_over_is_inside_out)
 {
-    (void)state;
     const Closedness found = closedness(tetrahedron, "0 1 2  0 3 1  0 2 3  1 3 2");
     assert_true(found.is_closed);
     assert_true(found.is_inside_out);
 }
 
-static void a_missing_triangle_leaves_three_open_edges(void **state)
+TEST(a_missing_triangle_leaves_three_open_edges)
 {
-    (void)state;
     const Closedness found = closedness(tetrahedron, "0 1 3  0 3 2  1 2 3");
     assert_int_equal(found.open.count, 3);
     assert_int_equal(found.open.first, 0);
@@ -130,9 +127,8 @@ static void a_missing_triangle_leaves_three_open_edges(void **state)
     assert_false(found.is_closed);
 }
 
-static void a_vertex_on_a_neighbors_edge_leaves_it_open(void **state)
+TEST(a_vertex_on_a_neighbors_edge_leaves_it_open)
 {
-    (void)state;
     // On one side of the edge from 1 to 2, vertex 4 is in its middle.
     const Closedness found =
         closedness("0 0 0  1 0 0  0 1 0  0 0 1  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3");
@@ -140,9 +136,8 @@ static void a_vertex_on_a_neighbors_edge_leaves_it_open(void **state)
     assert_false(found.is_closed);
 }
 
-static void a_turned_triangle_is_told_by_its_edges(void **state)
+TEST(a_turned_triangle_is_told_by_its_edges)
 {
-    (void)state;
     const Closedness found = closedness(tetrahedron, "0 2 1  0 1 3  0 3 2  1 3 2");
     assert_int_equal(found.turned.count, 3);
     assert_int_equal(found.turned.first, 0);
@@ -150,9 +145,8 @@ static void a_turned_triangle_is_told_by_its_edges(void **state)
     assert_false(found.is_closed);
 }
 
-static void a_third_triangle_at_an_edge_crowds_it(void **state)
+TEST(a_third_triangle_at_an_edge_crowds_it)
 {
-    (void)state;
     const Closedness found =
         closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 -1 0", "0 2 1  0 1 3  0 3 2  1 2 3  0 3 4");
     assert_int_equal(found.crowded.count, 1);
@@ -162,9 +156,8 @@ static void a_third_triangle_at_an_edge_crowds_it(void **state)
     assert_false(found.is_closed);
 }
 
-static void solids_that_touch_at_a_point_are_pinched_there(void **state)
+TEST(solids_that_touch_at_a_point_are_pinched_there)
 {
-    (void)state;
     const Closedness found = closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 0 0  0 -1 0  0 0 -1",
                                         "0 2 1  0 1 3  0 3 2  1 2 3  0 4 5  0 6 4  0 5 6  4 6 5");
     assert_int_equal(found.pinched.count, 1);
@@ -173,9 +166,8 @@ static void solids_that_touch_at_a_point_are_pinched_there(void **state)
     assert_false(found.is_closed);
 }
 
-static void vertices_at_one_position_are_one_point(void **state)
+TEST(vertices_at_one_position_are_one_point)
 {
-    (void)state;
     const MeshCensus found = mesh_census("0 0 0  0 1 0  1 0 0  0 0 0  1 0 0  0 0 1 "
                                          " -0 -0 0  0 0 1  0 1 0  1 0 0  0 1 0  0 0 1",
                                          "0 1 2  3 4 5  6 7 8  9 10 11");
@@ -185,18 +177,16 @@ static void vertices_at_one_position_are_one_point(void **state)
     assert_int_equal(found.unused_vertices, 0);
 }
 
-static void vertices_that_nothing_uses_are_counted_apart(void **state)
+TEST(vertices_that_nothing_uses_are_counted_apart)
 {
-    (void)state;
     const MeshCensus found = mesh_census("5 5 5  0 0 0  1 0 0  0 1 0  0 0 0  5 5 5", "1 2 3");
     assert_int_equal(found.unused_vertices, 3);
     assert_int_equal(found.repeated_vertices, 0);
     assert_true(found.features.extent == 1);
 }
 
-static void triangles_with_the_same_corners_are_duplicates(void **state)
+TEST(triangles_with_the_same_corners_are_duplicates)
 {
-    (void)state;
     Closedness found = closedness(tetrahedron, "0 1 2  0 1 3  1 2 0  2 1 0");
     assert_int_equal(found.duplicates.count, 2);
     assert_int_equal(found.duplicates.first, 2);
@@ -205,9 +195,8 @@ static void triangles_with_the_same_corners_are_duplicates(void **state)
     assert_int_equal(found.duplicates.first, 1);
 }
 
-static void an_edge_of_many_triangles_is_sorted_too(void **state)
+TEST(an_edge_of_many_triangles_is_sorted_too)
 {
-    (void)state;
     char points[4096] = "0 0 0  1 0 0", faces[4096] = "";
     for (int i = 0; i < 60; i++) {
         snprintf(points + strlen(points), sizeof points - strlen(points), "  0 1 %d", i % 50);
@@ -220,9 +209,8 @@ static void an_edge_of_many_triangles_is_sorted_too(void **state)
     assert_int_equal(found.edge_count, 1 + 2 * 50);
 }
 
-static void triangles_of_no_area_are_counted(void **state)
+TEST(triangles_of_no_area_are_counted)
 {
-    (void)state;
     const MeshCensus found =
         mesh_census("0 0 0  0.1 0.1 0.1  0.2 0.2 0.2  1 0 0  0 1 0  0.25 0.25 0.25 0.5 0.5 0.5",
                     "0 3 4  0 1 2  0 5 6");
@@ -230,9 +218,8 @@ static void triangles_of_no_area_are_counted(void **state)
     assert_int_equal(found.features.flat.first, 1);
 }
 
-static void nothing_of_an_empty_mesh_is_closed(void **state)
+TEST(nothing_of_an_empty_mesh_is_closed)
 {
-    (void)state;
     Taken taken = census_of_mesh("0 0 0", "");
     assert_int_equal(taken.census.empty_meshes, 1);
     assert_false(taken.census.meshes[0].closedness.is_closed);
@@ -241,9 +228,8 @@ static void nothing_of_an_empty_mesh_is_closed(void **state)
     release(&taken);
 }
 
-static void what_is_not_finite_is_counted_and_left_out(void **state)
+TEST(what_is_not_finite_is_counted_and_left_out)
 {
-    (void)state;
     Mesh mesh = mesh_read("0 0 0  1 nan inf  0 1 0  0 0 1  -inf 0 0  1e300 2 3  1 0 0",
                           "0 2 3  0 1 2  0 2 6  4 5 6  0 0 1");
     assert_int_equal(mesh.bad_positions.count, 3);
@@ -258,9 +244,8 @@ static void what_is_not_finite_is_counted_and_left_out(void **state)
     mesh_free(&mesh);
 }
 
-static void what_is_not_finite_is_counted_in_binary_files_too(void **state)
+TEST(what_is_not_finite_is_counted_in_binary_files_too)
 {
-    (void)state;
     static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                                "property float x\nproperty float y\nproperty float z\n"
                                "property float nx\nproperty float ny\nproperty float nz\n"
@@ -282,9 +267,8 @@ static void what_is_not_finite_is_counted_in_binary_files_too(void **state)
     assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
 }
 
-static void two_equal_corners_are_told_by_the_triangles_place_in_the_file(void **state)
+TEST(two_equal_corners_are_told_by_the_triangles_place_in_the_file)
 {
-    (void)state;
     Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
     assert_int_equal(mesh.equal_corners.count, 2);
     assert_int_equal(mesh.equal_corners.first, 1);
@@ -292,9 +276,8 @@ static void two_equal_corners_are_told_by_the_triangles_place_in_the_file(void *
     mesh_free(&mesh);
 }
 
-static void edges_and_heights_are_measured_in_steps_of_float(void **state)
+TEST(edges_and_heights_are_measured_in_steps_of_float)
 {
-    (void)state;
     // Near coordinates below 1, the spacing of floats is 2^-24.
     const MeshCensus found = mesh_census(
         "0.5 0 0  0.75 0 0  0.5 0.03125 0  0 0 0  0.875 0 0  0 0.875 0", "3 4 5  0 1 2");
@@ -308,9 +291,8 @@ static void edges_and_heights_are_measured_in_steps_of_float(void **state)
     assert_true(found.features.holds_floats);
 }
 
-static void coordinates_far_from_the_origin_are_written_in_coarser_steps(void **state)
+TEST(coordinates_far_from_the_origin_are_written_in_coarser_steps)
 {
-    (void)state;
     Taken taken = census_of_scene("mesh cube.ply translate 1048576 0 0");
     const Features *features = &taken.census.meshes[0].features;
     assert_true(features->offset >= 0x1p20 - 2 && features->extent <= 4);
@@ -322,9 +304,8 @@ static void coordinates_far_from_the_origin_are_written_in_coarser_steps(void **
     release(&taken);
 }
 
-static void repeated_meshes_spheres_and_lights_are_duplicates(void **state)
+TEST(repeated_meshes_spheres_and_lights_are_duplicates)
 {
-    (void)state;
     Taken taken = census_of_scene("light 1 2 3 1\nlight 1 2 4 1\nlight 1 2 3 0.5\n"
                                   "sphere 0 0 0 1\nsphere 0 -0 0 1\nsphere 0 0 0 2\n"
                                   "ply_file cube.ply\nply_file cone.ply\nply_file cube.ply\n"
@@ -335,39 +316,11 @@ static void repeated_meshes_spheres_and_lights_are_duplicates(void **state)
     release(&taken);
 }
 
-static void defined_materials_that_nothing_has_are_unused(void **state)
+TEST(defined_materials_that_nothing_has_are_unused)
 {
-    (void)state;
     Taken taken = census_of_scene("define red matte\ndefine green matte\ndefine blue matte\n"
                                   "material green\nsphere 0 0 0 1\nmaterial red\n"
                                   "ply_file cube.ply");
     assert_int_equal(taken.census.unused_materials, 1);
     release(&taken);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tetrahedron_is_closed),
-        cmocka_unit_test(a_tetrahedron_turned_over_is_inside_out),
-        cmocka_unit_test(a_missing_triangle_leaves_three_open_edges),
-        cmocka_unit_test(a_vertex_on_a_neighbors_edge_leaves_it_open),
-        cmocka_unit_test(a_turned_triangle_is_told_by_its_edges),
-        cmocka_unit_test(a_third_triangle_at_an_edge_crowds_it),
-        cmocka_unit_test(solids_that_touch_at_a_point_are_pinched_there),
-        cmocka_unit_test(vertices_at_one_position_are_one_point),
-        cmocka_unit_test(vertices_that_nothing_uses_are_counted_apart),
-        cmocka_unit_test(triangles_with_the_same_corners_are_duplicates),
-        cmocka_unit_test(an_edge_of_many_triangles_is_sorted_too),
-        cmocka_unit_test(triangles_of_no_area_are_counted),
-        cmocka_unit_test(nothing_of_an_empty_mesh_is_closed),
-        cmocka_unit_test(what_is_not_finite_is_counted_and_left_out),
-        cmocka_unit_test(what_is_not_finite_is_counted_in_binary_files_too),
-        cmocka_unit_test(two_equal_corners_are_told_by_the_triangles_place_in_the_file),
-        cmocka_unit_test(edges_and_heights_are_measured_in_steps_of_float),
-        cmocka_unit_test(coordinates_far_from_the_origin_are_written_in_coarser_steps),
-        cmocka_unit_test(repeated_meshes_spheres_and_lights_are_duplicates),
-        cmocka_unit_test(defined_materials_that_nothing_has_are_unused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

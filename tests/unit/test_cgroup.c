@@ -47,17 +47,15 @@ static uint32_t processors_of(const Tree *tree)
     return processors;
 }
 
-static void a_quota_of_version_2_is_rounded_up(void **state)
+TEST(a_quota_of_version_2_is_rounded_up)
 {
-    (void)state;
     const Tree tree = make_tree("0::/job\n");
     write_file(&tree, "job/cpu.max", "250000 100000\n");
     assert_int_equal(processors_of(&tree), 3);
 }
 
-static void the_least_of_all_groups_above_counts(void **state)
+TEST(the_least_of_all_groups_above_counts)
 {
-    (void)state;
     const Tree tree = make_tree("0::/slice/job\n");
     write_file(&tree, "slice/job/cpu.max", "max 100000\n");
     write_file(&tree, "slice/cpu.max", "200000 100000\n");
@@ -65,9 +63,8 @@ static void the_least_of_all_groups_above_counts(void **state)
     assert_int_equal(processors_of(&tree), 2);
 }
 
-static void no_quota_is_no_limit(void **state)
+TEST(no_quota_is_no_limit)
 {
-    (void)state;
     Tree tree = make_tree("0::/job\n");
     write_file(&tree, "job/cpu.max", "max 100000\n");
     assert_int_equal(processors_of(&tree), UINT32_MAX);
@@ -78,9 +75,8 @@ static void no_quota_is_no_limit(void **state)
     assert_int_equal(cgroup_processors("/nowhere", "/nowhere"), UINT32_MAX);
 }
 
-static void a_quota_of_version_1_counts(void **state)
+TEST(a_quota_of_version_1_counts)
 {
-    (void)state;
     Tree tree = make_tree("9:memory:/other\n4:cpu:/job\n0::/\n");
     write_file(&tree, "cpu/job/cpu.cfs_quota_us", "150000\n");
     write_file(&tree, "cpu/job/cpu.cfs_period_us", "100000\n");
@@ -91,9 +87,8 @@ static void a_quota_of_version_1_counts(void **state)
     assert_int_equal(processors_of(&tree), 1);
 }
 
-static void quotas_of_other_controllers_do_not_count(void **state)
+TEST(quotas_of_other_controllers_do_not_count)
 {
-    (void)state;
     const Tree tree = make_tree("4:cpuset:/job\n");
     write_file(&tree, "cpuset/job/cpu.cfs_quota_us", "100000\n");
     write_file(&tree, "cpuset/job/cpu.cfs_period_us", "100000\n");
@@ -101,33 +96,17 @@ static void quotas_of_other_controllers_do_not_count(void **state)
 }
 
 // The group's path is relative to the host, but the mount starts at the container's group.
-static void a_container_finds_its_quota_at_the_mount(void **state)
+TEST(a_container_finds_its_quota_at_the_mount)
 {
-    (void)state;
     const Tree tree = make_tree("0::/docker/0123456789abcdef\n");
     write_file(&tree, "cpu.max", "100000 100000\n");
     assert_int_equal(processors_of(&tree), 1);
 }
 
-static void what_is_no_quota_is_passed_over(void **state)
+TEST(what_is_no_quota_is_passed_over)
 {
-    (void)state;
     const Tree tree = make_tree("nonsense\n0:\n\n0::/job\n");
     write_file(&tree, "job/cpu.max", "100000 0\n");
     write_file(&tree, "cpu.max", "many\n");
     assert_int_equal(processors_of(&tree), UINT32_MAX);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_quota_of_version_2_is_rounded_up),
-        cmocka_unit_test(the_least_of_all_groups_above_counts),
-        cmocka_unit_test(no_quota_is_no_limit),
-        cmocka_unit_test(a_quota_of_version_1_counts),
-        cmocka_unit_test(quotas_of_other_controllers_do_not_count),
-        cmocka_unit_test(a_container_finds_its_quota_at_the_mount),
-        cmocka_unit_test(what_is_no_quota_is_passed_over),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static void release(Flattened *all)
     scene_free(&all->scene);
 }
 
-static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
+TEST(ids_number_spheres_first_and_triangles_in_file_order)
 {
-    (void)state;
     Flattened all =
         flattened("ply_file cube.ply\nsphere 0 0 0 1\nply_file cone.ply\nsphere 0 0 0 2", true);
     const uint32_t count = (uint32_t)all.triangles.count;
@@ -68,12 +67,11 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
 
 // Tests a triangle with its corners in all six orders. The first three orders have the same
 // orientation. Two of its points differ only in the last coordinate.
-static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(void **state)
+TEST(corners_are_stored_in_one_order_whatever_their_order_in_the_file)
 {
     static const float points[3][3] = {{1, 2, 5}, {1, 2, 4}, {1, -3, 6}};
     static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                      {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-    (void)state;
     for (int i = 0; i < 6; i++) {
         const int *file = orders[i];
         const CornerOrder *order =
@@ -84,12 +82,11 @@ static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(voi
     }
 }
 
-static void zero_has_one_sign(void **state)
+TEST(zero_has_one_sign)
 {
     static const double positions[3][3] = {{-1, -1, -1}, {1, 1, 1}, {1, -1, -0.0}};
     Triangles triangles;
     Error error = {0};
-    (void)state;
     Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     memcpy(all.scene.objects.data[0].mesh.positions, positions, sizeof positions);
     const Normalization frame = normalization_of(&all.scene);
@@ -99,9 +96,8 @@ static void zero_has_one_sign(void **state)
     release(&all);
 }
 
-static void sphere_parts_add_up_to_the_double(void **state)
+TEST(sphere_parts_add_up_to_the_double)
 {
-    (void)state;
     Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
     const Normalization frame = normalization_of(&all.scene);
     const SphereData *sphere = &all.flat.spheres[0];
@@ -116,9 +112,8 @@ static void sphere_parts_add_up_to_the_double(void **state)
     release(&all);
 }
 
-static void a_scene_without_triangles_has_no_tree_and_no_arrays_for_them(void **state)
+TEST(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them)
 {
-    (void)state;
     Flattened all = flattened("sphere 0 0 0 1", true);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.triangle_count, 0);
@@ -126,18 +121,16 @@ static void a_scene_without_triangles_has_no_tree_and_no_arrays_for_them(void **
     release(&all);
 }
 
-static void flat_objects_upload_no_normals(void **state)
+TEST(flat_objects_upload_no_normals)
 {
-    (void)state;
     Flattened all = flattened("normals flat\nply_file cube.ply", true);
     assert_int_equal(all.flat.normals_count, 0);
     assert_true(all.flat.triangles[0].normals == NOTHING);
     release(&all);
 }
 
-static void a_lone_leaf_gets_a_node_with_one_child(void **state)
+TEST(a_lone_leaf_gets_a_node_with_one_child)
 {
-    (void)state;
     Flattened all = flattened("ply_file cube.ply", true);
     Bvh leaf = {.node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
@@ -154,9 +147,8 @@ static void a_lone_leaf_gets_a_node_with_one_child(void **state)
     release(&all);
 }
 
-static void a_missing_vertex_normal_becomes_the_faces(void **state)
+TEST(a_missing_vertex_normal_becomes_the_faces)
 {
-    (void)state;
     Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     assert_int_equal(all.flat.normals_count, 1);
     const CornerOrder *order = triangles_order(&all.triangles, 0);
@@ -237,9 +229,8 @@ static void check_all_wide(const Flattened *all)
     free(seen);
 }
 
-static void the_wide_tree_holds_every_triangle_once_inside_nested_boxes(void **state)
+TEST(the_wide_tree_holds_every_triangle_once_inside_nested_boxes)
 {
-    (void)state;
     static const char *const scenes[] = {"sphere 0 0 0 1\nply_file cube.ply\nply_file cone.ply",
                                          "sphere 0 0 0 1\nply_file tetrahedron.ply"};
     for (int i = 0; i < 2; i++) {
@@ -249,9 +240,8 @@ static void the_wide_tree_holds_every_triangle_once_inside_nested_boxes(void **s
     }
 }
 
-static void a_leaf_too_large_for_a_block_becomes_several(void **state)
+TEST(a_leaf_too_large_for_a_block_becomes_several)
 {
-    (void)state;
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", true, NODES_WIDE);
     const Bvh leaf = {
         .node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
@@ -267,9 +257,8 @@ static void a_leaf_too_large_for_a_block_becomes_several(void **state)
     release(&all);
 }
 
-static void without_a_tree_blocks_hold_the_triangles_in_file_order(void **state)
+TEST(without_a_tree_blocks_hold_the_triangles_in_file_order)
 {
-    (void)state;
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", false, NODES_WIDE);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
@@ -278,9 +267,8 @@ static void without_a_tree_blocks_hold_the_triangles_in_file_order(void **state)
     release(&all);
 }
 
-static void blocks_mark_two_sided_triangles_and_looks_do_not(void **state)
+TEST(blocks_mark_two_sided_triangles_and_looks_do_not)
 {
-    (void)state;
     Flattened all = flattened_as("material 1\nsphere 0 0 0 1\nply_file tetrahedron.ply\n"
                                  "sides two\nmaterial 2\nnormals flat\nply_file tetrahedron.ply",
                                  true, NODES_WIDE);
@@ -295,23 +283,4 @@ static void blocks_mark_two_sided_triangles_and_looks_do_not(void **state)
     assert_int_equal(all.flat.looks[half].material, 2);
     assert_true(all.flat.looks[half].normals == NOTHING);
     release(&all);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ids_number_spheres_first_and_triangles_in_file_order),
-        cmocka_unit_test(corners_are_stored_in_one_order_whatever_their_order_in_the_file),
-        cmocka_unit_test(zero_has_one_sign),
-        cmocka_unit_test(sphere_parts_add_up_to_the_double),
-        cmocka_unit_test(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them),
-        cmocka_unit_test(flat_objects_upload_no_normals),
-        cmocka_unit_test(a_lone_leaf_gets_a_node_with_one_child),
-        cmocka_unit_test(a_missing_vertex_normal_becomes_the_faces),
-        cmocka_unit_test(the_wide_tree_holds_every_triangle_once_inside_nested_boxes),
-        cmocka_unit_test(a_leaf_too_large_for_a_block_becomes_several),
-        cmocka_unit_test(without_a_tree_blocks_hold_the_triangles_in_file_order),
-        cmocka_unit_test(blocks_mark_two_sided_triangles_and_looks_do_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static void expect_failure(const Builder *builder, const char *sentence)
     assert_string_equal(error.text, sentence);
 }
 
-static void a_stream_becomes_files_materials_parts_and_a_note(void **state)
+TEST(a_stream_becomes_files_materials_parts_and_a_note)
 {
-    (void)state;
     const Builder builder = whole_stream();
     ForeignModel model;
     Error error;
@@ -49,9 +48,8 @@ static void a_stream_becomes_files_materials_parts_and_a_note(void **state)
     foreign_model_free(&model);
 }
 
-static void a_path_may_be_as_long_as_the_system_has_them(void **state)
+TEST(a_path_may_be_as_long_as_the_system_has_them)
 {
-    (void)state;
     char path[4001];
     memset(path, 'd', sizeof path - 1);
     path[sizeof path - 1] = '\0';
@@ -65,9 +63,8 @@ static void a_path_may_be_as_long_as_the_system_has_them(void **state)
     foreign_model_free(&model);
 }
 
-static void a_part_goes_through_the_checks_of_ply(void **state)
+TEST(a_part_goes_through_the_checks_of_ply)
 {
-    (void)state;
     Builder builder = {0};
     put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
     put_part(&builder, FOREIGN_NO_MATERIAL,
@@ -76,17 +73,15 @@ static void a_part_goes_through_the_checks_of_ply(void **state)
     expect_failure(&builder, "m.obj: part 1:3: element vertex lacks x, y or z");
 }
 
-static void a_reason_is_told_in_plain_letters(void **state)
+TEST(a_reason_is_told_in_plain_letters)
 {
-    (void)state;
     Builder builder = {0};
     put_text(&builder, FOREIGN_FAILURE, "bad\x1b[31m\nthing \xc3\xa9");
     expect_failure(&builder, "m.obj: bad?[31m?thing ??");
 }
 
-static void colors_come_into_range_and_names_into_one_word(void **state)
+TEST(colors_come_into_range_and_names_into_one_word)
 {
-    (void)state;
     const ForeignMaterial wild = {.name = "a b\"#\n\xff/c",
                                   .diffuse = {-1, 2, NAN},
                                   .specular = {INFINITY, 0.5f, -0.0f},
@@ -105,9 +100,8 @@ static void colors_come_into_range_and_names_into_one_word(void **state)
     foreign_model_free(&model);
 }
 
-static void a_name_without_an_end_gets_one(void **state)
+TEST(a_name_without_an_end_gets_one)
 {
-    (void)state;
     ForeignMaterial endless = {0};
     memset(endless.name, 'x', sizeof endless.name);
     Builder builder = {0};
@@ -120,9 +114,8 @@ static void a_name_without_an_end_gets_one(void **state)
     foreign_model_free(&model);
 }
 
-static void every_stream_that_ends_early_is_damaged(void **state)
+TEST(every_stream_that_ends_early_is_damaged)
 {
-    (void)state;
     const Builder builder = whole_stream();
     for (size_t size = 0; size < builder.size; size++) {
         ForeignModel model;
@@ -132,26 +125,23 @@ static void every_stream_that_ends_early_is_damaged(void **state)
     }
 }
 
-static void what_follows_the_end_is_damage(void **state)
+TEST(what_follows_the_end_is_damage)
 {
-    (void)state;
     Builder builder = whole_stream();
     put_bytes(&builder, "x", 1);
     expect_failure(&builder, DAMAGED);
 }
 
-static void a_part_of_a_material_that_was_not_sent_is_damage(void **state)
+TEST(a_part_of_a_material_that_was_not_sent_is_damage)
 {
-    (void)state;
     Builder builder = {0};
     put_part(&builder, 0, TRIANGLE);
     put_text(&builder, FOREIGN_END, "");
     expect_failure(&builder, DAMAGED);
 }
 
-static void records_of_a_wrong_size_or_kind_are_damage(void **state)
+TEST(records_of_a_wrong_size_or_kind_are_damage)
 {
-    (void)state;
     const struct {
         uint32_t kind;
         size_t size;
@@ -190,9 +180,8 @@ static void demand_sound(const Mesh *mesh)
             assert_true(mesh->triangles[triangle][corner] < mesh->vertex_count);
 }
 
-static void a_changed_stream_gives_a_sound_model_or_a_sentence(void **state)
+TEST(a_changed_stream_gives_a_sound_model_or_a_sentence)
 {
-    (void)state;
     const Builder whole = whole_stream();
     uint32_t random = 1;
     size_t survivors = 0;
@@ -212,22 +201,4 @@ static void a_changed_stream_gives_a_sound_model_or_a_sentence(void **state)
         foreign_model_free(&model);
     }
     assert_in_range(survivors, 1, 19999);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stream_becomes_files_materials_parts_and_a_note),
-        cmocka_unit_test(a_path_may_be_as_long_as_the_system_has_them),
-        cmocka_unit_test(a_part_goes_through_the_checks_of_ply),
-        cmocka_unit_test(a_reason_is_told_in_plain_letters),
-        cmocka_unit_test(colors_come_into_range_and_names_into_one_word),
-        cmocka_unit_test(a_name_without_an_end_gets_one),
-        cmocka_unit_test(every_stream_that_ends_early_is_damaged),
-        cmocka_unit_test(what_follows_the_end_is_damage),
-        cmocka_unit_test(a_part_of_a_material_that_was_not_sent_is_damage),
-        cmocka_unit_test(records_of_a_wrong_size_or_kind_are_damage),
-        cmocka_unit_test(a_changed_stream_gives_a_sound_model_or_a_sentence),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

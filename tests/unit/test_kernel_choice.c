@@ -12,9 +12,8 @@ static void assert_choice(const KernelRequest *request, const Device *device, Ke
     assert_int_equal(choice.nodes, nodes);
 }
 
-static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void **state)
+TEST(cpus_get_packets_unless_their_implementation_is_slow_with_them)
 {
-    (void)state;
     const KernelRequest none = {0};
     const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
     const Device other = {.platform = "Oclgrind", .is_cpu = true};
@@ -26,9 +25,8 @@ static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void 
     assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
 }
 
-static void other_devices_get_rays(void **state)
+TEST(other_devices_get_rays)
 {
-    (void)state;
     const KernelRequest none = {0};
     const Device pocl = {.platform = "Portable Computing Language"};
     const Device mesa = {.platform = "rusticl"};
@@ -36,9 +34,8 @@ static void other_devices_get_rays(void **state)
     assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
 }
 
-static void a_choice_by_the_user_is_kept(void **state)
+TEST(a_choice_by_the_user_is_kept)
 {
-    (void)state;
     const Device mesa = {.platform = "rusticl", .is_cpu = true};
     const KernelRequest packets = {.family = 1 + FAMILY_PACKET};
     const KernelRequest wide = {.nodes = 1 + NODES_WIDE};
@@ -48,22 +45,10 @@ static void a_choice_by_the_user_is_kept(void **state)
     assert_int_equal(kernel_choose(&wide, &mesa).nodes, NODES_WIDE);
 }
 
-static void fp64_is_rays_over_pairs_everywhere(void **state)
+TEST(fp64_is_rays_over_pairs_everywhere)
 {
-    (void)state;
     const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
     const KernelRequest fp64 = {.precision = PRECISION_FP64};
     assert_choice(&fp64, &pocl, FAMILY_RAY, NODES_PAIR);
     assert_int_equal(kernel_choose(&fp64, &pocl).precision, PRECISION_FP64);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cpus_get_packets_unless_their_implementation_is_slow_with_them),
-        cmocka_unit_test(other_devices_get_rays),
-        cmocka_unit_test(a_choice_by_the_user_is_kept),
-        cmocka_unit_test(fp64_is_rays_over_pairs_everywhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

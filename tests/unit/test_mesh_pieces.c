@@ -35,9 +35,8 @@ static void fill_band(Mesh *mesh, uint32_t first, uint32_t end, uint32_t vertex)
             mesh->triangles[i][corner] = vertex + i - first + corner;
 }
 
-static void a_mesh_of_one_piece_keeps_its_order(void **state)
+TEST(a_mesh_of_one_piece_keeps_its_order)
 {
-    (void)state;
     Mesh mesh = mesh_of(1002, 1000);
     fill_band(&mesh, 0, 1000, 0);
     MeshPieces pieces = pieces_of(&mesh, NULL);
@@ -87,9 +86,8 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 #define TRIANGLES 60000
 
 // Random triangles. The vertices of each triangle are in one range of a thousand.
-static void pieces_are_what_shared_vertices_join(void **state)
+TEST(pieces_are_what_shared_vertices_join)
 {
-    (void)state;
     uint64_t random = 1;
     Mesh mesh = mesh_of(VERTICES, TRIANGLES);
     for (uint32_t i = 0; i < TRIANGLES; i++) {
@@ -109,9 +107,8 @@ static void pieces_are_what_shared_vertices_join(void **state)
     free(mesh.triangles);
 }
 
-static void small_pieces_are_one_before_the_larger(void **state)
+TEST(small_pieces_are_one_before_the_larger)
 {
-    (void)state;
     const uint32_t small = 30, band = PIECE_TRIANGLES;
     Mesh mesh = mesh_of(3 * small + band + 2, small + band);
     fill_band(&mesh, 0, band, 0);
@@ -126,22 +123,10 @@ static void small_pieces_are_one_before_the_larger(void **state)
     free(mesh.triangles);
 }
 
-static void no_triangles_are_no_pieces(void **state)
+TEST(no_triangles_are_no_pieces)
 {
-    (void)state;
     const Mesh mesh = {0};
     MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 0);
     mesh_pieces_free(&pieces);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mesh_of_one_piece_keeps_its_order),
-        cmocka_unit_test(pieces_are_what_shared_vertices_join),
-        cmocka_unit_test(small_pieces_are_one_before_the_larger),
-        cmocka_unit_test(no_triangles_are_no_pieces),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,8 @@ static Scene parsed(const char *text)
     return scene;
 }
 
-static void the_largest_side_of_the_triangles_comes_to_between_one_and_two(void **state)
+TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
 {
-    (void)state;
     Scene scene = parsed("mesh cube.ply scale 1000 translate 5000 0 0");
     const Normalization frame = normalization_of(&scene);
     const Mesh *mesh = &scene.objects.data[0].mesh;
@@ -36,9 +35,8 @@ static void the_largest_side_of_the_triangles_comes_to_between_one_and_two(void 
     scene_free(&scene);
 }
 
-static void spheres_frame_a_scene_only_without_triangles(void **state)
+TEST(spheres_frame_a_scene_only_without_triangles)
 {
-    (void)state;
     Scene spheres = parsed("sphere 10 0 0 4");
     assert_true(normalization_of(&spheres).center.x == 10);
     assert_true(normalization_of(&spheres).scale == 0.125);
@@ -48,33 +46,20 @@ static void spheres_frame_a_scene_only_without_triangles(void **state)
     scene_free(&both);
 }
 
-static void an_empty_scene_keeps_its_coordinates(void **state)
+TEST(an_empty_scene_keeps_its_coordinates)
 {
-    (void)state;
     Scene scene = parsed("");
     const Normalization frame = normalization_of(&scene);
     assert_true(frame.scale == 1 && frame.center.x == 0);
     scene_free(&scene);
 }
 
-static void what_lies_too_far_away_is_refused_by_name(void **state)
+TEST(what_lies_too_far_away_is_refused_by_name)
 {
-    (void)state;
     Error error = {0};
     Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");
     const Normalization frame = normalization_of(&scene);
     assert_false(normalization_check(&frame, &scene, &error));
     assert_string_equal(error.text, "light 2 is more than 1e12 times the scene's size away");
     scene_free(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_largest_side_of_the_triangles_comes_to_between_one_and_two),
-        cmocka_unit_test(spheres_frame_a_scene_only_without_triangles),
-        cmocka_unit_test(an_empty_scene_keeps_its_coordinates),
-        cmocka_unit_test(what_lies_too_far_away_is_refused_by_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

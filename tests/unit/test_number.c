@@ -61,9 +61,8 @@ static uint64_t next_random(uint64_t *state)
     return *state;
 }
 
-static void every_spelling_of_a_decimal_is_read(void **state)
+TEST(every_spelling_of_a_decimal_is_read)
 {
-    (void)state;
     static const struct {
         const char *text;
         double value;
@@ -90,9 +89,8 @@ static void every_spelling_of_a_decimal_is_read(void **state)
         assert_same_double(value_of(cases[index].text), cases[index].value, cases[index].text);
 }
 
-static void a_number_stops_where_the_grammar_does(void **state)
+TEST(a_number_stops_where_the_grammar_does)
 {
-    (void)state;
     assert_int_equal(length_of("1e"), 1);
     assert_int_equal(length_of("1e+"), 1);
     assert_int_equal(length_of("1e-x"), 1);
@@ -105,18 +103,16 @@ static void a_number_stops_where_the_grammar_does(void **state)
     assert_int_equal(length_of("1e5e5"), 3);
 }
 
-static void what_is_no_number_is_refused(void **state)
+TEST(what_is_no_number_is_refused)
 {
-    (void)state;
     static const char *const texts[] = {"",    "-",   "+",   ".",  "-.",   "e5",       ".e5", "inf",
                                         "nan", "INF", "+-1", " 1", "-nan", "nan(0x1)", ",5"};
     for (size_t index = 0; index < sizeof texts / sizeof *texts; index++)
         assert_int_equal(length_of(texts[index]), -1);
 }
 
-static void nothing_beyond_the_end_is_looked_at(void **state)
+TEST(nothing_beyond_the_end_is_looked_at)
 {
-    (void)state;
     static const char text[] = "-12.75e-12";
     for (size_t size = 0; size <= strlen(text); size++) {
         const Copy copy = copy_make(text, size);
@@ -132,9 +128,8 @@ static void nothing_beyond_the_end_is_looked_at(void **state)
     }
 }
 
-static void hard_cases_round_to_the_nearest_double(void **state)
+TEST(hard_cases_round_to_the_nearest_double)
 {
-    (void)state;
     static const struct {
         const char *text;
         double value;
@@ -171,9 +166,8 @@ static void hard_cases_round_to_the_nearest_double(void **state)
         assert_same_double(value_of(cases[index].text), cases[index].value, cases[index].text);
 }
 
-static void a_value_past_the_range_is_an_infinity_or_zero(void **state)
+TEST(a_value_past_the_range_is_an_infinity_or_zero)
 {
-    (void)state;
     assert_same_double(value_of("1e309"), HUGE_VAL, "1e309");
     assert_same_double(value_of("-1e309"), -HUGE_VAL, "-1e309");
     assert_same_double(value_of("1e99999999999999999999999"), HUGE_VAL, "a long exponent");
@@ -183,9 +177,8 @@ static void a_value_past_the_range_is_an_infinity_or_zero(void **state)
     assert_same_double(value_of("-0.0e-5"), -0.0, "-0.0e-5");
 }
 
-static void random_spellings_agree_with_the_c_library(void **state)
+TEST(random_spellings_agree_with_the_c_library)
 {
-    (void)state;
     uint64_t random = 88172645463325252u;
     for (int round = 0; round < 200000; round++) {
         char text[64];
@@ -201,9 +194,8 @@ static void random_spellings_agree_with_the_c_library(void **state)
     }
 }
 
-static void a_double_printed_with_17_digits_comes_back(void **state)
+TEST(a_double_printed_with_17_digits_comes_back)
 {
-    (void)state;
     uint64_t random = 362436069362436069u;
     for (int round = 0; round < 200000; round++) {
         const uint64_t bits = next_random(&random);
@@ -230,9 +222,8 @@ static double value_around_zeros(const char *head, const char *tail)
     return value;
 }
 
-static void a_token_of_a_megabyte_is_still_rounded_correctly(void **state)
+TEST(a_token_of_a_megabyte_is_still_rounded_correctly)
 {
-    (void)state;
     assert_same_double(value_around_zeros("0.", "1e1000001"), 1, "0.0...01e1000001");
     assert_same_double(value_around_zeros("1", "e-1000000"), 1, "10...0e-1000000");
     assert_same_double(value_around_zeros("", "12.5"), 12.5, "0...012.5");
@@ -245,9 +236,8 @@ static void a_token_of_a_megabyte_is_still_rounded_correctly(void **state)
 
 // (2^53 - 1) / 2^1075 is halfway between the largest subnormal and the smallest normal number.
 // Rounding it depends on all of its 768 digits.
-static void a_tie_of_768_digits_is_told_from_its_neighbors(void **state)
+TEST(a_tie_of_768_digits_is_told_from_its_neighbors)
 {
-    (void)state;
     char text[800] = "9007199254740991"; // (2^53 - 1) / 2^1075 is this times 5^1075, divided by
     // 10^1075
     const size_t size = 768;
@@ -272,9 +262,8 @@ static void a_tie_of_768_digits_is_told_from_its_neighbors(void **state)
     assert_same_double(value_of(text), 0x0.fffffffffffffp-1022, "just below the tie");
 }
 
-static void a_locale_with_a_decimal_comma_changes_nothing(void **state)
+TEST(a_locale_with_a_decimal_comma_changes_nothing)
 {
-    (void)state;
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "nl_NL.UTF-8",
                                         "fr_FR.UTF-8"};
     const char *found = NULL;
@@ -301,9 +290,8 @@ static int integer_length(const char *text, int64_t *value)
     return length;
 }
 
-static void integers_are_read_up_to_the_ends_of_their_range(void **state)
+TEST(integers_are_read_up_to_the_ends_of_their_range)
 {
-    (void)state;
     static const struct {
         const char *text;
         int64_t value;
@@ -327,9 +315,8 @@ static void integers_are_read_up_to_the_ends_of_their_range(void **state)
     }
 }
 
-static void what_is_no_integer_of_64_bits_is_refused(void **state)
+TEST(what_is_no_integer_of_64_bits_is_refused)
 {
-    (void)state;
     static const char *const texts[] = {"",
                                         "-",
                                         "+",
@@ -344,24 +331,4 @@ static void what_is_no_integer_of_64_bits_is_refused(void **state)
     int64_t value;
     for (size_t index = 0; index < sizeof texts / sizeof *texts; index++)
         assert_int_equal(integer_length(texts[index], &value), -1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_spelling_of_a_decimal_is_read),
-        cmocka_unit_test(a_number_stops_where_the_grammar_does),
-        cmocka_unit_test(what_is_no_number_is_refused),
-        cmocka_unit_test(nothing_beyond_the_end_is_looked_at),
-        cmocka_unit_test(hard_cases_round_to_the_nearest_double),
-        cmocka_unit_test(a_value_past_the_range_is_an_infinity_or_zero),
-        cmocka_unit_test(random_spellings_agree_with_the_c_library),
-        cmocka_unit_test(a_double_printed_with_17_digits_comes_back),
-        cmocka_unit_test(a_token_of_a_megabyte_is_still_rounded_correctly),
-        cmocka_unit_test(a_tie_of_768_digits_is_told_from_its_neighbors),
-        cmocka_unit_test(a_locale_with_a_decimal_comma_changes_nothing),
-        cmocka_unit_test(integers_are_read_up_to_the_ends_of_their_range),
-        cmocka_unit_test(what_is_no_integer_of_64_bits_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

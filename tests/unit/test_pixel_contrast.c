@@ -88,9 +88,8 @@ static void check_size(uint32_t width, uint32_t height)
     refine_tree_free(&tree);
 }
 
-static void contrasts_of_strips_are_those_of_single_pixels(void **state)
+TEST(contrasts_of_strips_are_those_of_single_pixels)
 {
-    (void)state;
     check_size(1, 1);
     check_size(1, 7);
     check_size(5, 1);
@@ -99,9 +98,8 @@ static void contrasts_of_strips_are_those_of_single_pixels(void **state)
     check_size(199, 35);
 }
 
-static void a_step_between_equal_colors_is_none(void **state)
+TEST(a_step_between_equal_colors_is_none)
 {
-    (void)state;
     Error error = {0};
     RefineTree tree;
     PixelContrasts contrasts;
@@ -112,13 +110,4 @@ static void a_step_between_equal_colors_is_none(void **state)
     assert_false(pixel_contrast(&contrasts, 0, 0).is_step);
     pixel_contrasts_free(&contrasts);
     refine_tree_free(&tree);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contrasts_of_strips_are_those_of_single_pixels),
-        cmocka_unit_test(a_step_between_equal_colors_is_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

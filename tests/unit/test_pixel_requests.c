@@ -53,25 +53,22 @@ static void expect_one_in_each(uint32_t columns, uint32_t rows)
     }
 }
 
-static void every_rung_has_one_sample_in_each_rectangle_of_its_size(void **state)
+TEST(every_rung_has_one_sample_in_each_rectangle_of_its_size)
 {
-    (void)state;
     for (uint32_t count = 4; count <= LADDER_GRID; count *= 4)
         for (uint32_t columns = 1; columns <= count; columns *= 2)
             expect_one_in_each(columns, count / columns);
 }
 
-static void hashes_move_the_samples(void **state)
+TEST(hashes_move_the_samples)
 {
-    (void)state;
     const uint32_t pixel[2] = {0, 0};
     assert_int_equal(pixel_request(pixel, 0, 4, 1).offset, 1);
     assert_int_equal(pixel_request(pixel, 0, 4, 2 * LADDER_GRID).offset, 2 * LADDER_GRID);
 }
 
-static void sums_give_mean_and_variance(void **state)
+TEST(sums_give_mean_and_variance)
 {
-    (void)state;
     PixelSums sums = {.squares = 0};
     // Eight of the 16 samples are black, and eight are (1, 0.5, 0).
     const PixelSums bright = {{1ull << 32, 1ull << 31, 0}, (1ull << 48) + (1ull << 46)};
@@ -81,14 +78,4 @@ static void sums_give_mean_and_variance(void **state)
     pixel_sums_mean(&sums, 16, mean);
     assert_true(mean[0] == 0.5f && mean[1] == 0.25f && mean[2] == 0.0f);
     assert_true(pixel_sums_variance(&sums, 16) == (0.25 + 0.0625) / 3);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_rung_has_one_sample_in_each_rectangle_of_its_size),
-        cmocka_unit_test(hashes_move_the_samples),
-        cmocka_unit_test(sums_give_mean_and_variance),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,18 +9,16 @@ static Mesh parse_text(const char *text)
     return parse_good(&builder);
 }
 
-static void faces_may_stand_before_the_vertices(void **state)
+TEST(faces_may_stand_before_the_vertices)
 {
-    (void)state;
     Mesh mesh =
         parse_text(HEAD FACES "element vertex 3\n" XYZ "end_header\n3 2 1 0\n0 0 0 1 0 0 0 1 0");
     assert_triangle(&mesh, 0, 2, 1, 0);
     mesh_free(&mesh);
 }
 
-static void ascii_positions_keep_double_precision(void **state)
+TEST(ascii_positions_keep_double_precision)
 {
-    (void)state;
     Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "end_header\n"
                                 "1000000.0123456789 -4.9e-324 9.99e29");
     assert_true(mesh.positions[0][0] == 1000000.0123456789);
@@ -29,9 +27,8 @@ static void ascii_positions_keep_double_precision(void **state)
     mesh_free(&mesh);
 }
 
-static void a_polygon_becomes_a_fan_around_its_first_corner(void **state)
+TEST(a_polygon_becomes_a_fan_around_its_first_corner)
 {
-    (void)state;
     Mesh mesh = parse_text(HEAD "element vertex 5\n" XYZ FACES "end_header\n"
                                 "0 0 0 2 0 0 3 1 0 2 2 0 0 2 0\n5 4 0 1 2 3\n");
     assert_int_equal(mesh.triangle_count, 3);
@@ -41,9 +38,8 @@ static void a_polygon_becomes_a_fan_around_its_first_corner(void **state)
     mesh_free(&mesh);
 }
 
-static void triangles_with_equal_corner_positions_are_dropped(void **state)
+TEST(triangles_with_equal_corner_positions_are_dropped)
 {
-    (void)state;
     Mesh mesh = parse_text(HEAD "element vertex 5\n" XYZ
                                 "element face 7\nproperty list uchar int vertex_indices\nend_header"
                                 "\n0 0 0 1 0 0 0 1 0 1.0 -0 0e5 0 0 1\n3 0 1 3\n3 0 1 2\n3 3 0 1\n"
@@ -56,9 +52,8 @@ static void triangles_with_equal_corner_positions_are_dropped(void **state)
     mesh_free(&mesh);
 }
 
-static void normals_are_used_only_when_all_three_are_there(void **state)
+TEST(normals_are_used_only_when_all_three_are_there)
 {
-    (void)state;
     Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "property float nx\nproperty float nz\n"
                                 "end_header\n1 2 3 nan inf\n");
     assert_null(mesh.normals);
@@ -70,35 +65,19 @@ static void normals_are_used_only_when_all_three_are_there(void **state)
     mesh_free(&mesh);
 }
 
-static void the_last_value_of_an_ascii_file_needs_no_blank_behind_it(void **state)
+TEST(the_last_value_of_an_ascii_file_needs_no_blank_behind_it)
 {
-    (void)state;
     Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "end_header\n1 2 3");
     assert_true(mesh.positions[0][2] == 3);
     mesh_free(&mesh);
 }
 
-static void a_file_without_elements_is_an_empty_mesh(void **state)
+TEST(a_file_without_elements_is_an_empty_mesh)
 {
-    (void)state;
     const Mesh empty = {0};
     Mesh mesh = parse_text(HEAD "end_header");
     assert_memory_equal(&mesh, &empty, sizeof empty);
     mesh = parse_text(BINARY "element vertex 0\nelement face 0\n"
                              "element a 9223372036854775807\nend_header\ntrailing");
     assert_memory_equal(&mesh, &empty, sizeof empty);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_may_stand_before_the_vertices),
-        cmocka_unit_test(ascii_positions_keep_double_precision),
-        cmocka_unit_test(a_polygon_becomes_a_fan_around_its_first_corner),
-        cmocka_unit_test(triangles_with_equal_corner_positions_are_dropped),
-        cmocka_unit_test(normals_are_used_only_when_all_three_are_there),
-        cmocka_unit_test(the_last_value_of_an_ascii_file_needs_no_blank_behind_it),
-        cmocka_unit_test(a_file_without_elements_is_an_empty_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,9 +13,8 @@ static void assert_fails(const char *bytes, size_t size, const char *sentence)
     assert_string_equal(error.text, sentence);
 }
 
-static void each_fault_of_a_header_has_its_sentence(void **state)
+TEST(each_fault_of_a_header_has_its_sentence)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "t.ply:1: the file does not begin with 'ply'"},
         {"plyx\n", "t.ply:1: the file does not begin with 'ply'"},
@@ -63,9 +62,8 @@ static void each_fault_of_a_header_has_its_sentence(void **state)
         assert_fails(cases[index][0], strlen(cases[index][0]), cases[index][1]);
 }
 
-static void each_fault_of_an_ascii_body_has_its_sentence(void **state)
+TEST(each_fault_of_an_ascii_body_has_its_sentence)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {HEAD "element vertex 2\n" XYZ "end_header\n0 0 0\n0 ",
          "t.ply:8: element vertex: a count of 2 does not fit in what is left of the file"},
@@ -115,9 +113,8 @@ static void assert_ascii_vertex_fails(const char *values, const char *complaint)
     assert_fails(builder.bytes, builder.size, sentence);
 }
 
-static void coordinates_and_normals_must_be_finite_numbers(void **state)
+TEST(coordinates_and_normals_must_be_finite_numbers)
 {
-    (void)state;
     static const char *const words[] = {"nan",  "inf",   "-inf", "NaN", "Infinity", "nan(0x1)",
                                         "0x10", "0x1p3", "1,5",  "1e",  "--1",      "1.2.3"};
     for (size_t index = 0; index < sizeof words / sizeof *words; index++) {
@@ -145,9 +142,8 @@ static void coordinates_and_normals_must_be_finite_numbers(void **state)
 
 #define ASSERT_BINARY_FAILS(bytes, sentence) assert_fails(bytes, sizeof(bytes) - 1, sentence)
 
-static void each_fault_of_a_binary_body_has_its_sentence(void **state)
+TEST(each_fault_of_a_binary_body_has_its_sentence)
 {
-    (void)state;
     ASSERT_BINARY_FAILS(
         BINARY_VERTEX "\0\0\0\0\0\0\0\0\0\0\0",
         "t.ply: byte 112: element vertex: a count of 1 does not fit in what is left of the file");
@@ -183,9 +179,8 @@ static void each_fault_of_a_binary_body_has_its_sentence(void **state)
 
 // Valid elements are read in bulk. The message must still give the position of the first invalid
 // one.
-static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **state)
+TEST(a_fault_behind_sound_binary_elements_is_told_by_its_place)
 {
-    (void)state;
 #define THREE_VERTICES BINARY "element vertex 3\n" XYZ // 94 bytes
 #define POINT          "\0\0\0\0\0\0\0\0\0\0\0\0"
     ASSERT_BINARY_FAILS(THREE_VERTICES "end_header\n" POINT POINT "\x7f\x80\0\0\0\0\0\0\0\0\0\0",
@@ -202,16 +197,4 @@ static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **sta
     ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0",
                         "t.ply: byte 229: face 2: a count of 3 does not fit in what is left of the "
                         "file");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_fault_of_a_header_has_its_sentence),
-        cmocka_unit_test(each_fault_of_an_ascii_body_has_its_sentence),
-        cmocka_unit_test(coordinates_and_normals_must_be_finite_numbers),
-        cmocka_unit_test(each_fault_of_a_binary_body_has_its_sentence),
-        cmocka_unit_test(a_fault_behind_sound_binary_elements_is_told_by_its_place),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,26 +41,23 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     free(bytes);
 }
 
-static void floats_are_written_as_floats_and_come_back(void **state)
+TEST(floats_are_written_as_floats_and_come_back)
 {
-    (void)state;
     expect_same(
         (Mesh){.positions = floats, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
         12);
 }
 
-static void doubles_are_written_as_doubles_and_come_back(void **state)
+TEST(doubles_are_written_as_doubles_and_come_back)
 {
-    (void)state;
     expect_same(
         (Mesh){
             .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
         24);
 }
 
-static void normals_come_back_whatever_their_length(void **state)
+TEST(normals_come_back_whatever_their_length)
 {
-    (void)state;
     expect_same((Mesh){.positions = doubles,
                        .normals = normals,
                        .triangles = triangles,
@@ -69,9 +66,8 @@ static void normals_come_back_whatever_their_length(void **state)
                 36);
 }
 
-static void an_empty_mesh_comes_back(void **state)
+TEST(an_empty_mesh_comes_back)
 {
-    (void)state;
     char *bytes;
     size_t size;
     const Mesh empty = {0};
@@ -86,25 +82,12 @@ static void an_empty_mesh_comes_back(void **state)
     free(bytes);
 }
 
-static void a_full_disk_is_told(void **state)
+TEST(a_full_disk_is_told)
 {
-    (void)state;
     const Mesh mesh = {
         .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2};
     FILE *full = fopen("/dev/full", "wb");
     setvbuf(full, NULL, _IONBF, 0);
     assert_false(ply_write(&mesh, full));
     fclose(full);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(floats_are_written_as_floats_and_come_back),
-        cmocka_unit_test(doubles_are_written_as_doubles_and_come_back),
-        cmocka_unit_test(normals_come_back_whatever_their_length),
-        cmocka_unit_test(an_empty_mesh_comes_back),
-        cmocka_unit_test(a_full_disk_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,8 @@ static void make_tree(RefineTree *tree)
     tree->traced = 3;
 }
 
-static void a_cell_beyond_the_pixel_is_the_pixel_beside(void **state)
+TEST(a_cell_beyond_the_pixel_is_the_pixel_beside)
 {
-    (void)state;
     RefineTree tree;
     CellName name;
     make_tree(&tree);
@@ -26,9 +25,8 @@ static void a_cell_beyond_the_pixel_is_the_pixel_beside(void **state)
     refine_tree_free(&tree);
 }
 
-static void cells_without_their_samples_are_no_neighbors_yet(void **state)
+TEST(cells_without_their_samples_are_no_neighbors_yet)
 {
-    (void)state;
     RefineTree tree;
     CellName name;
     Error error = {0};
@@ -43,22 +41,11 @@ static void cells_without_their_samples_are_no_neighbors_yet(void **state)
 }
 
 // In 32 bits, the number of pixels wraps around to 0.
-static void a_picture_past_the_numbers_of_its_pixels_is_refused(void **state)
+TEST(a_picture_past_the_numbers_of_its_pixels_is_refused)
 {
-    (void)state;
     RefineTree tree;
     Error error = {0};
     assert_false(refine_tree_make(&tree, 65536, 65536, &error));
     assert_string_equal(error.text, "a picture of 65536 x 65536 pixels is too large to be refined");
     assert_null(tree.pixels);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cell_beyond_the_pixel_is_the_pixel_beside),
-        cmocka_unit_test(cells_without_their_samples_are_no_neighbors_yet),
-        cmocka_unit_test(a_picture_past_the_numbers_of_its_pixels_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static void expect_error(const char *text, const char *message)
     assert_string_equal(place + strlen("inline.scn:"), message);
 }
 
-static void an_empty_scene_has_the_courses_constants(void **state)
+TEST(an_empty_scene_has_the_courses_constants)
 {
-    (void)state;
     Scene scene = parsed("");
     assert_int_equal(scene.width, 512);
     assert_int_equal(scene.height, 512);
@@ -45,9 +44,8 @@ static void an_empty_scene_has_the_courses_constants(void **state)
 }
 
 // The expected numbers come from the course's framework, which prints six decimals.
-static void the_six_viewpoints_are_the_courses(void **state)
+TEST(the_six_viewpoints_are_the_courses)
 {
-    (void)state;
     static const double eyes[6][3] = {
         {4.512768, 2.104338, 4.178119},  {1.528549, -0.900384, 0.923497},
         {0.846686, 0.638024, 3.649116},  {4.291287, 0, -4.474913},
@@ -62,9 +60,8 @@ static void the_six_viewpoints_are_the_courses(void **state)
     scene_free(&scene);
 }
 
-static void spheres_take_the_material_before_them(void **state)
+TEST(spheres_take_the_material_before_them)
 {
-    (void)state;
     Scene scene =
         parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n");
     assert_int_equal(scene.spheres.count, 3);
@@ -75,18 +72,16 @@ static void spheres_take_the_material_before_them(void **state)
     scene_free(&scene);
 }
 
-static void the_last_line_needs_no_line_end(void **state)
+TEST(the_last_line_needs_no_line_end)
 {
-    (void)state;
     Scene scene = parsed("light 1 2 3 0.5");
     assert_int_equal(scene.lights.count, 1);
     assert_true(scene.lights.data[0].position.y == 2 && scene.lights.data[0].intensity == 0.5);
     scene_free(&scene);
 }
 
-static void lights_are_white_or_have_a_color(void **state)
+TEST(lights_are_white_or_have_a_color)
 {
-    (void)state;
     Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0\n");
     const Vec3 white = scene.lights.data[0].color, color = scene.lights.data[1].color;
     assert_true(white.x == 1 && white.y == 1 && white.z == 1);
@@ -94,9 +89,8 @@ static void lights_are_white_or_have_a_color(void **state)
     scene_free(&scene);
 }
 
-static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
+TEST(own_materials_are_the_silhouette_where_a_file_has_none)
 {
-    (void)state;
     Scene scene = parsed("material 2\nsphere 0 0 0 1\nmaterial own\nsphere 0 0 0 1\n"
                          "define own matte\nmaterial own\nsphere 0 0 0 1");
     assert_int_equal(scene.spheres.data[0].material, 2);
@@ -105,9 +99,8 @@ static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
     scene_free(&scene);
 }
 
-static void course_material_three_is_matte_and_a_quarter_mirror(void **state)
+TEST(course_material_three_is_matte_and_a_quarter_mirror)
 {
-    (void)state;
     Scene scene = parsed("");
     const Material *mirror = &scene.materials.data[3];
     assert_int_equal(mirror->shader, SHADER_MATTE);
@@ -115,9 +108,8 @@ static void course_material_three_is_matte_and_a_quarter_mirror(void **state)
     scene_free(&scene);
 }
 
-static void a_definition_starts_from_its_kind(void **state)
+TEST(a_definition_starts_from_its_kind)
 {
-    (void)state;
     Scene scene = parsed("define gold blinn_phong diffuse 1 .8 .2 shininess 200 reflectivity .3\n"
                          "define wax matte\nmaterial wax\nsphere 0 0 0 1\nmaterial gold\n"
                          "sphere 0 0 0 1");
@@ -130,9 +122,8 @@ static void a_definition_starts_from_its_kind(void **state)
     scene_free(&scene);
 }
 
-static void only_small_integer_shininess_goes_by_squaring(void **state)
+TEST(only_small_integer_shininess_goes_by_squaring)
 {
-    (void)state;
     Scene scene =
         parsed("define a blinn_phong shininess 30.5\ndefine b blinn_phong shininess 2000\n"
                "define c blinn_phong shininess 1024");
@@ -142,9 +133,8 @@ static void only_small_integer_shininess_goes_by_squaring(void **state)
     scene_free(&scene);
 }
 
-static void cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow(void **state)
+TEST(cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow)
 {
-    (void)state;
     Scene scene = parsed("camera 1 0 0 0 0 0 30\nup 0 1 0\ncamera 0 0 9 0 0 0 60");
     assert_int_equal(scene.viewpoints.count, 2);
     assert_true(scene.viewpoints.data[0].up.z == 1);
@@ -152,9 +142,8 @@ static void cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow(void
     scene_free(&scene);
 }
 
-static void size_background_ambient_and_level_are_taken(void **state)
+TEST(size_background_ambient_and_level_are_taken)
 {
-    (void)state;
     Scene scene = parsed("size 640 480\nbackground 0 .5 1\nambient 0\nmax_level 9");
     assert_int_equal(scene.width, 640);
     assert_int_equal(scene.height, 480);
@@ -163,9 +152,8 @@ static void size_background_ambient_and_level_are_taken(void **state)
     scene_free(&scene);
 }
 
-static void sides_and_normals_are_for_the_objects_that_follow(void **state)
+TEST(sides_and_normals_are_for_the_objects_that_follow)
 {
-    (void)state;
     Scene scene = parsed("ply_file cube.ply\nsides two\nnormals flat\nmesh cube.ply\n");
     assert_false(scene.objects.data[0].two_sided);
     assert_true(scene.objects.data[0].smooth);
@@ -176,9 +164,8 @@ static void sides_and_normals_are_for_the_objects_that_follow(void **state)
 
 // A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis'
 // length.
-static void transforms_apply_in_the_order_written(void **state)
+TEST(transforms_apply_in_the_order_written)
 {
-    (void)state;
     Scene scene = parsed("mesh cube.ply\n"
                          "mesh cube.ply scale 2 rotate 0 0 5 90 translate 10 0 0\n"
                          "mesh cube.ply translate 10 0 0 scale 2\n");
@@ -191,9 +178,8 @@ static void transforms_apply_in_the_order_written(void **state)
     scene_free(&scene);
 }
 
-static void the_hash_tells_scenes_apart(void **state)
+TEST(the_hash_tells_scenes_apart)
 {
-    (void)state;
     Scene one = parsed("sphere 0 0 0 1"), same = parsed("sphere 0 0 0 1");
     Scene other = parsed("sphere 0 0 0 2");
     assert_memory_equal(one.hash, same.hash, sizeof one.hash);
@@ -203,9 +189,8 @@ static void the_hash_tells_scenes_apart(void **state)
     scene_free(&other);
 }
 
-static void faults_name_line_column_and_the_statement(void **state)
+TEST(faults_name_line_column_and_the_statement)
 {
-    (void)state;
     expect_error("\nlight 1 2\n", "2:10: expected a number: found the end of the line; the "
                                   "statement is 'light X Y Z INTENSITY [R G B]'");
     expect_error("sphere 0 0 zero 1", "1:12: expected a number: found 'zero'; the statement is "
@@ -228,9 +213,8 @@ static void faults_name_line_column_and_the_statement(void **state)
                                           "is 'light X Y Z INTENSITY [R G B]'");
 }
 
-static void unknown_words_get_the_nearest_one(void **state)
+TEST(unknown_words_get_the_nearest_one)
 {
-    (void)state;
     expect_error("spheer 0 0 0 1",
                  "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'");
     expect_error("??", "1:1: expected a statement: found '\?\?'");
@@ -244,9 +228,8 @@ static void unknown_words_get_the_nearest_one(void **state)
         "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
 }
 
-static void values_out_of_range_are_refused(void **state)
+TEST(values_out_of_range_are_refused)
 {
-    (void)state;
     expect_error("size 0 5", "1:6: expected an integer between 1 and 65536: found '0'; the "
                              "statement is 'size WIDTH HEIGHT'");
     expect_error("camera 0 0 0 0 0 0 45",
@@ -264,9 +247,8 @@ static void values_out_of_range_are_refused(void **state)
                  "silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
 }
 
-static void a_missing_mesh_is_an_error_at_its_path(void **state)
+TEST(a_missing_mesh_is_an_error_at_its_path)
 {
-    (void)state;
     Scene scene;
     Error error = {0};
     assert_false(parse(&scene, "ply_file nowhere.ply", &error));
@@ -274,18 +256,16 @@ static void a_missing_mesh_is_an_error_at_its_path(void **state)
     assert_non_null(strstr(error.text, "/scenes/nowhere.ply: cannot be opened: No such file"));
 }
 
-static void transforms_out_of_range_are_refused(void **state)
+TEST(transforms_out_of_range_are_refused)
 {
-    (void)state;
     Scene scene;
     Error error = {0};
     assert_false(parse(&scene, "mesh cube.ply scale 1e30 scale 1e30", &error));
     assert_non_null(strstr(error.text, "past 1e30"));
 }
 
-static void the_longest_normals_can_be_rotated(void **state)
+TEST(the_longest_normals_can_be_rotated)
 {
-    (void)state;
     Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
     // The rotation by 20 degrees about x multiplies y by cos - sin, and z by cos + sin.
@@ -294,9 +274,8 @@ static void the_longest_normals_can_be_rotated(void **state)
     scene_free(&scene);
 }
 
-static void a_scene_names_the_files_it_was_read_from(void **state)
+TEST(a_scene_names_the_files_it_was_read_from)
 {
-    (void)state;
     Scene scene;
     Error error = {0};
     assert_true(scn_load(&scene, CLRT_SOURCE_FOLDER "/scenes/simple.scn", ply_parse, &error));
@@ -307,42 +286,12 @@ static void a_scene_names_the_files_it_was_read_from(void **state)
     scene_free(&scene);
 }
 
-static void a_scene_tells_the_courses_cameras_from_its_own(void **state)
+TEST(a_scene_tells_the_courses_cameras_from_its_own)
 {
-    (void)state;
     Scene scene = parsed("");
     assert_true(scene.has_course_views);
     scene_free(&scene);
     scene = parsed("camera 1 2 3 4 5 6 30");
     assert_false(scene.has_course_views);
     scene_free(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_empty_scene_has_the_courses_constants),
-        cmocka_unit_test(the_six_viewpoints_are_the_courses),
-        cmocka_unit_test(spheres_take_the_material_before_them),
-        cmocka_unit_test(the_last_line_needs_no_line_end),
-        cmocka_unit_test(lights_are_white_or_have_a_color),
-        cmocka_unit_test(own_materials_are_the_silhouette_where_a_file_has_none),
-        cmocka_unit_test(course_material_three_is_matte_and_a_quarter_mirror),
-        cmocka_unit_test(a_definition_starts_from_its_kind),
-        cmocka_unit_test(only_small_integer_shininess_goes_by_squaring),
-        cmocka_unit_test(cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow),
-        cmocka_unit_test(size_background_ambient_and_level_are_taken),
-        cmocka_unit_test(sides_and_normals_are_for_the_objects_that_follow),
-        cmocka_unit_test(transforms_apply_in_the_order_written),
-        cmocka_unit_test(the_hash_tells_scenes_apart),
-        cmocka_unit_test(faults_name_line_column_and_the_statement),
-        cmocka_unit_test(unknown_words_get_the_nearest_one),
-        cmocka_unit_test(values_out_of_range_are_refused),
-        cmocka_unit_test(a_missing_mesh_is_an_error_at_its_path),
-        cmocka_unit_test(transforms_out_of_range_are_refused),
-        cmocka_unit_test(the_longest_normals_can_be_rotated),
-        cmocka_unit_test(a_scene_names_the_files_it_was_read_from),
-        cmocka_unit_test(a_scene_tells_the_courses_cameras_from_its_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

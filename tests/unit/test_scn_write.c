@@ -58,9 +58,8 @@ static void expect_same(const Scene *a, const Scene *b)
     }
 }
 
-static void every_statement_comes_back(void **state)
+TEST(every_statement_comes_back)
 {
-    (void)state;
     static const char text[] =
         "size 640 480\nbackground 0.1 0.2 0.3\nambient 0.07\nmax_level 9\n"
         "camera 1 2 3.3333333333333335 0 0 0 33.3\nup 0 1 0.1\ncamera 9 9 9 0 0 0 60\n"
@@ -80,9 +79,8 @@ static void every_statement_comes_back(void **state)
     free(again);
 }
 
-static void a_scene_without_cameras_keeps_the_courses(void **state)
+TEST(a_scene_without_cameras_keeps_the_courses)
 {
-    (void)state;
     char *again;
     Scene scene = parsed("light 1 2 3 1", 13);
     Scene copy = written_and_read(&scene, NULL, &again);
@@ -95,9 +93,8 @@ static void a_scene_without_cameras_keeps_the_courses(void **state)
 }
 
 // Mesh files may contain these names of materials.
-static void names_that_no_scene_can_define_are_replaced(void **state)
+TEST(names_that_no_scene_can_define_are_replaced)
 {
-    (void)state;
     static const char *const names[] = {"3d.obj:red", "a\"b",  "",          "own",
                                         "twice",      "twice", "material_4"};
     Error error = {0};
@@ -120,9 +117,8 @@ static void names_that_no_scene_can_define_are_replaced(void **state)
     free(again);
 }
 
-static void numbers_have_no_more_digits_than_they_need(void **state)
+TEST(numbers_have_no_more_digits_than_they_need)
 {
-    (void)state;
     char *again;
     static const char text[] = "ambient 0.05\nlight 0.1 0.2 0.30000000000000004 1";
     Scene scene = parsed(text, strlen(text));
@@ -132,15 +128,4 @@ static void numbers_have_no_more_digits_than_they_need(void **state)
     scene_free(&copy);
     scene_free(&scene);
     free(again);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_statement_comes_back),
-        cmocka_unit_test(a_scene_without_cameras_keeps_the_courses),
-        cmocka_unit_test(names_that_no_scene_can_define_are_replaced),
-        cmocka_unit_test(numbers_have_no_more_digits_than_they_need),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

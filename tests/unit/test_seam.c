@@ -35,9 +35,8 @@ static double sum_of_line(const Seam *seam, const SampleData cells[GROUP_CELLS])
     return (double)(sums[0][0] + sums[1][0] + sums[2][0]) / STEPS / AREA;
 }
 
-static void samples_place_a_step_between_two_cells_wherever_it_lies(void **state)
+TEST(samples_place_a_step_between_two_cells_wherever_it_lies)
 {
-    (void)state;
     for (uint32_t step = SIDE / 2 + 1; step <= SIDE / 2 + SIDE; step++) {
         SampleData cells[GROUP_CELLS];
         uint32_t place[2], samples = 0;
@@ -78,9 +77,8 @@ static Seam border_seam(const SampleData cells[GROUP_CELLS])
     return seam;
 }
 
-static void what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside(void **state)
+TEST(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside)
 {
-    (void)state;
     SampleData cells[GROUP_CELLS];
     uint32_t place[2];
     Seam rest;
@@ -97,9 +95,8 @@ static void what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside(
     assert_false(seam_asks(&outside, place));
 }
 
-static void a_third_surface_between_two_makes_a_seam_on_either_side(void **state)
+TEST(a_third_surface_between_two_makes_a_seam_on_either_side)
 {
-    (void)state;
     const SampleData third = seen(1, 3);
     SampleData cells[GROUP_CELLS];
     Seam rest, seam = {.stride = 1,
@@ -124,9 +121,8 @@ static void a_third_surface_between_two_makes_a_seam_on_either_side(void **state
     assert_true(both - expected < 0.02 && both - expected > -0.02);
 }
 
-static void a_slope_is_no_step_and_a_crease_on_one_surface_is(void **state)
+TEST(a_slope_is_no_step_and_a_crease_on_one_surface_is)
 {
-    (void)state;
     const SampleData slope[] = {seen(0.1f, 1), seen(0.2f, 1), seen(0.3f, 1), seen(0.4f, 1),
                                 seen(0.5f, 1)};
     const SampleData crease[] = {seen(0.1f, 1), seen(0.1f, 1), seen(0.12f, 1), seen(0.4f, 1),
@@ -139,23 +135,10 @@ static void a_slope_is_no_step_and_a_crease_on_one_surface_is(void **state)
     }
 }
 
-static void another_surface_is_a_step_whatever_its_color(void **state)
+TEST(another_surface_is_a_step_whatever_its_color)
 {
-    (void)state;
     const SampleData one = seen(0.1f, 1), other = seen(0.1f, 2);
     const SampleData *const line[] = {&one, &one, &one, &one, &other};
     assert_false(seam_steps(line, 2));
     assert_true(seam_steps(line, 3));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_place_a_step_between_two_cells_wherever_it_lies),
-        cmocka_unit_test(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside),
-        cmocka_unit_test(a_third_surface_between_two_makes_a_seam_on_either_side),
-        cmocka_unit_test(a_slope_is_no_step_and_a_crease_on_one_surface_is),
-        cmocka_unit_test(another_surface_is_a_step_whatever_its_color),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

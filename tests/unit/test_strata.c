@@ -78,9 +78,8 @@ static bool reach(Pixel pixels[PIXELS], Strata *strata, double mean_square, uint
     return false;
 }
 
-static void the_bound_exceeds_the_error_of_19_populations_in_20(void **state)
+TEST(the_bound_exceeds_the_error_of_19_populations_in_20)
 {
-    (void)state;
     static Pixel pixels[PIXELS];
     int exceeded = 0;
     for (uint64_t seed = 1; seed <= POPULATIONS; seed++) {
@@ -96,9 +95,8 @@ static void the_bound_exceeds_the_error_of_19_populations_in_20(void **state)
     assert_true(20 * exceeded <= POPULATIONS);
 }
 
-static void flat_strata_get_controls_for_any_aim(void **state)
+TEST(flat_strata_get_controls_for_any_aim)
 {
-    (void)state;
     const StrataAim aim = {.mean_square = 1, .samples = INFINITY};
     Strata strata = {.pixels = PIXELS};
     const uint32_t flat = strata_of_bend(0, 0), near = strata_of_bend(0, 1);
@@ -111,9 +109,8 @@ static void flat_strata_get_controls_for_any_aim(void **state)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_REACHED);
 }
 
-static void pixels_on_the_last_rung_exhaust_the_ladder(void **state)
+TEST(pixels_on_the_last_rung_exhaust_the_ladder)
 {
-    (void)state;
     const StrataAim aim = {.mean_square = 1e-12, .samples = INFINITY};
     Strata strata = {.pixels = 10};
     for (int i = 0; i < 10; i++)
@@ -121,9 +118,8 @@ static void pixels_on_the_last_rung_exhaust_the_ladder(void **state)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
 }
 
-static void no_more_samples_are_planned_than_may_be_taken(void **state)
+TEST(no_more_samples_are_planned_than_may_be_taken)
 {
-    (void)state;
     static Pixel pixels[PIXELS];
     Strata strata;
     make_population(pixels, &strata, 1);
@@ -135,15 +131,4 @@ static void no_more_samples_are_planned_than_may_be_taken(void **state)
     for (uint32_t i = 0; i < STRATA_COUNT; i++)
         planned += 16 * (strata.strata[i].fraction - before[i]) * (double)strata.strata[i].entered;
     assert_true(planned > 0 && planned < 2 * 1600);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_exceeds_the_error_of_19_populations_in_20),
-        cmocka_unit_test(flat_strata_get_controls_for_any_aim),
-        cmocka_unit_test(pixels_on_the_last_rung_exhaust_the_ladder),
-        cmocka_unit_test(no_more_samples_are_planned_than_may_be_taken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static Vec3 point_at(double x, double y, double depth)
     return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
 }
 
-static void a_small_triangle_is_cut_where_it_appears_down_to_its_size(void **state)
+TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
 {
-    (void)state;
     World world;
     open_world(&world, 1);
     add_triangle(&world, point_at(40.1, 70.9, 5), point_at(40.4, 70.8, 6), point_at(40.3, 70.7, 7));
@@ -124,9 +123,8 @@ static void a_small_triangle_is_cut_where_it_appears_down_to_its_size(void **sta
     close_world(&world);
 }
 
-static void a_triangle_is_cut_from_either_side_only_if_it_has_two(void **state)
+TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)
 {
-    (void)state;
     const Vec3 a = point_at(40.1, 70.9, 5), b = point_at(40.4, 70.8, 6),
                c = point_at(40.3, 70.7, 7);
     assert_int_equal(cuts_of_triangle(a, b, c, false), 1);
@@ -134,9 +132,8 @@ static void a_triangle_is_cut_from_either_side_only_if_it_has_two(void **state)
     assert_int_equal(cuts_of_triangle(a, c, b, true), 1);
 }
 
-static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
+TEST(what_is_edge_on_behind_or_beside_is_not_cut)
 {
-    (void)state;
     assert_int_equal(cuts_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
     assert_int_equal(cuts_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
                      0);
@@ -145,9 +142,8 @@ static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
 }
 
 // A sliver below the eye that starts far behind it appears from the picture's lower edge upward.
-static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(void **state)
+TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
 {
-    (void)state;
     World world;
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
     open_world(&world, 2);
@@ -162,9 +158,8 @@ static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(v
     close_world(&world);
 }
 
-static void a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture(void **state)
+TEST(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture)
 {
-    (void)state;
     World world;
     open_world(&world, 1);
     add_triangle(&world, vec3(0.005, 1, -1e9), vec3(0.006, 1, -1e9), vec3(0.0055, 1, 1e9));
@@ -195,9 +190,8 @@ static void add_slivers(World *world, int count, double thickness)
     }
 }
 
-static void too_many_slivers_take_no_more_samples_than_there_are(void **state)
+TEST(too_many_slivers_take_no_more_samples_than_there_are)
 {
-    (void)state;
     World world;
     open_world(&world, 20000);
     world.object.two_sided = true;
@@ -211,9 +205,8 @@ static void too_many_slivers_take_no_more_samples_than_there_are(void **state)
     close_world(&world);
 }
 
-static void any_threads_find_the_same_cells(void **state)
+TEST(any_threads_find_the_same_cells)
 {
-    (void)state;
     World worlds[4];
     for (uint32_t i = 0; i < 4; i++) {
         open_world(&worlds[i], 5000);
@@ -242,9 +235,8 @@ static void add_strip(World *world, double left, double right)
                  point_at(right, 10.1, 4));
 }
 
-static void a_wide_part_made_of_thin_ones_is_not_cut(void **state)
+TEST(a_wide_part_made_of_thin_ones_is_not_cut)
 {
-    (void)state;
     World world;
     open_world(&world, 400);
     for (int i = 0; i < 200; i++)
@@ -276,9 +268,8 @@ static void add_joined_strip(World *world, double left, double right)
     }
 }
 
-static void a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh(void **state)
+TEST(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh)
 {
-    (void)state;
     World world;
     open_world(&world, 2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 20, 90);
@@ -290,9 +281,8 @@ static void a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh(void **state)
 }
 
 // The broader strip contains samples of these cells, and is searched first.
-static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels(void **state)
+TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
 {
-    (void)state;
     World world;
     open_world(&world, 2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 50.05, 50.95);
@@ -303,21 +293,4 @@ static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pix
         assert_true(is_cut(&world, 9 * 50 + 4, 9 * row, 2));
     }
     close_world(&world);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_small_triangle_is_cut_where_it_appears_down_to_its_size),
-        cmocka_unit_test(a_triangle_is_cut_from_either_side_only_if_it_has_two),
-        cmocka_unit_test(what_is_edge_on_behind_or_beside_is_not_cut),
-        cmocka_unit_test(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it),
-        cmocka_unit_test(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture),
-        cmocka_unit_test(too_many_slivers_take_no_more_samples_than_there_are),
-        cmocka_unit_test(any_threads_find_the_same_cells),
-        cmocka_unit_test(a_wide_part_made_of_thin_ones_is_not_cut),
-        cmocka_unit_test(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh),
-        cmocka_unit_test(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,9 +11,8 @@ static Tokens tokens_in(const char *text, Error *error)
     return tokens_of(text, strlen(text), "a.scn", error);
 }
 
-static void tokens_carry_line_and_column(void **state)
+TEST(tokens_carry_line_and_column)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("\n\n  light\t1\n", &error);
     const Token light = tokens_next_statement(&tokens);
@@ -25,9 +24,8 @@ static void tokens_carry_line_and_column(void **state)
     assert_null(tokens_next_statement(&tokens).text);
 }
 
-static void comments_end_a_line_anywhere(void **state)
+TEST(comments_end_a_line_anywhere)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("// one\n# two\nlight // three\nsphere # four", &error);
     assert_true(token_is(tokens_next_statement(&tokens), "light"));
@@ -36,27 +34,24 @@ static void comments_end_a_line_anywhere(void **state)
     assert_null(tokens_next(&tokens).text);
 }
 
-static void slashes_inside_a_path_are_no_comment(void **state)
+TEST(slashes_inside_a_path_are_no_comment)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("ply_file ..//a#b.ply", &error);
     tokens_next_statement(&tokens);
     assert_true(token_is(tokens_next(&tokens), "..//a#b.ply"));
 }
 
-static void all_three_line_ends_count_one_line(void **state)
+TEST(all_three_line_ends_count_one_line)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("a\r\nb\rc\nd", &error);
     for (unsigned line = 1; line <= 4; line++)
         assert_int_equal(tokens_next_statement(&tokens).line, line);
 }
 
-static void quotes_hold_blanks_together(void **state)
+TEST(quotes_hold_blanks_together)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("ply_file \"my model.ply\" x", &error);
     tokens_next_statement(&tokens);
@@ -64,9 +59,8 @@ static void quotes_hold_blanks_together(void **state)
     assert_true(token_is(tokens_next(&tokens), "x"));
 }
 
-static void messages_show_no_control_bytes_and_shorten_long_tokens(void **state)
+TEST(messages_show_no_control_bytes_and_shorten_long_tokens)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("\033[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx", &error);
     const Token token = tokens_next_statement(&tokens);
@@ -75,36 +69,19 @@ static void messages_show_no_control_bytes_and_shorten_long_tokens(void **state)
                         "a.scn:1:1: no: found '?[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx'...");
 }
 
-static void an_unclosed_quote_is_part_of_the_word(void **state)
+TEST(an_unclosed_quote_is_part_of_the_word)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
     tokens_next_statement(&tokens);
     assert_true(token_is(tokens_next(&tokens), "\"my"));
 }
 
-static void a_byte_order_mark_is_passed_over(void **state)
+TEST(a_byte_order_mark_is_passed_over)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("\xef\xbb\xbflight", &error);
     const Token token = tokens_next_statement(&tokens);
     assert_true(token_is(token, "light"));
     assert_int_equal(token.column, 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tokens_carry_line_and_column),
-        cmocka_unit_test(comments_end_a_line_anywhere),
-        cmocka_unit_test(slashes_inside_a_path_are_no_comment),
-        cmocka_unit_test(all_three_line_ends_count_one_line),
-        cmocka_unit_test(quotes_hold_blanks_together),
-        cmocka_unit_test(an_unclosed_quote_is_part_of_the_word),
-        cmocka_unit_test(a_byte_order_mark_is_passed_over),
-        cmocka_unit_test(messages_show_no_control_bytes_and_shorten_long_tokens),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 static Material materials[2];
 static SphereData spheres[1];
 
-static void only_materials_in_use_count(void **state)
+TEST(only_materials_in_use_count)
 {
-    (void)state;
     FlatScene flat = {
         .materials = materials, .material_count = 2, .spheres = spheres, .sphere_count = 1};
     materials[1] = (Material){.shader = SHADER_BLINN_PHONG, .reflectivity = 0.5f};
@@ -23,21 +22,11 @@ static void only_materials_in_use_count(void **state)
     assert_false(traits_of(&flat, false).triangles);
 }
 
-static void traits_become_compiler_options(void **state)
+TEST(traits_become_compiler_options)
 {
-    (void)state;
     char options[TRAITS_OPTIONS_SIZE];
     const SceneTraits traits = {.spheres = true, .mirrors = true, .statistics = true};
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
                                  "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_STATISTICS=1");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(only_materials_in_use_count),
-        cmocka_unit_test(traits_become_compiler_options),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

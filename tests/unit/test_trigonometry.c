@@ -6,9 +6,8 @@
 
 #include <math.h>
 
-static void multiples_of_ninety_degrees_are_exact(void **state)
+TEST(multiples_of_ninety_degrees_are_exact)
 {
-    (void)state;
     const double sines[4] = {0, 1, 0, -1};
     for (int turn = -8; turn <= 8; turn++) {
         assert_true(sine_of_degrees(90.0 * turn) == sines[turn & 3]);
@@ -17,21 +16,11 @@ static void multiples_of_ninety_degrees_are_exact(void **state)
 }
 
 // The tolerance of 4 * 2^-53 covers two roundings of the series and one of the angle on each side.
-static void all_angles_agree_with_the_library(void **state)
+TEST(all_angles_agree_with_the_library)
 {
-    (void)state;
     for (double degrees = -400; degrees <= 400; degrees += 0.37) {
         const long double radians = (long double)degrees * 3.14159265358979323846264338L / 180;
         assert_true(fabs(sine_of_degrees(degrees) - (double)sinl(radians)) < 0x1p-51);
         assert_true(fabs(cosine_of_degrees(degrees) - (double)cosl(radians)) < 0x1p-51);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(multiples_of_ninety_degrees_are_exact),
-        cmocka_unit_test(all_angles_agree_with_the_library),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

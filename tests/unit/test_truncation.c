@@ -19,18 +19,16 @@ static Scene scene_of(const float reflectivities[], size_t count)
     return scene;
 }
 
-static void the_bound_is_the_largest_weight_that_is_left(void **state)
+TEST(the_bound_is_the_largest_weight_that_is_left)
 {
-    (void)state;
     Scene scene = scene_of((const float[]){0.25f, 0.5f, 0}, 3);
     assert_true(truncation_bound(&scene, 0) == 1);
     assert_true(truncation_bound(&scene, 3) == 0.125);
     scene_free(&scene);
 }
 
-static void the_level_is_the_first_within_the_bound(void **state)
+TEST(the_level_is_the_first_within_the_bound)
 {
-    (void)state;
     Scene scene = scene_of((const float[]){0.5f}, 1);
     for (uint32_t level = 0; level < 30; level++) {
         assert_int_equal(truncation_level(&scene, ldexp(1, -(int)level)), level);
@@ -39,9 +37,8 @@ static void the_level_is_the_first_within_the_bound(void **state)
     scene_free(&scene);
 }
 
-static void without_mirrors_one_level_is_exact(void **state)
+TEST(without_mirrors_one_level_is_exact)
 {
-    (void)state;
     Scene scene = scene_of((const float[]){0}, 1), empty = {0};
     assert_int_equal(truncation_level(&scene, 1e-30), 1);
     assert_int_equal(truncation_level(&empty, 1e-30), 1);
@@ -49,33 +46,19 @@ static void without_mirrors_one_level_is_exact(void **state)
     scene_free(&scene);
 }
 
-static void perfect_mirrors_take_all_levels(void **state)
+TEST(perfect_mirrors_take_all_levels)
 {
-    (void)state;
     Scene scene = scene_of((const float[]){1}, 1);
     assert_int_equal(truncation_level(&scene, 0.5), MAX_LEVEL_LIMIT);
     assert_true(truncation_bound(&scene, MAX_LEVEL_LIMIT) == 1);
     scene_free(&scene);
 }
 
-static void materials_that_nothing_uses_do_not_count(void **state)
+TEST(materials_that_nothing_uses_do_not_count)
 {
-    (void)state;
     Error error = {0};
     Scene scene = scene_of((const float[]){0.25f}, 1);
     assert_true(array_push(&scene.materials, (Material){.reflectivity = 1}, &error));
     assert_true(truncation_bound(&scene, 2) == 0.0625);
     scene_free(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_is_the_largest_weight_that_is_left),
-        cmocka_unit_test(the_level_is_the_first_within_the_bound),
-        cmocka_unit_test(without_mirrors_one_level_is_exact),
-        cmocka_unit_test(perfect_mirrors_take_all_levels),
-        cmocka_unit_test(materials_that_nothing_uses_do_not_count),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

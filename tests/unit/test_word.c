@@ -13,27 +13,16 @@ static const char *nearest(const char *text)
     return word_nearest(text, strlen(text), words, 4);
 }
 
-static void a_mistyped_word_finds_the_one_meant(void **state)
+TEST(a_mistyped_word_finds_the_one_meant)
 {
-    (void)state;
     assert_string_equal(nearest("ligth"), "light");
     assert_string_equal(nearest("shpere"), "sphere");
     assert_string_equal(nearest("plyfile"), "ply_file");
 }
 
-static void a_word_unlike_all_finds_none(void **state)
+TEST(a_word_unlike_all_finds_none)
 {
-    (void)state;
     assert_null(nearest("zzzzzz"));
     assert_null(nearest("a word that is far longer than any keyword could be"));
     assert_null(word_nearest("x", 1, words, 0));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mistyped_word_finds_the_one_meant),
-        cmocka_unit_test(a_word_unlike_all_finds_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
