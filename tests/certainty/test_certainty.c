@@ -70,7 +70,7 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
                        uint32_t floor)
 {
     Error error = {0};
-    Certified certified;
+    FREED_BY(certified_free) Certified certified;
     Comparison comparison;
     const CertifiedView wanted = {.view = view, .samples = 1};
     const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 16 : 8, 1);
@@ -98,7 +98,6 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     sum->compared += comparison.compared;
     sum->wrong += wrong + changed + unlike;
     sum->poor += counts[CERTAINTY_CERTIFIED] * 1000 < floor * pixels;
-    certified_free(&certified);
 }
 
 static void check_views(Sum *sum, const Scene *scene, const char *name, uint32_t floor)
@@ -111,10 +110,9 @@ static void check_views(Sum *sum, const Scene *scene, const char *name, uint32_t
 static void check_file(Sum *sum, const char *path, uint32_t floor)
 {
     Error error = {0};
-    Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = {0};
     require(scn_load(&scene, path, ply_parse, &error), &error);
     check_views(sum, &scene, strrchr(path, '/') + 1, floor);
-    scene_free(&scene);
 }
 
 static void judge(const Sum *sum)
@@ -177,9 +175,8 @@ TEST(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic)
 TEST(coincident_triangles_are_certified)
 {
     Sum sum = {0};
-    Scene scene = extreme_coincident();
+    FREED_BY(scene_free) Scene scene = extreme_coincident();
     check_views(&sum, &scene, "coincident", 980);
-    scene_free(&scene);
     judge(&sum);
 }
 

@@ -19,14 +19,13 @@ Framebuffer rendered(const PictureRequest *request)
 void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
                           size_t count)
 {
-    Framebuffer first = rendered(expected);
+    FREED_BY(framebuffer_free) Framebuffer first = rendered(expected);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
     for (size_t i = 0; i < count; i++) {
         Framebuffer other = rendered(&others[i]);
         assert_memory_equal(first.pixels, other.pixels, size);
         framebuffer_free(&other);
     }
-    framebuffer_free(&first);
 }
 
 void rendered_expect_same_in_every_form(const PictureRequest *usual)

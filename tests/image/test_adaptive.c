@@ -77,6 +77,7 @@ static void expect_error_of_uniform(const char *scene, const Saving *saving)
     few.sample_count = &samples;
     many.samples = 32;
     uniform.samples = side;
+    FREED_BY(framebuffer_free)
     Framebuffer reference = rendered(&many), plain = rendered(&uniform), refined = rendered(&few);
     const double allowed = rendered_error(&plain, &reference);
     const double reached = rendered_error(&refined, &reference);
@@ -84,9 +85,6 @@ static void expect_error_of_uniform(const char *scene, const Saving *saving)
         fail_msg("%s: error %g, of %ux%u samples %g", scene, reached, side, side, allowed);
     if (saving->times * samples > (uint64_t)SIDE * SIDE * side * side)
         fail_msg("%s: %llu samples", scene, (unsigned long long)samples);
-    framebuffer_free(&reference);
-    framebuffer_free(&plain);
-    framebuffer_free(&refined);
 }
 
 TEST(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them)
@@ -109,9 +107,8 @@ TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
     PictureRequest request = adaptive(square(scenes[0], 30), 0.001f);
     request.max_level = 0;
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     assert_int_equal(samples, 900);
-    framebuffer_free(&picture);
 }
 
 #define SPHERES 60 // spheres along a side of the wall
@@ -138,7 +135,7 @@ TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
     static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
     double expected = 0, sum = 0;
     PictureRequest request = adaptive(square(write_spheres(radii, 6), 181), 1);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     int seen = 0;
     for (int y = 0; y < SPHERES; y++)
         for (int x = 0; x < SPHERES; x++) {
@@ -154,7 +151,6 @@ TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
         }
     assert_int_equal(seen, SPHERES * SPHERES);
     assert_true(fabs(sum / expected - 1) < 0.1);
-    framebuffer_free(&picture);
     remove(request.scene_path);
 }
 
@@ -176,12 +172,10 @@ TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)
     many.samples = 32;
     PictureRequest request = adaptive(plain, 0.08f);
     request.sample_count = &samples;
+    FREED_BY(framebuffer_free)
     Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
     const double left = rendered_error(&picture, &exact) / rendered_error(&first, &exact);
     if (samples < 10100 || samples > 11300 || left > 0.45)
         fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
-    framebuffer_free(&picture);
-    framebuffer_free(&first);
-    framebuffer_free(&exact);
     remove(request.scene_path);
 }

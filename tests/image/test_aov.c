@@ -105,7 +105,7 @@ static void judge_pixel(Judgment *judgment, const Values *values, const OraclePa
 static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
 {
     Judgment judgment = {0};
-    Oracle oracle = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
     if (!oracle_make(&oracle, scene, &error))
         fail_msg("%s", error.text);
@@ -117,7 +117,6 @@ static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
             const OraclePath path = oracle_path(&view, x + 0.5, y + 0.5);
             judge_pixel(&judgment, &values, &path, (double)scene->lights.count);
         }
-    oracle_free(&oracle);
     return judgment;
 }
 
@@ -130,10 +129,10 @@ static double size_of(const Scene *scene)
 // ignore.
 static void check(const char *path, uint32_t step)
 {
-    Scene scene = {0};
-    Layers layers;
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(layers_free) Layers layers;
     Error error = {0};
-    Framebuffer picture = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0};
     PictureRequest request = picture_request(path, 1);
     request.samples = 2;
     request.aovs = set_of(JUDGED);
@@ -151,9 +150,6 @@ static void check(const char *path, uint32_t step)
     assert_true(judgment.bounces <= allowed);
     assert_true(judgment.depth < 2e-5 && judgment.normal < 1e-3);
     assert_true(judgment.position < 1e-5 * size_of(&scene));
-    framebuffer_free(&picture);
-    layers_free(&layers);
-    scene_free(&scene);
 }
 
 TEST(channels_of_small_scenes_are_what_the_oracle_sees)
@@ -201,18 +197,14 @@ static bool pictures_equal(const Framebuffer *a, const Framebuffer *b)
 // Checks that the request gives the same bits as the defaults.
 static void check_same(const PictureRequest *other, const char *list)
 {
-    Layers layers, changed_layers;
-    Framebuffer picture = {0}, changed = {0};
+    FREED_BY(layers_free) Layers layers, changed_layers;
+    FREED_BY(framebuffer_free) Framebuffer picture = {0}, changed = {0};
     PictureRequest request = picture_request(other->scene_path, other->view);
     PictureRequest change = *other;
     take_values(&request, list, &layers, &picture);
     take_values(&change, list, &changed_layers, &changed);
     assert_true(pictures_equal(&picture, &changed));
     assert_true(layers_equal(&layers, &changed_layers));
-    framebuffer_free(&picture);
-    framebuffer_free(&changed);
-    layers_free(&layers);
-    layers_free(&changed_layers);
 }
 
 static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
@@ -284,15 +276,12 @@ TEST(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture)
 
 TEST(the_picture_keeps_its_bits_with_channels)
 {
-    Layers layers;
-    Framebuffer picture = {0}, plain = {0};
+    FREED_BY(layers_free) Layers layers;
+    FREED_BY(framebuffer_free) Framebuffer picture = {0}, plain = {0};
     PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     draw(&request, &plain);
     take_values(&request, JUDGED ",boxtests", &layers, &picture);
     assert_true(pictures_equal(&picture, &plain));
-    layers_free(&layers);
-    framebuffer_free(&picture);
-    framebuffer_free(&plain);
 }
 
 TEST(a_name_that_is_no_channel_is_refused_with_the_nearest)

@@ -103,7 +103,7 @@ static void write_scene(char path[TEMPORARY_PATH], const char *first, const char
 // Writes the id that each pixel hits.
 static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE * SIDE])
 {
-    Layers layers = {0};
+    FREED_BY(layers_free) Layers layers = {0};
     Error error = {0};
     PictureRequest request = picture_request(scene, 1);
     request.width = request.height = SIDE;
@@ -112,14 +112,12 @@ static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE *
     request.layers = &layers;
     if (!aov_read_list("primitive", &request.aovs, &error))
         fail_msg("%s", error.text);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         ids[i] = *layers_at(&layers, i % SIDE, i / SIDE);
         assert_int_equal(picture.pixels[i][0] > 0, ids[i] < PAIRS);
         assert_int_equal(picture.pixels[i][1] > 0, ids[i] >= PAIRS && ids[i] != NOTHING);
     }
-    framebuffer_free(&picture);
-    layers_free(&layers);
 }
 
 // Returns the id that must win. The eye is above the triangles, so it sees the front of triangles

@@ -21,10 +21,9 @@ static const KernelChoice choices[] = {
 static void draw(const PictureRequest *request)
 {
     Error error = {0};
-    Framebuffer picture = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0};
     if (!picture_render(&picture, request, &error))
         fail_msg("%s", error.text);
-    framebuffer_free(&picture);
 }
 
 static uint32_t random_below(uint32_t *state, uint32_t bound)
@@ -177,8 +176,8 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
 static void check_bounds(Explainer *explainer, const Framebuffer *picture, void *context)
 {
     Bounds *bounds = context;
-    Scene scene = {0};
-    Oracle oracle = {0};
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
     if (!scn_load(&scene, bounds->path, ply_parse, &error) ||
         !stored_round(&scene, explainer->normalization, &error) ||
@@ -194,8 +193,6 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
             const OraclePath path = oracle_follow(&view, sample.rays[0].direction);
             judge_distance(bounds, explainer, &sample.rays[0], &path);
         }
-    oracle_free(&oracle);
-    scene_free(&scene);
 }
 
 static void check_bounds_of(const char *path, const KernelChoice *choice)

@@ -81,7 +81,7 @@ static Told tell(const char *text, uint32_t x, uint32_t y)
 {
     char path[96];
     Error error = {0};
-    Framebuffer picture = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0};
     Told told = {.x = x, .y = y};
     write_file("scene.scn", text, path);
     PictureRequest request = picture_request(path, 1);
@@ -89,7 +89,6 @@ static Told tell(const char *text, uint32_t x, uint32_t y)
     request.visit_context = &told;
     if (!picture_render(&picture, &request, &error))
         fail_msg("%s", error.text);
-    framebuffer_free(&picture);
     return told;
 }
 

@@ -36,9 +36,9 @@ TEST(all_but_some_controls_keep_their_center_where_any_error_will_do)
     uint64_t samples;
     PictureRequest request = request_for(SCENES "reflections.scn", 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     request.error_goal = 0;
-    Framebuffer centers = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer centers = rendered(&request);
     const size_t pixels = (size_t)picture.width * picture.height;
     size_t changed = 0;
     for (size_t i = 0; i < pixels; i++)
@@ -46,8 +46,6 @@ TEST(all_but_some_controls_keep_their_center_where_any_error_will_do)
     assert_true(changed > 0);
     assert_true(samples > pixels && samples < 2 * pixels);
     assert_true(changed <= (samples - pixels) / ladder_samples[1]);
-    framebuffer_free(&picture);
-    framebuffer_free(&centers);
 }
 
 TEST(a_picture_of_one_color_keeps_it)
@@ -57,21 +55,19 @@ TEST(a_picture_of_one_color_keeps_it)
     fprintf(scene, "up 0 1 0\ncamera 0 0 0 0 0 1 60\nbackground 0.1 0.3 0.7\nsphere 0 0 -5 1\n");
     temporary_close(scene);
     const PictureRequest request = request_for(path, 0.001);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     const size_t pixels = (size_t)picture.width * picture.height;
     for (size_t i = 0; i < pixels; i++)
         assert_memory_equal(picture.pixels[i], ((float[3]){0.1f, 0.3f, 0.7f}), 3 * sizeof(float));
-    framebuffer_free(&picture);
     unlink(path);
 }
 
 TEST(an_error_below_that_of_1024_samples_is_not_held)
 {
     Error error = {0};
-    Framebuffer picture;
+    FREED_BY(framebuffer_free) Framebuffer picture;
     PictureRequest request = request_for(SCENES "reflections.scn", 1e-7);
     request.width = request.height = 8;
     assert_false(picture_render(&picture, &request, &error));
     assert_string_equal(error.text, "the goal is missed");
-    framebuffer_free(&picture);
 }

@@ -197,9 +197,7 @@ TEST(fp64_draws_another_picture_than_fp32)
 {
     const PictureRequest reference = in_form(small_request(0), &fp64);
     const PictureRequest usual = in_form(reference, &choices[0]);
-    Framebuffer first = rendered(&reference), second = rendered(&usual);
+    FREED_BY(framebuffer_free) Framebuffer first = rendered(&reference), second = rendered(&usual);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
     assert_memory_not_equal(first.pixels, second.pixels, size);
-    framebuffer_free(&first);
-    framebuffer_free(&second);
 }

@@ -26,7 +26,7 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     char name[64];
     const Scene *scene = oracle->scene;
     Error error = {0};
-    Framebuffer picture = {0}, expected = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0}, expected = {0};
     const PictureRequest request = picture_request(path, view);
     const OracleView rays = oracle_view(oracle, &scene->viewpoints.data[view - 1], scene->width,
                                         scene->height, scene->max_level);
@@ -36,8 +36,6 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     const Comparison comparison = comparison_make(&rays, &picture, &expected, step);
     snprintf(name, sizeof name, "%s view %u", strrchr(path, '/') + 1, view);
     comparison_print(&comparison, name);
-    framebuffer_free(&expected);
-    framebuffer_free(&picture);
     return comparison.unexplained == 0 &&
            comparison.differing <= comparison_allowance(&comparison, LIMIT);
 }
@@ -46,8 +44,8 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
 static void check(const char *path, uint32_t step)
 {
     Error error = {0};
-    Scene scene = {0};
-    Oracle oracle = {0};
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     bool agrees = true;
     if (getenv("CLRT_FULL") != NULL)
         step = 1;
@@ -55,8 +53,6 @@ static void check(const char *path, uint32_t step)
         fail_msg("%s", error.text);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++)
         agrees = view_agrees(&oracle, path, view, step) && agrees;
-    oracle_free(&oracle);
-    scene_free(&scene);
     assert_true(agrees);
 }
 

@@ -84,7 +84,7 @@ static uint32_t view_differences(const Stored *stored, const char *path, uint32_
                                  const Comparing *comparing)
 {
     Error error = {0};
-    Framebuffer picture, expected;
+    FREED_BY(framebuffer_free) Framebuffer picture, expected;
     const Scene *scene = &stored->scene;
     const CameraData camera =
         camera_make(&scene->viewpoints.data[view - 1], &stored->normalization, scene->height, 1);
@@ -96,8 +96,6 @@ static uint32_t view_differences(const Stored *stored, const char *path, uint32_
     const uint32_t differing = count_differing(&picture, &expected, comparing);
     print_message("%s view %u: %u of %u pixels differ from the oracle's\n", strrchr(path, '/') + 1,
                   view, differing, expected.width * expected.height);
-    framebuffer_free(&expected);
-    framebuffer_free(&picture);
     return differing;
 }
 
@@ -167,7 +165,7 @@ static void check_fp32(const char *name, uint64_t share)
 {
     char path[256];
     Error error = {0};
-    Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = {0};
     bool holds = true;
     snprintf(path, sizeof path, CLRT_SOURCE_FOLDER "/scenes/%s.scn", name);
     if (!scn_load(&scene, path, ply_parse, &error))
@@ -185,7 +183,6 @@ static void check_fp32(const char *name, uint64_t share)
         framebuffer_free(&one);
         framebuffer_free(&other);
     }
-    scene_free(&scene);
     assert_true(holds);
 }
 

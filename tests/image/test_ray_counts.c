@@ -27,7 +27,7 @@ static void check(Counts expected)
     char path[COURSE_PATH_SIZE];
     uint64_t tallies[TALLY_KINDS];
     Error error = {0};
-    Framebuffer picture = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0};
     course_path(path, "scenes", expected.scene);
     if (!course_has(path))
         return;
@@ -35,7 +35,6 @@ static void check(Counts expected)
     request.tallies = tallies;
     if (!picture_render(&picture, &request, &error))
         fail_msg("%s", error.text);
-    framebuffer_free(&picture);
     print_message("%s: %llu camera rays hit of %llu, %llu points shaded, %llu rays reflected\n",
                   expected.scene, (unsigned long long)tallies[TALLY_CAMERA_HITS],
                   (unsigned long long)expected.camera_hits,

@@ -39,7 +39,7 @@ static void check(const char *scene_name, const char *reference_name, uint32_t s
 {
     char path[COURSE_PATH_SIZE];
     Error error = {0};
-    Trial trial = {0};
+    FREED_BY(trial_free) Trial trial = {0};
     course_path(path, "references", reference_name);
     if (!course_has(path))
         return;
@@ -56,7 +56,6 @@ static void check(const char *scene_name, const char *reference_name, uint32_t s
     comparison_print(&comparison, reference_name);
     assert_int_equal(comparison.unexplained, 0);
     assert_true(comparison.differing <= limit);
-    trial_free(&trial);
 }
 
 TEST(silhouettes_are_the_courses)

@@ -138,10 +138,10 @@ static double light_around(const Framebuffer *picture, Corner center)
 
 TEST(thousands_of_triangles_smaller_than_pixels_are_all_seen)
 {
-    Drawing drawing = drawing_of(GRID * GRID);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID);
     const double area = add_grid(&drawing);
     const PictureRequest request = request_of(&drawing, 1);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     double sum = 0;
     int seen = 0;
     for (int row = 0; row < GRID; row++)
@@ -152,8 +152,6 @@ TEST(thousands_of_triangles_smaller_than_pixels_are_all_seen)
         }
     assert_int_equal(seen, GRID * GRID);
     assert_true(fabs(sum / area - 1) < 0.05);
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
 // Adds a strip of two triangles across the picture.
@@ -171,11 +169,11 @@ static void add_cable(Drawing *drawing, Corner from, Corner to, double thickness
 
 static void expect_unbroken(double light, double from, double to)
 {
-    Drawing drawing = drawing_of(2);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(2);
     const double length = SIDE + 20, slope = (to - from) / length;
     add_cable(&drawing, (Corner){-length / 2, from}, (Corner){length / 2, to}, 0.1);
     const PictureRequest request = request_of(&drawing, light);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     const double expected = 0.1 * sqrt(1 + slope * slope) * light;
     for (int x = 0; x < SIDE; x++) {
         double sum = 0;
@@ -184,8 +182,6 @@ static void expect_unbroken(double light, double from, double to)
         if (fabs(sum / expected - 1) > 0.35)
             fail_msg("column %d has %g of the light", x, sum / expected);
     }
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
 TEST(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line)
@@ -198,7 +194,7 @@ TEST(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line)
 TEST(backs_of_one_sided_triangles_take_no_samples)
 {
     uint64_t samples;
-    Drawing drawing = drawing_of(GRID * GRID);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID);
     add_grid(&drawing);
     for (int i = 0; i < drawing.count; i++) {
         const Corner first = drawing.triangles[i][0];
@@ -207,10 +203,8 @@ TEST(backs_of_one_sided_triangles_take_no_samples)
     }
     PictureRequest request = request_of(&drawing, 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     assert_int_equal(samples, SIDE * SIDE);
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
 #define FINE 400
@@ -233,8 +227,7 @@ static uint64_t samples_of(Drawing *drawing)
     uint64_t samples;
     PictureRequest request = request_of(drawing, 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
-    framebuffer_free(&picture);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     drawing_free(drawing);
     return samples;
 }
@@ -253,11 +246,11 @@ TEST(every_form_and_any_threads_find_the_same)
 {
     static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
                                            {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
-    Drawing drawing = drawing_of(GRID * GRID + 2);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID + 2);
     add_grid(&drawing);
     add_cable(&drawing, (Corner){-80, -40.1}, (Corner){80, 33}, 0.06);
     PictureRequest usual = request_of(&drawing, 0.5);
-    Framebuffer first = rendered(&usual);
+    FREED_BY(framebuffer_free) Framebuffer first = rendered(&usual);
     for (uint32_t i = 0; i < 6; i++) {
         PictureRequest other = usual;
         other.threads = i;
@@ -267,6 +260,4 @@ TEST(every_form_and_any_threads_find_the_same)
         assert_memory_equal(first.pixels, second.pixels, SIDE * SIDE * sizeof *first.pixels);
         framebuffer_free(&second);
     }
-    framebuffer_free(&first);
-    drawing_free(&drawing);
 }

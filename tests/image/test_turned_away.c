@@ -149,7 +149,7 @@ static Vec3 vector_at(const uint32_t *values)
 // Renders a picture of SIDE x SIDE pixels.
 static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
 {
-    Layers layers = {0};
+    FREED_BY(layers_free) Layers layers = {0};
     Error error = {0};
     const Paths paths = stage_write(stage);
     PictureRequest request = picture_request(paths.scene, 1);
@@ -159,14 +159,12 @@ static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
     request.layers = &layers;
     if (!aov_read_list("normal,position,primitive,shadow", &request.aovs, &error))
         fail_msg("%s", error.text);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         const uint32_t *v = layers_at(&layers, i % SIDE, i / SIDE);
         seen[i] = (Seen){vector_at(v), vector_at(v + 3), v[6], float_of(v[7]) > 0};
         assert_int_equal(seen[i].lit, picture.pixels[i][0] > 0);
     }
-    framebuffer_free(&picture);
-    layers_free(&layers);
     remove(paths.scene);
     remove(paths.mesh);
 }

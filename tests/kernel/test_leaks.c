@@ -82,14 +82,12 @@ static Mesh ring(double scale, Vec3 center)
 
 static Closedness closedness_of(const Mesh *mesh)
 {
-    Weld weld;
-    Edges edges;
+    FREED_BY(weld_free) Weld weld;
+    FREED_BY(edges_free) Edges edges;
     Closedness closedness = {0};
     Error error = {0};
     assert_true(weld_make(&weld, mesh, &error) && edges_make(&edges, mesh, &weld, &error) &&
                 closedness_find(&closedness, mesh, &weld, &edges, &error));
-    edges_free(&edges);
-    weld_free(&weld);
     return closedness;
 }
 
@@ -112,7 +110,7 @@ static LeakCount leaks_of(const Mesh *mesh, size_t form)
 
 TEST(a_closed_ring_has_no_leaks_at_any_edge_or_point)
 {
-    Mesh mesh = ring(1, vec3(0, 0, 0));
+    FREED_BY(mesh_free) Mesh mesh = ring(1, vec3(0, 0, 0));
     for (size_t form = 0; form < FORMS; form++) {
         const LeakCount count = leaks_of(&mesh, form);
         assert_int_equal(count.leaks.count, 0);
@@ -121,12 +119,11 @@ TEST(a_closed_ring_has_no_leaks_at_any_edge_or_point)
         assert_int_equal(count.hidden, 0);
         assert_true(count.rays > count.total); // hidden edges and points needed further rays
     }
-    mesh_free(&mesh);
 }
 
 TEST(a_ring_far_away_and_turned_inside_out_has_none_either)
 {
-    Mesh mesh = ring(0x1p-8, vec3(1000, -2000, 3000));
+    FREED_BY(mesh_free) Mesh mesh = ring(0x1p-8, vec3(1000, -2000, 3000));
     for (size_t i = 0; i < mesh.triangle_count; i++) {
         const uint32_t corner = mesh.triangles[i][1];
         mesh.triangles[i][1] = mesh.triangles[i][2];
@@ -136,26 +133,24 @@ TEST(a_ring_far_away_and_turned_inside_out_has_none_either)
     const LeakCount count = leaks_of(&mesh, FORMS - 1);
     assert_int_equal(count.leaks.count, 0);
     assert_int_equal(count.aimed, count.total);
-    mesh_free(&mesh);
 }
 
 TEST(a_missing_triangle_leaks)
 {
-    Mesh mesh = ring(1, vec3(0, 0, 0));
+    FREED_BY(mesh_free) Mesh mesh = ring(1, vec3(0, 0, 0));
     memcpy(mesh.triangles[700], mesh.triangles[mesh.triangle_count - 1], sizeof *mesh.triangles);
     mesh.triangle_count--;
     for (size_t form = 0; form < FORMS; form++) {
         const LeakCount count = leaks_of(&mesh, form);
         assert_in_range(count.leaks.count, 3, 30);
     }
-    mesh_free(&mesh);
 }
 
 // Splits a triangle, but not its neighbor, at the middle of an edge. Moves the new vertex off the
 // edge by the fraction gap.
 static Mesh cracked_ring(double gap)
 {
-    Mesh mesh = ring(1, vec3(0, 0, 0));
+    FREED_BY(mesh_free) Mesh mesh = ring(1, vec3(0, 0, 0));
     Error error = {0};
     double(*positions)[3] = memory_raw(mesh.vertex_count + 1, sizeof *positions, &error);
     uint32_t(*triangles)[3] = memory_raw(mesh.triangle_count + 1, sizeof *triangles, &error);
@@ -176,15 +171,13 @@ static Mesh cracked_ring(double gap)
                           .triangles = triangles,
                           .vertex_count = mesh.vertex_count + 1,
                           .triangle_count = mesh.triangle_count + 1};
-    mesh_free(&mesh);
     return cracked;
 }
 
 TEST(a_vertex_off_its_neighbors_edge_leaves_a_crack_that_leaks)
 {
-    Mesh mesh = cracked_ring(0.02);
+    FREED_BY(mesh_free) Mesh mesh = cracked_ring(0.02);
     assert_int_equal(closedness_of(&mesh).open.count, 3);
     for (size_t form = 0; form < FORMS; form++)
         assert_in_range(leaks_of(&mesh, form).leaks.count, 1, 10);
-    mesh_free(&mesh);
 }

@@ -56,7 +56,7 @@ static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t 
 
 static void check_tree(const Triangles *triangles, const BvhSettings *how)
 {
-    Bvh bvh = built(triangles, how, 1);
+    FREED_BY(bvh_free) Bvh bvh = built(triangles, how, 1);
     unsigned *seen = calloc(triangles->count, sizeof *seen);
     assert_non_null(seen);
     assert_int_equal(check_node(&bvh, triangles, 0, seen), bvh.depth);
@@ -65,7 +65,6 @@ static void check_tree(const Triangles *triangles, const BvhSettings *how)
     for (size_t i = 0; i < triangles->count; i++)
         assert_int_equal(seen[i], 1);
     free(seen);
-    bvh_free(&bvh);
 }
 
 TEST(every_triangle_is_in_one_leaf_inside_nested_boxes)
@@ -113,11 +112,9 @@ TEST(any_number_of_threads_builds_the_same_tree)
 
 TEST(sah_leaves_stay_small_even_for_equal_triangles)
 {
-    Triangles triangles = triangle_set(SET_EQUAL, 10000);
-    Bvh bvh = built(&triangles, &settings[0], 1);
+    FREED_BY(triangles_free) Triangles triangles = triangle_set(SET_EQUAL, 10000);
+    FREED_BY(bvh_free) Bvh bvh = built(&triangles, &settings[0], 1);
     assert_true(bvh.largest_leaf <= 8);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
 }
 
 TEST(no_triangles_make_no_tree)
@@ -142,8 +139,8 @@ static void count_inner(const Bvh *bvh, uint32_t number, uint32_t depth,
 
 TEST(levels_count_the_inner_nodes_of_every_depth)
 {
-    Triangles triangles = triangle_set((TriangleSet)0, 1000);
-    Bvh bvh = built(&triangles, &settings[0], 1);
+    FREED_BY(triangles_free) Triangles triangles = triangle_set((TriangleSet)0, 1000);
+    FREED_BY(bvh_free) Bvh bvh = built(&triangles, &settings[0], 1);
     uint32_t expected[BVH_MAX_DEPTH] = {0}, counts[BVH_MAX_DEPTH], sum = 0;
     count_inner(&bvh, 0, 0, expected);
     bvh_count_levels(&bvh, counts);
@@ -152,6 +149,4 @@ TEST(levels_count_the_inner_nodes_of_every_depth)
         sum += counts[depth];
     assert_int_equal(sum, bvh.node_count - bvh.leaf_count);
     assert_true(counts[bvh.depth - 2] > 0 && counts[bvh.depth - 1] == 0);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
 }

@@ -2,24 +2,20 @@
 // Tests each count of clrt check on a mesh or scene with the fault, and on one without.
 #include "check/census.h"
 #include "mesh/ply.h"
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char tetrahedron[] = "0 0 0  1 0 0  0 1 0  0 0 1";
-static const char tetrahedron_faces[] = "0 2 1  0 1 3  0 3 2  1 2 3";
+#define TETRAHEDRON "0 0 0  1 0 0  0 1 0  0 0 1"
+#define FACES       "0 2 1  0 1 3  0 3 2  1 2 3"
 
 static size_t count_words(const char *text)
 {
     size_t count = 0;
-    char copy[4096];
-    snprintf(copy, sizeof copy, "%s", text);
-    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " "))
-        count++;
+    for (text += strspn(text, " "); *text != '\0'; text += strspn(text, " "), count++)
+        text += strcspn(text, " ");
     return count;
 }
 
@@ -72,11 +68,8 @@ static Taken census_of_mesh(const char *points, const char *faces)
 
 static Taken census_of_scene(const char *text)
 {
-    Taken taken = {0};
+    Taken taken = {.scene = parsed(text)};
     Error error = {0};
-    if (!scn_parse(&taken.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn",
-                   &error))
-        fail_msg("%s", error.text);
     const Normalization frame = normalization_of(&taken.scene);
     assert_true(census_take(&taken.census, &taken.scene, &frame, &error));
     return taken;
@@ -96,74 +89,56 @@ static MeshCensus mesh_census(const char *points, const char *faces)
     return census;
 }
 
-static Closedness closedness(const char *points, const char *faces)
+// A fault's count and its first triangle.
+typedef struct {
+    size_t count, first;
+} Expected;
+
+static void expect_fault(const MeshFault *found, Expected expected)
 {
-    return mesh_census(points, faces).closedness;
+    assert_int_equal(found->count, expected.count);
+    if (expected.count > 0)
+        assert_int_equal(found->first, expected.first);
 }
 
-TEST(a_tetrahedron_is_closed)
-{
-    const Closedness found = closedness(tetrahedron, tetrahedron_faces);
-    assert_true(found.is_closed);
-    assert_false(found.is_inside_out);
-    assert_int_equal(found.edge_count, 6);
-    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
-    assert_int_equal(found.pinched.count + found.duplicates.count, 0);
-}
-
-TEST(a_tetrahedron_turned_over_is_inside_out)
-{
-    const Closedness found = closedness(tetrahedron, "0 1 2  0 3 1  0 2 3  1 3 2");
-    assert_true(found.is_closed);
-    assert_true(found.is_inside_out);
-}
-
-TEST(a_missing_triangle_leaves_three_open_edges)
-{
-    const Closedness found = closedness(tetrahedron, "0 1 3  0 3 2  1 2 3");
-    assert_int_equal(found.open.count, 3);
-    assert_int_equal(found.open.first, 0);
-    assert_int_equal(found.edge_count, 6);
-    assert_false(found.is_closed);
-}
-
-TEST(a_vertex_on_a_neighbors_edge_leaves_it_open)
-{
+static const struct {
+    const char *points, *faces;
+    size_t edge_count;
+    Expected open, crowded, turned, pinched, duplicates;
+    bool is_closed, is_inside_out;
+} meshes[] = {
+    {TETRAHEDRON, FACES, 6, .is_closed = true},
+    {TETRAHEDRON, "0 1 2  0 3 1  0 2 3  1 3 2", 6, .is_closed = true, .is_inside_out = true},
+    // A triangle is missing.
+    {TETRAHEDRON, "0 1 3  0 3 2  1 2 3", 6, .open = {3, 0}},
     // On one side of the edge from 1 to 2, vertex 4 is in its middle.
-    const Closedness found =
-        closedness("0 0 0  1 0 0  0 1 0  0 0 1  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3");
-    assert_int_equal(found.open.count, 3);
-    assert_false(found.is_closed);
-}
+    {TETRAHEDRON "  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3", 9, .open = {3, 0}},
+    // A triangle is turned over.
+    {TETRAHEDRON, "0 2 1  0 1 3  0 3 2  1 3 2", 6, .turned = {3, 0}},
+    // An edge has a third triangle.
+    {TETRAHEDRON "  -1 -1 0", FACES "  0 3 4", 8, .crowded = {1, 1}, .open = {2, 4}},
+    // Two solids touch at a point.
+    {TETRAHEDRON "  -1 0 0  0 -1 0  0 0 -1", FACES "  0 4 5  0 6 4  0 5 6  4 6 5", 12,
+     .pinched = {1, 4}},
+    // Triangles have the same corners, by number and by position.
+    {TETRAHEDRON, "0 1 2  0 1 3  1 2 0  2 1 0", 5, .open = {2, 1}, .crowded = {3, 0},
+     .duplicates = {2, 2}},
+    {"0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2", 3, .turned = {3, 0}, .duplicates = {1, 1}},
+};
 
-TEST(a_turned_triangle_is_told_by_its_edges)
+TEST(edges_points_and_triangles_are_counted_by_fault)
 {
-    const Closedness found = closedness(tetrahedron, "0 2 1  0 1 3  0 3 2  1 3 2");
-    assert_int_equal(found.turned.count, 3);
-    assert_int_equal(found.turned.first, 0);
-    assert_int_equal(found.open.count, 0);
-    assert_false(found.is_closed);
-}
-
-TEST(a_third_triangle_at_an_edge_crowds_it)
-{
-    const Closedness found =
-        closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 -1 0", "0 2 1  0 1 3  0 3 2  1 2 3  0 3 4");
-    assert_int_equal(found.crowded.count, 1);
-    assert_int_equal(found.crowded.first, 1);
-    assert_int_equal(found.open.count, 2);
-    assert_int_equal(found.pinched.count, 0);
-    assert_false(found.is_closed);
-}
-
-TEST(solids_that_touch_at_a_point_are_pinched_there)
-{
-    const Closedness found = closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 0 0  0 -1 0  0 0 -1",
-                                        "0 2 1  0 1 3  0 3 2  1 2 3  0 4 5  0 6 4  0 5 6  4 6 5");
-    assert_int_equal(found.pinched.count, 1);
-    assert_int_equal(found.pinched.first, 4);
-    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
-    assert_false(found.is_closed);
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        const Closedness found = mesh_census(meshes[i].points, meshes[i].faces).closedness;
+        assert_int_equal(found.edge_count, meshes[i].edge_count);
+        expect_fault(&found.open, meshes[i].open);
+        expect_fault(&found.crowded, meshes[i].crowded);
+        expect_fault(&found.turned, meshes[i].turned);
+        expect_fault(&found.pinched, meshes[i].pinched);
+        expect_fault(&found.duplicates, meshes[i].duplicates);
+        assert_int_equal(found.is_closed, meshes[i].is_closed);
+        assert_int_equal(found.is_inside_out, meshes[i].is_inside_out);
+    }
 }
 
 TEST(vertices_at_one_position_are_one_point)
@@ -185,16 +160,6 @@ TEST(vertices_that_nothing_uses_are_counted_apart)
     assert_true(found.features.extent == 1);
 }
 
-TEST(triangles_with_the_same_corners_are_duplicates)
-{
-    Closedness found = closedness(tetrahedron, "0 1 2  0 1 3  1 2 0  2 1 0");
-    assert_int_equal(found.duplicates.count, 2);
-    assert_int_equal(found.duplicates.first, 2);
-    found = closedness("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2");
-    assert_int_equal(found.duplicates.count, 1);
-    assert_int_equal(found.duplicates.first, 1);
-}
-
 TEST(an_edge_of_many_triangles_is_sorted_too)
 {
     char points[4096] = "0 0 0  1 0 0", faces[4096] = "";
@@ -202,10 +167,9 @@ TEST(an_edge_of_many_triangles_is_sorted_too)
         snprintf(points + strlen(points), sizeof points - strlen(points), "  0 1 %d", i % 50);
         snprintf(faces + strlen(faces), sizeof faces - strlen(faces), "  0 1 %d", i + 2);
     }
-    const Closedness found = closedness(points, faces);
-    assert_int_equal(found.crowded.count, 1);
-    assert_int_equal(found.duplicates.count, 10);
-    assert_int_equal(found.duplicates.first, 50);
+    const Closedness found = mesh_census(points, faces).closedness;
+    expect_fault(&found.crowded, (Expected){1, 0});
+    expect_fault(&found.duplicates, (Expected){10, 50});
     assert_int_equal(found.edge_count, 1 + 2 * 50);
 }
 
@@ -214,8 +178,7 @@ TEST(triangles_of_no_area_are_counted)
     const MeshCensus found =
         mesh_census("0 0 0  0.1 0.1 0.1  0.2 0.2 0.2  1 0 0  0 1 0  0.25 0.25 0.25 0.5 0.5 0.5",
                     "0 3 4  0 1 2  0 5 6");
-    assert_int_equal(found.features.flat.count, 2);
-    assert_int_equal(found.features.flat.first, 1);
+    expect_fault(&found.features.flat, (Expected){2, 1});
 }
 
 TEST(nothing_of_an_empty_mesh_is_closed)
@@ -230,18 +193,16 @@ TEST(nothing_of_an_empty_mesh_is_closed)
 
 TEST(what_is_not_finite_is_counted_and_left_out)
 {
+    FREED_BY(mesh_free)
     Mesh mesh = mesh_read("0 0 0  1 nan inf  0 1 0  0 0 1  -inf 0 0  1e300 2 3  1 0 0",
                           "0 2 3  0 1 2  0 2 6  4 5 6  0 0 1");
-    assert_int_equal(mesh.bad_positions.count, 3);
-    assert_int_equal(mesh.bad_positions.first, 1);
-    assert_int_equal(mesh.lost_corners.count, 3);
-    assert_int_equal(mesh.lost_corners.first, 1);
-    assert_int_equal(mesh.equal_corners.count, 0);
+    expect_fault(&mesh.bad_positions, (Expected){3, 1});
+    expect_fault(&mesh.lost_corners, (Expected){3, 1});
+    expect_fault(&mesh.equal_corners, (Expected){0, 0});
     assert_int_equal(mesh.triangle_count, 2);
     assert_int_equal(mesh.dropped_count, 3);
     for (size_t vertex = 0; vertex < mesh.vertex_count; vertex++)
         assert_true(isfinite(mesh.positions[vertex][0] + mesh.positions[vertex][1]));
-    mesh_free(&mesh);
 }
 
 TEST(what_is_not_finite_is_counted_in_binary_files_too)
@@ -258,10 +219,8 @@ TEST(what_is_not_finite_is_counted_in_binary_files_too)
     memcpy(bytes + sizeof head - 1, values, sizeof values);
     const size_t size = sizeof head - 1 + sizeof values;
     assert_true(ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error));
-    assert_int_equal(mesh.bad_positions.count, 1);
-    assert_int_equal(mesh.bad_positions.first, 1);
-    assert_int_equal(mesh.bad_normals.count, 2);
-    assert_int_equal(mesh.bad_normals.first, 0);
+    expect_fault(&mesh.bad_positions, (Expected){1, 1});
+    expect_fault(&mesh.bad_normals, (Expected){2, 0});
     assert_true(mesh.normals[2][0] == 0 && mesh.normals[2][2] == 0 && mesh.positions[2][0] == 2);
     mesh_free(&mesh);
     assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
@@ -269,11 +228,9 @@ TEST(what_is_not_finite_is_counted_in_binary_files_too)
 
 TEST(two_equal_corners_are_told_by_the_triangles_place_in_the_file)
 {
-    Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
-    assert_int_equal(mesh.equal_corners.count, 2);
-    assert_int_equal(mesh.equal_corners.first, 1);
-    assert_int_equal(mesh.lost_corners.count, 0);
-    mesh_free(&mesh);
+    FREED_BY(mesh_free) Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
+    expect_fault(&mesh.equal_corners, (Expected){2, 1});
+    expect_fault(&mesh.lost_corners, (Expected){0, 0});
 }
 
 TEST(edges_and_heights_are_measured_in_steps_of_float)

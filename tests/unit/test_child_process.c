@@ -142,11 +142,10 @@ TEST(a_confined_child_ends_after_its_time)
 {
     ChildProcess child;
     const ChildLimits limits = {.seconds = 60, .bytes = 10};
-    File output;
+    FREED_BY(file_free) File output;
     Error error = {0};
     int signal;
     start(&child, sleep_confined, NULL);
     assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
     assert_int_equal(signal, SIGALRM);
-    file_free(&output);
 }

@@ -124,7 +124,7 @@ TEST(the_map_shows_steps_at_their_fixed_brightness)
                 b[PIXELS][4] = {{0, 0, 1 / 255.0f, 0}, {0, 4 / 255.0f, 0, 0}, {0.5f, 0, 0, 0}};
     StoredImage images[2] = {image_of(a), image_of(b)};
     ImagePair pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
-    Framebuffer seen, exact;
+    FREED_BY(framebuffer_free) Framebuffer seen, exact;
     Error error = {0};
     assert_true(image_pair_check(&pair, &error));
     assert_true(difference_picture_make(&seen, &pair, true, &error));
@@ -133,8 +133,6 @@ TEST(the_map_shows_steps_at_their_fixed_brightness)
     assert_float_equal(seen.pixels[1][1], 0.25, 1e-6);
     assert_true(seen.pixels[2][2] == 1 && seen.pixels[3][0] == 0);
     assert_true(exact.pixels[0][0] == 1 / 255.0f && exact.pixels[2][2] == 0.5f);
-    framebuffer_free(&seen);
-    framebuffer_free(&exact);
     stored_image_free(&images[0]);
     stored_image_free(&images[1]);
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the arrays that the device reads.
 #include "accel/flat.h"
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +16,14 @@ typedef struct {
 
 static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout)
 {
-    Flattened all = {0};
+    Flattened all = {.scene = parsed(text)};
     Error error = {0};
-    bool ok =
-        scn_parse(&all.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error);
     const Normalization frame = normalization_of(&all.scene);
     const BvhSettings settings = {BVH_SAH, flat_leaves(layout)};
     const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame, layout, NULL};
-    ok = ok && triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
-         (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
-         flat_make(&all.flat, &source, &error);
+    const bool ok = triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
+                    (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
+                    flat_make(&all.flat, &source, &error);
     if (!ok)
         fail_msg("%s", error.text);
     return all;
@@ -85,14 +81,13 @@ TEST(corners_are_stored_in_one_order_whatever_their_order_in_the_file)
 TEST(zero_has_one_sign)
 {
     static const double positions[3][3] = {{-1, -1, -1}, {1, 1, 1}, {1, -1, -0.0}};
-    Triangles triangles;
+    FREED_BY(triangles_free) Triangles triangles;
     Error error = {0};
     Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     memcpy(all.scene.objects.data[0].mesh.positions, positions, sizeof positions);
     const Normalization frame = normalization_of(&all.scene);
     assert_true(triangles_make(&triangles, &all.scene, &frame, NULL, &error));
     assert_true(triangles.points[2][2] == 0 && !signbit(triangles.points[2][2]));
-    triangles_free(&triangles);
     release(&all);
 }
 
@@ -135,7 +130,7 @@ TEST(a_lone_leaf_gets_a_node_with_one_child)
     Bvh leaf = {.node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
-    FlatScene flat = {0};
+    FREED_BY(flat_free) FlatScene flat = {0};
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
     const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_PAIR, NULL};
@@ -143,7 +138,6 @@ TEST(a_lone_leaf_gets_a_node_with_one_child)
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
     assert_true(flat.pairs[0].planes[0][0][1] > flat.pairs[0].planes[0][1][1]);
-    flat_free(&flat);
     release(&all);
 }
 

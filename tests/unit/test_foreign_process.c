@@ -60,12 +60,11 @@ static void expect_failure(const char *text, const char *sentence)
 
 TEST(what_the_program_writes_about_the_file_is_the_stream)
 {
-    File stream;
+    FREED_BY(file_free) File stream;
     Error error;
     assert_true(run("echo about $1; sleep 0.1; echo more", &stream, &error));
     assert_int_equal(stream.size, strlen("about m.obj\nmore\n"));
     assert_memory_equal(stream.bytes, "about m.obj\nmore\n", stream.size);
-    file_free(&stream);
 }
 
 TEST(a_crash_is_told_with_its_signal)

@@ -31,7 +31,7 @@ static void expect_failure(const Builder *builder, const char *sentence)
 TEST(a_stream_becomes_files_materials_parts_and_a_note)
 {
     const Builder builder = whole_stream();
-    ForeignModel model;
+    FREED_BY(foreign_model_free) ForeignModel model;
     Error error;
     assert_true(parse(&model, builder.bytes, builder.size, &error));
     assert_int_equal(model.files.count, 2);
@@ -45,7 +45,6 @@ TEST(a_stream_becomes_files_materials_parts_and_a_note)
     assert_int_equal(model.parts.data[1].material, 0);
     assert_int_equal(model.parts.data[1].mesh.triangle_count, 1);
     assert_string_equal(model.note, "3 lines are left out");
-    foreign_model_free(&model);
 }
 
 TEST(a_path_may_be_as_long_as_the_system_has_them)
@@ -56,11 +55,10 @@ TEST(a_path_may_be_as_long_as_the_system_has_them)
     Builder builder = {0};
     put_file(&builder, path);
     put_text(&builder, FOREIGN_END, "");
-    ForeignModel model;
+    FREED_BY(foreign_model_free) ForeignModel model;
     Error error;
     assert_true(parse(&model, builder.bytes, builder.size, &error));
     assert_string_equal(model.files.data[0], path);
-    foreign_model_free(&model);
 }
 
 TEST(a_part_goes_through_the_checks_of_ply)
@@ -89,7 +87,7 @@ TEST(colors_come_into_range_and_names_into_one_word)
     Builder builder = {0};
     put_record(&builder, FOREIGN_MATERIAL, 0, &wild, sizeof wild);
     put_text(&builder, FOREIGN_END, "");
-    ForeignModel model;
+    FREED_BY(foreign_model_free) ForeignModel model;
     Error error;
     assert_true(parse(&model, builder.bytes, builder.size, &error));
     const ForeignMaterial *tame = &model.materials.data[0];
@@ -97,7 +95,6 @@ TEST(colors_come_into_range_and_names_into_one_word)
     assert_true(tame->diffuse[0] == 0 && tame->diffuse[1] == 1 && tame->diffuse[2] == 0);
     assert_true(tame->specular[0] == 1 && tame->specular[1] == 0.5f && tame->specular[2] == 0);
     assert_true(tame->shininess == 1e9f);
-    foreign_model_free(&model);
 }
 
 TEST(a_name_without_an_end_gets_one)
@@ -107,11 +104,10 @@ TEST(a_name_without_an_end_gets_one)
     Builder builder = {0};
     put_record(&builder, FOREIGN_MATERIAL, 0, &endless, sizeof endless);
     put_text(&builder, FOREIGN_END, "");
-    ForeignModel model;
+    FREED_BY(foreign_model_free) ForeignModel model;
     Error error;
     assert_true(parse(&model, builder.bytes, builder.size, &error));
     assert_int_equal(strlen(model.materials.data[0].name), sizeof endless.name - 1);
-    foreign_model_free(&model);
 }
 
 TEST(every_stream_that_ends_early_is_damaged)

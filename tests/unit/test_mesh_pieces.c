@@ -39,11 +39,10 @@ TEST(a_mesh_of_one_piece_keeps_its_order)
 {
     Mesh mesh = mesh_of(1002, 1000);
     fill_band(&mesh, 0, 1000, 0);
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 1);
     assert_int_equal(pieces.ends[0], 1000);
     assert_null(pieces.order);
-    mesh_pieces_free(&pieces);
     free(mesh.triangles);
 }
 
@@ -114,19 +113,17 @@ TEST(small_pieces_are_one_before_the_larger)
     fill_band(&mesh, 0, band, 0);
     for (uint32_t i = 0; i < small; i++)
         fill_band(&mesh, band + i, band + i + 1, band + 2 + 3 * i);
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 2);
     assert_int_equal(pieces.ends[0], small);
     assert_int_equal(pieces.order[0], band);
     assert_int_equal(pieces.ends[1], small + band);
-    mesh_pieces_free(&pieces);
     free(mesh.triangles);
 }
 
 TEST(no_triangles_are_no_pieces)
 {
     const Mesh mesh = {0};
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 0);
-    mesh_pieces_free(&pieces);
 }

@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tests the normalized coordinate frame of scenes.
 #include "scene/normalize.h"
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
-
-#include <string.h>
-
-static Scene parsed(const char *text)
-{
-    Scene scene;
-    Error error = {0};
-    if (!scn_parse(&scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error))
-        fail_msg("%s", error.text);
-    return scene;
-}
+#include "unit/parsed.h"
 
 TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
 {
-    Scene scene = parsed("mesh cube.ply scale 1000 translate 5000 0 0");
+    FREED_BY(scene_free) Scene scene = parsed("mesh cube.ply scale 1000 translate 5000 0 0");
     const Normalization frame = normalization_of(&scene);
     const Mesh *mesh = &scene.objects.data[0].mesh;
     double low = 9, high = -9;
@@ -32,34 +19,29 @@ TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
     assert_true(high - low >= 0.5 && high - low < 2);
     int exponent;
     assert_true(frexp(frame.scale, &exponent) == 0.5);
-    scene_free(&scene);
 }
 
 TEST(spheres_frame_a_scene_only_without_triangles)
 {
-    Scene spheres = parsed("sphere 10 0 0 4");
+    FREED_BY(scene_free) Scene spheres = parsed("sphere 10 0 0 4");
     assert_true(normalization_of(&spheres).center.x == 10);
     assert_true(normalization_of(&spheres).scale == 0.125);
-    Scene both = parsed("sphere 0 0 -1e9 1e9\nmesh cube.ply");
+    FREED_BY(scene_free) Scene both = parsed("sphere 0 0 -1e9 1e9\nmesh cube.ply");
     assert_true(normalization_of(&both).scale > 0.5);
-    scene_free(&spheres);
-    scene_free(&both);
 }
 
 TEST(an_empty_scene_keeps_its_coordinates)
 {
-    Scene scene = parsed("");
+    FREED_BY(scene_free) Scene scene = parsed("");
     const Normalization frame = normalization_of(&scene);
     assert_true(frame.scale == 1 && frame.center.x == 0);
-    scene_free(&scene);
 }
 
 TEST(what_lies_too_far_away_is_refused_by_name)
 {
     Error error = {0};
-    Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");
+    FREED_BY(scene_free) Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");
     const Normalization frame = normalization_of(&scene);
     assert_false(normalization_check(&frame, &scene, &error));
     assert_string_equal(error.text, "light 2 is more than 1e12 times the scene's size away");
-    scene_free(&scene);
 }

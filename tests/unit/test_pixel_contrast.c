@@ -76,16 +76,14 @@ static void check_pixel(const RefineTree *tree, const PixelContrasts *contrasts,
 static void check_size(uint32_t width, uint32_t height)
 {
     Error error = {0};
-    RefineTree tree;
-    PixelContrasts contrasts;
+    FREED_BY(refine_tree_free) RefineTree tree;
+    FREED_BY(pixel_contrasts_free) PixelContrasts contrasts;
     assert_true(refine_tree_make(&tree, width, height, &error));
     fill(&tree);
     assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             check_pixel(&tree, &contrasts, x, y);
-    pixel_contrasts_free(&contrasts);
-    refine_tree_free(&tree);
 }
 
 TEST(contrasts_of_strips_are_those_of_single_pixels)
@@ -101,13 +99,11 @@ TEST(contrasts_of_strips_are_those_of_single_pixels)
 TEST(a_step_between_equal_colors_is_none)
 {
     Error error = {0};
-    RefineTree tree;
-    PixelContrasts contrasts;
+    FREED_BY(refine_tree_free) RefineTree tree;
+    FREED_BY(pixel_contrasts_free) PixelContrasts contrasts;
     assert_true(refine_tree_make(&tree, 2, 1, &error));
     memset(tree.pixels, 0, refine_tree_places(&tree) * sizeof *tree.pixels);
     tree.pixels[1].signature = 1;
     assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
     assert_false(pixel_contrast(&contrasts, 0, 0).is_step);
-    pixel_contrasts_free(&contrasts);
-    refine_tree_free(&tree);
 }

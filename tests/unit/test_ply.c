@@ -19,27 +19,28 @@ TEST(faces_may_stand_before_the_vertices)
 
 TEST(ascii_positions_keep_double_precision)
 {
+    FREED_BY(mesh_free)
     Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "end_header\n"
                                 "1000000.0123456789 -4.9e-324 9.99e29");
     assert_true(mesh.positions[0][0] == 1000000.0123456789);
     assert_true(mesh.positions[0][1] == -0x1p-1074);
     assert_true(mesh.positions[0][2] == 9.99e29);
-    mesh_free(&mesh);
 }
 
 TEST(a_polygon_becomes_a_fan_around_its_first_corner)
 {
+    FREED_BY(mesh_free)
     Mesh mesh = parse_text(HEAD "element vertex 5\n" XYZ FACES "end_header\n"
                                 "0 0 0 2 0 0 3 1 0 2 2 0 0 2 0\n5 4 0 1 2 3\n");
     assert_int_equal(mesh.triangle_count, 3);
     assert_triangle(&mesh, 0, 4, 0, 1);
     assert_triangle(&mesh, 1, 4, 1, 2);
     assert_triangle(&mesh, 2, 4, 2, 3);
-    mesh_free(&mesh);
 }
 
 TEST(triangles_with_equal_corner_positions_are_dropped)
 {
+    FREED_BY(mesh_free)
     Mesh mesh = parse_text(HEAD "element vertex 5\n" XYZ
                                 "element face 7\nproperty list uchar int vertex_indices\nend_header"
                                 "\n0 0 0 1 0 0 0 1 0 1.0 -0 0e5 0 0 1\n3 0 1 3\n3 0 1 2\n3 3 0 1\n"
@@ -49,7 +50,6 @@ TEST(triangles_with_equal_corner_positions_are_dropped)
     assert_triangle(&mesh, 0, 0, 1, 2);
     assert_triangle(&mesh, 1, 2, 0, 1);
     assert_triangle(&mesh, 2, 0, 1, 4);
-    mesh_free(&mesh);
 }
 
 TEST(normals_are_used_only_when_all_three_are_there)
@@ -67,9 +67,8 @@ TEST(normals_are_used_only_when_all_three_are_there)
 
 TEST(the_last_value_of_an_ascii_file_needs_no_blank_behind_it)
 {
-    Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "end_header\n1 2 3");
+    FREED_BY(mesh_free) Mesh mesh = parse_text(HEAD "element vertex 1\n" XYZ "end_header\n1 2 3");
     assert_true(mesh.positions[0][2] == 3);
-    mesh_free(&mesh);
 }
 
 TEST(a_file_without_elements_is_an_empty_mesh)

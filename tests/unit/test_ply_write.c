@@ -26,7 +26,7 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     const char *body = (const char *)memmem(bytes, size, "end_header\n", 11) + 11;
     assert_int_equal(size - (size_t)(body - bytes), 4 * vertex_size + 2 * 13);
 
-    Mesh again;
+    FREED_BY(mesh_free) Mesh again;
     Error error = {0};
     if (!ply_parse(&again, bytes, size, "t.ply", &error))
         fail_msg("%s", error.text);
@@ -37,7 +37,6 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     assert_int_equal(again.normals != NULL, mesh.normals != NULL);
     if (mesh.normals != NULL)
         assert_memory_equal(again.normals, mesh.normals, 4 * sizeof *mesh.normals);
-    mesh_free(&again);
     free(bytes);
 }
 
@@ -74,11 +73,10 @@ TEST(an_empty_mesh_comes_back)
     FILE *stream = open_memstream(&bytes, &size);
     assert_true(ply_write(&empty, stream));
     fclose(stream);
-    Mesh again;
+    FREED_BY(mesh_free) Mesh again;
     Error error = {0};
     assert_true(ply_parse(&again, bytes, size, "t.ply", &error));
     assert_int_equal(again.vertex_count + again.triangle_count, 0);
-    mesh_free(&again);
     free(bytes);
 }
 

@@ -26,14 +26,13 @@ static Framebuffer noise(uint32_t width, uint32_t height)
 
 TEST(a_full_device_is_a_fault_with_its_reason)
 {
-    Framebuffer framebuffer = noise(256, 256);
+    FREED_BY(framebuffer_free) Framebuffer framebuffer = noise(256, 256);
     FILE *full = fopen("/dev/full", "wb");
     assert_non_null(full);
     Error error = {0};
     assert_false(png_file_write(&framebuffer, &plain, full, &error));
     assert_string_equal(error.text, "No space left on device");
     fclose(full);
-    framebuffer_free(&framebuffer);
 }
 
 TEST(what_libpng_refuses_is_a_fault_and_says_nothing_itself)

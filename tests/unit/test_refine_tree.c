@@ -16,18 +16,17 @@ static void make_tree(RefineTree *tree)
 
 TEST(a_cell_beyond_the_pixel_is_the_pixel_beside)
 {
-    RefineTree tree;
+    FREED_BY(refine_tree_free) RefineTree tree;
     CellName name;
     make_tree(&tree);
     assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
     assert_int_equal(name.group, 0);
     assert_int_equal(name.cell, 1);
-    refine_tree_free(&tree);
 }
 
 TEST(cells_without_their_samples_are_no_neighbors_yet)
 {
-    RefineTree tree;
+    FREED_BY(refine_tree_free) RefineTree tree;
     CellName name;
     Error error = {0};
     make_tree(&tree);
@@ -37,7 +36,6 @@ TEST(cells_without_their_samples_are_no_neighbors_yet)
     assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
     assert_int_equal(name.group, 3);
     assert_int_equal(name.cell, 3);
-    refine_tree_free(&tree);
 }
 
 // In 32 bits, the number of pixels wraps around to 0.

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tests that a scene written as text is read back bit for bit.
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static Scene parsed(const char *text, size_t size)
-{
-    Scene scene;
-    Error error = {0};
-    if (!scn_parse(&scene, text, size, CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error))
-        fail_msg("%s\n%s", error.text, text);
-    return scene;
-}
 
 static Scene written_and_read(const Scene *scene, char *const *mesh_names, char **text)
 {
@@ -25,7 +14,7 @@ static Scene written_and_read(const Scene *scene, char *const *mesh_names, char 
     assert_non_null(stream);
     assert_true(scn_write(scene, mesh_names, stream, &error));
     assert_int_equal(fclose(stream), 0);
-    return parsed(*text, size);
+    return parsed(*text);
 }
 
 static void expect_same_materials(const Scene *a, uint32_t left, const Scene *b, uint32_t right)
@@ -71,24 +60,20 @@ TEST(every_statement_comes_back)
         "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n";
     static char *const names[] = {"cube.ply", "cube.ply", "cube.ply"};
     char *again;
-    Scene scene = parsed(text, strlen(text));
-    Scene copy = written_and_read(&scene, names, &again);
+    FREED_BY(scene_free) Scene scene = parsed(text);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, names, &again);
     expect_same(&scene, &copy);
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
 TEST(a_scene_without_cameras_keeps_the_courses)
 {
     char *again;
-    Scene scene = parsed("light 1 2 3 1", 13);
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 1");
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     assert_true(copy.has_course_views);
     assert_null(strstr(again, "camera"));
     expect_same(&scene, &copy);
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
@@ -99,7 +84,7 @@ TEST(names_that_no_scene_can_define_are_replaced)
                                         "twice",      "twice", "material_4"};
     Error error = {0};
     char *again;
-    Scene scene = parsed("", 0);
+    FREED_BY(scene_free) Scene scene = parsed("");
     for (uint32_t i = 0; i < 7; i++) {
         MaterialName name = {.material = (uint32_t)scene.materials.count};
         Material material = material_of_shader(SHADER_MATTE);
@@ -109,11 +94,9 @@ TEST(names_that_no_scene_can_define_are_replaced)
         assert_true(array_push(&scene.material_names, name, &error));
         assert_true(array_push(&scene.spheres, ((Sphere){{0, 0, i}, 1, name.material}), &error));
     }
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     expect_same(&scene, &copy);
     assert_non_null(strstr(again, "define \"twice\" "));
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
@@ -121,11 +104,9 @@ TEST(numbers_have_no_more_digits_than_they_need)
 {
     char *again;
     static const char text[] = "ambient 0.05\nlight 0.1 0.2 0.30000000000000004 1";
-    Scene scene = parsed(text, strlen(text));
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene scene = parsed(text);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     assert_non_null(strstr(again, "ambient 0.05\n"));
     assert_non_null(strstr(again, "light 0.1 0.2 0.30000000000000004 1\n"));
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }

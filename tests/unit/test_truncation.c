@@ -21,20 +21,18 @@ static Scene scene_of(const float reflectivities[], size_t count)
 
 TEST(the_bound_is_the_largest_weight_that_is_left)
 {
-    Scene scene = scene_of((const float[]){0.25f, 0.5f, 0}, 3);
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.25f, 0.5f, 0}, 3);
     assert_true(truncation_bound(&scene, 0) == 1);
     assert_true(truncation_bound(&scene, 3) == 0.125);
-    scene_free(&scene);
 }
 
 TEST(the_level_is_the_first_within_the_bound)
 {
-    Scene scene = scene_of((const float[]){0.5f}, 1);
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.5f}, 1);
     for (uint32_t level = 0; level < 30; level++) {
         assert_int_equal(truncation_level(&scene, ldexp(1, -(int)level)), level);
         assert_int_equal(truncation_level(&scene, ldexp(0.99, -(int)level)), level + 1);
     }
-    scene_free(&scene);
 }
 
 TEST(without_mirrors_one_level_is_exact)
@@ -48,17 +46,15 @@ TEST(without_mirrors_one_level_is_exact)
 
 TEST(perfect_mirrors_take_all_levels)
 {
-    Scene scene = scene_of((const float[]){1}, 1);
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){1}, 1);
     assert_int_equal(truncation_level(&scene, 0.5), MAX_LEVEL_LIMIT);
     assert_true(truncation_bound(&scene, MAX_LEVEL_LIMIT) == 1);
-    scene_free(&scene);
 }
 
 TEST(materials_that_nothing_uses_do_not_count)
 {
     Error error = {0};
-    Scene scene = scene_of((const float[]){0.25f}, 1);
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.25f}, 1);
     assert_true(array_push(&scene.materials, (Material){.reflectivity = 1}, &error));
     assert_true(truncation_bound(&scene, 2) == 0.0625);
-    scene_free(&scene);
 }
