@@ -11,19 +11,10 @@
 
 static ClrtRenderer *renderer; // shared by most tests
 
-static ClrtRenderer *open_renderer(uint32_t threads)
-{
-    ClrtError error;
-    ClrtRenderer *opened = clrt_renderer_create(getenv("CLRT_DEVICE"), threads, &error);
-    if (opened == NULL)
-        fail_msg("%s", error.text);
-    return opened;
-}
-
 SET_UP(open_all)
 {
-    renderer = open_renderer(0);
-    return 0;
+    renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 0, NULL);
+    return renderer == NULL;
 }
 
 TEAR_DOWN(close_all)
@@ -48,64 +39,50 @@ static float *make_buffer(const ClrtPicture *picture)
     return rgb;
 }
 
-static float *draw(ClrtRenderer *with, const ClrtScene *scene, const ClrtPicture *picture)
+static float *draw(const ClrtScene *scene, const ClrtPicture *picture)
 {
     ClrtError error;
     float *rgb = make_buffer(picture);
-    if (!clrt_render(with, scene, picture, rgb, &error))
+    if (!clrt_render(renderer, scene, picture, rgb, &error))
         fail_msg("%s", error.text);
     return rgb;
 }
 
-TEST(a_loaded_scene_is_the_programs_picture)
+// Expects the program's picture of the file with these options. Frees the scene.
+static void expect_program(ClrtScene *scene, const char *file, const char *options,
+                           ClrtPicture picture)
 {
-    static const char *const names[] = {"scenes/reflections.scn", "scenes/simple.scn",
-                                        "scenes/blinn_phong.scn", "tests/image/every_feature.scn"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const ClrtPicture picture = {.size = sizeof picture, .width = 150, .height = 131};
-        ClrtScene *scene = load(program_file(names[i]));
-        float *expected = program_draw(program_file(names[i]), "", 150, 131);
-        assert_true(program_agrees(renderer, scene, &picture, expected));
-        free(expected);
-        clrt_scene_free(scene);
-    }
-}
-
-TEST(a_lone_mesh_is_framed_as_the_program_frames_it)
-{
-    const ClrtPicture picture = {.size = sizeof picture, .width = 64, .height = 64};
-    ClrtScene *scene = load(program_file("scenes/tetrahedron.ply"));
-    float *expected = program_draw(program_file("scenes/tetrahedron.ply"), "", 64, 64);
+    picture.size = sizeof picture;
+    float *expected = program_draw(program_file(file), options, picture.width, picture.height);
     assert_true(program_agrees(renderer, scene, &picture, expected));
     free(expected);
     clrt_scene_free(scene);
+}
+
+TEST(a_loaded_scene_or_mesh_is_the_programs_picture)
+{
+    static const char *const names[] = {"scenes/reflections.scn", "scenes/simple.scn",
+                                        "scenes/blinn_phong.scn", "tests/image/every_feature.scn",
+                                        "scenes/tetrahedron.ply"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        expect_program(load(program_file(names[i])), names[i], "",
+                       (ClrtPicture){.width = 150, .height = 131});
 }
 
 TEST(views_samples_and_levels_are_the_programs)
 {
-    ClrtScene *scene = load(program_file("scenes/reflections.scn"));
-    const ClrtPicture picture = {
-        .size = sizeof picture, .width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1};
-    float *expected = program_draw(program_file("scenes/reflections.scn"),
-                                   "--view 3 --aa=3 --max-level 1", 60, 40);
-    assert_true(program_agrees(renderer, scene, &picture, expected));
-    free(expected);
-    clrt_scene_free(scene);
+    const char *name = "scenes/reflections.scn";
+    expect_program(
+        load(program_file(name)), name, "--view 3 --aa=3 --max-level 1",
+        (ClrtPicture){.width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1});
 }
 
 TEST(a_filled_scene_is_the_programs_picture_of_the_same_file)
 {
-    char *path = filled_write();
-    ClrtScene *scene = filled_make();
-    for (uint32_t view = 1; view <= 2; view++) {
-        const ClrtPicture picture = {
-            .size = sizeof picture, .width = 150, .height = 100, .view = view, .max_level = 5};
-        float *expected = program_draw(path, view == 1 ? "--view 1" : "--view 2", 150, 100);
-        assert_true(program_agrees(renderer, scene, &picture, expected));
-        free(expected);
-    }
-    clrt_scene_free(scene);
-    filled_remove(path);
+    for (uint32_t view = 1; view <= 2; view++)
+        expect_program(filled_make(), "tests/library/filled.scn",
+                       view == 1 ? "--view 1" : "--view 2",
+                       (ClrtPicture){.width = 150, .height = 100, .view = view, .max_level = 5});
 }
 
 TEST(the_info_counts_what_was_filled_in)
@@ -129,7 +106,7 @@ TEST(a_camera_of_the_pictures_own_takes_the_views_place)
 {
     ClrtScene *scene = filled_make();
     ClrtPicture picture = {.size = sizeof picture, .width = 90, .height = 70, .view = 2};
-    float *by_view = draw(renderer, scene, &picture);
+    float *by_view = draw(scene, &picture);
     picture.view = 1;
     picture.camera = &filled_cameras[1];
     assert_true(program_agrees(renderer, scene, &picture, by_view));
@@ -144,11 +121,11 @@ TEST(a_scene_that_was_changed_is_drawn_changed)
     const size_t bytes = 3 * 40 * 30 * sizeof(float);
     ClrtScene *scene = filled_make();
     float *pictures[3];
-    pictures[0] = draw(renderer, scene, &picture);
+    pictures[0] = draw(scene, &picture);
     assert_true(clrt_scene_set_background(scene, black, NULL));
-    pictures[1] = draw(renderer, scene, &picture);
+    pictures[1] = draw(scene, &picture);
     assert_true(clrt_scene_add_sphere(scene, center, 0.5, CLRT_MATERIAL_MATTE, NULL));
-    pictures[2] = draw(renderer, scene, &picture);
+    pictures[2] = draw(scene, &picture);
     assert_memory_not_equal(pictures[0], pictures[1], bytes);
     assert_memory_not_equal(pictures[1], pictures[2], bytes);
     for (int i = 0; i < 3; i++)
@@ -173,7 +150,7 @@ TEST(progress_counts_every_tile)
                                  .progress = count_tiles,
                                  .user = &last};
     ClrtScene *scene = filled_make();
-    free(draw(renderer, scene, &picture));
+    free(draw(scene, &picture));
     assert_int_equal(last, 6);
     clrt_scene_free(scene);
 }
@@ -205,7 +182,7 @@ TEST(a_stopped_picture_has_whole_tiles_and_leaves_the_rest)
     ClrtError error;
     ClrtPicture picture = {.size = sizeof picture, .width = 600, .height = 200};
     ClrtScene *scene = filled_make();
-    float *whole = draw(renderer, scene, &picture);
+    float *whole = draw(scene, &picture);
     float *rgb = make_buffer(&picture);
     for (size_t i = 0; i < 3 * 600 * 200; i++)
         rgb[i] = -1;
