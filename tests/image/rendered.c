@@ -6,6 +6,7 @@
 #include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <string.h>
 
 Framebuffer rendered(const PictureRequest *request)
 {
@@ -14,6 +15,35 @@ Framebuffer rendered(const PictureRequest *request)
     if (!picture_render(&picture, request, &error))
         fail_msg("%s", error.text);
     return picture;
+}
+
+Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *layers)
+{
+    Error error = {0};
+    request.aovs = 0;
+    request.layers = layers;
+    if (!aov_read_list(channels, &request.aovs, &error))
+        fail_msg("%s", error.text);
+    return rendered(&request);
+}
+
+PictureRequest rendered_in_form(PictureRequest request, const KernelChoice *form)
+{
+    request.choice = *form;
+    request.group_width = request.group_height = form_group(form);
+    return request;
+}
+
+double layer_float(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+Vec3 layer_vector(const uint32_t bits[3])
+{
+    return vec3(layer_float(bits[0]), layer_float(bits[1]), layer_float(bits[2]));
 }
 
 void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
@@ -30,22 +60,14 @@ void rendered_expect_same(const PictureRequest *expected, const PictureRequest *
 
 void rendered_expect_same_in_every_form(const PictureRequest *usual)
 {
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
-    enum { COUNT = sizeof choices / sizeof choices[0] };
-    PictureRequest others[COUNT];
-    for (uint32_t i = 0; i < COUNT; i++) {
-        others[i] = *usual;
-        others[i].choice = choices[i];
-        others[i].group_width = others[i].group_height = form_group(&choices[i]);
+    PictureRequest others[FORMS_FP32];
+    for (uint32_t i = 0; i < FORMS_FP32; i++) {
+        others[i] = rendered_in_form(*usual, &form_all[i]);
         others[i].threads = i;
         others[i].builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
-        others[i].specialization = i == COUNT - 1 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+        others[i].specialization = i == 2 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
     }
-    rendered_expect_same(usual, others, COUNT);
+    rendered_expect_same(usual, others, FORMS_FP32);
 }
 
 double rendered_error(const Framebuffer *one, const Framebuffer *other)

@@ -20,3 +20,10 @@ void temporary_close(FILE *stream)
 {
     assert_int_equal(fclose(stream), 0);
 }
+
+void temporary_mesh(char path[TEMPORARY_PATH], const Mesh *mesh)
+{
+    FILE *stream = temporary_open(path);
+    assert_true(ply_write(mesh, stream));
+    temporary_close(stream);
+}

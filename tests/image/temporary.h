@@ -2,6 +2,8 @@
 // Scene files that a test writes for itself.
 #pragma once
 
+#include "mesh/ply.h"
+
 #include <stdio.h>
 
 #define TEMPORARY_PATH 64
@@ -12,3 +14,6 @@ FILE *temporary_open(char path[TEMPORARY_PATH]);
 
 // Closes it; what could not be written fails the test.
 void temporary_close(FILE *stream);
+
+// Writes the mesh to a new PLY file and leaves its path, which the caller removes.
+void temporary_mesh(char path[TEMPORARY_PATH], const Mesh *mesh);

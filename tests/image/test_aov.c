@@ -3,7 +3,7 @@
 // counters. They must be equal in every form of the kernels and for all tile sizes.
 #include "image/form.h"
 #include "image/inline_scenes.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "oracle/oracle.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
@@ -16,34 +16,6 @@
 // The number of pixels in 10,000 that may differ in a decision, because rays along an edge may fall
 // on either side.
 #define LIMIT 2
-
-static AovSet set_of(const char *list)
-{
-    AovSet set = 0;
-    Error error = {0};
-    if (!aov_read_list(list, &set, &error))
-        fail_msg("%s", error.text);
-    return set;
-}
-
-static void draw(const PictureRequest *request, Framebuffer *picture)
-{
-    Error error = {0};
-    if (!picture_render(picture, request, &error))
-        fail_msg("%s", error.text);
-}
-
-static double float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
-static Vec3 vector_at(const uint32_t *values)
-{
-    return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
-}
 
 // The values of a pixel, in the order of aov_table.
 typedef struct {
@@ -58,8 +30,8 @@ typedef struct {
 static Values values_at(const Layers *layers, uint32_t x, uint32_t y)
 {
     const uint32_t *v = layers_at(layers, x, y);
-    return (Values){float_of(v[0]), vector_at(v + 1), vector_at(v + 4), v[7],
-                    v[8],           float_of(v[9]),   float_of(v[10])};
+    return (Values){layer_float(v[0]), layer_vector(v + 1), layer_vector(v + 4), v[7], v[8],
+                    layer_float(v[9]), layer_float(v[10])};
 }
 
 static double apart(Vec3 a, Vec3 b)
@@ -132,14 +104,11 @@ static void check(const char *path, uint32_t step)
     FREED_BY(scene_free) Scene scene = {0};
     FREED_BY(layers_free) Layers layers;
     Error error = {0};
-    FREED_BY(framebuffer_free) Framebuffer picture = {0};
     PictureRequest request = picture_request(path, 1);
     request.samples = 2;
-    request.aovs = set_of(JUDGED);
-    request.layers = &layers;
     if (!scn_load(&scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
-    draw(&request, &picture);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, JUDGED, &layers);
     const Judgment judgment = judge(&scene, &layers, step);
     print_message("%s: %u of %u pixels show another primitive, %u other shadows, %u other bounces; "
                   "depth off by %.2g, normal by %.2g, position by %.2g\n",
@@ -175,14 +144,6 @@ TEST(channels_are_in_the_coordinates_of_a_scene_far_away)
     check(path, 2);
 }
 
-static void take_values(PictureRequest *request, const char *list, Layers *layers,
-                        Framebuffer *picture)
-{
-    request->aovs = set_of(list);
-    request->layers = layers;
-    draw(request, picture);
-}
-
 static bool layers_equal(const Layers *a, const Layers *b)
 {
     return memcmp(a->values, b->values,
@@ -194,52 +155,41 @@ static bool pictures_equal(const Framebuffer *a, const Framebuffer *b)
     return memcmp(a->pixels, b->pixels, (size_t)a->width * a->height * sizeof *a->pixels) == 0;
 }
 
-// Checks that the request gives the same bits as the defaults.
-static void check_same(const PictureRequest *other, const char *list)
+static PictureRequest every_feature(void)
 {
-    FREED_BY(layers_free) Layers layers, changed_layers;
-    FREED_BY(framebuffer_free) Framebuffer picture = {0}, changed = {0};
-    PictureRequest request = picture_request(other->scene_path, other->view);
-    PictureRequest change = *other;
-    take_values(&request, list, &layers, &picture);
-    take_values(&change, list, &changed_layers, &changed);
-    assert_true(pictures_equal(&picture, &changed));
-    assert_true(layers_equal(&layers, &changed_layers));
+    return picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
 }
 
-static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                       {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}};
-#define CHOICES (sizeof choices / sizeof *choices)
+// Checks that the request gives the same bits as the defaults.
+static void check_same(PictureRequest other, const char *list)
+{
+    FREED_BY(layers_free) Layers layers, other_layers;
+    FREED_BY(framebuffer_free)
+    Framebuffer picture = rendered_with(every_feature(), list, &layers),
+                changed = rendered_with(other, list, &other_layers);
+    assert_true(pictures_equal(&picture, &changed));
+    assert_true(layers_equal(&layers, &other_layers));
+}
 
 TEST(every_form_of_the_kernels_gives_the_same_channels)
 {
-    for (size_t i = 0; i < CHOICES; i++) {
-        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-        request.choice = choices[i];
-        check_same(&request, JUDGED ",samples");
-    }
+    for (size_t i = 0; i < FORMS_FP32; i++)
+        check_same(rendered_in_form(every_feature(), &form_all[i]), JUDGED ",samples");
 }
 
 TEST(every_form_over_one_kind_of_nodes_counts_the_same_tests)
 {
-    const KernelChoice own = form_choice();
-    for (size_t i = 0; i < CHOICES; i++) {
-        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-        request.choice = choices[i];
-        if (choices[i].nodes == own.nodes)
-            check_same(&request, "boxtests,tritests");
-    }
+    for (size_t i = 0; i < FORMS_FP32; i++)
+        if (form_all[i].nodes == form_choice().nodes)
+            check_same(rendered_in_form(every_feature(), &form_all[i]), "boxtests,tritests");
 }
 
 TEST(tiles_change_no_channel)
 {
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+    PictureRequest request = every_feature();
     request.tile_width = 13;
     request.tile_height = 7;
-    check_same(&request, JUDGED ",samples,boxtests,tritests");
+    check_same(request, JUDGED ",samples,boxtests,tritests");
 }
 
 static double sum_of(const Layers *layers, uint32_t channel)
@@ -247,40 +197,37 @@ static double sum_of(const Layers *layers, uint32_t channel)
     double sum = 0;
     const size_t count = (size_t)layers->width * layers->height;
     for (size_t pixel = 0; pixel < count; pixel++)
-        sum += float_of(layers->values[pixel * layers->count + channel]);
+        sum += layer_float(layers->values[pixel * layers->count + channel]);
     return sum;
+}
+
+// Compares the sums of channels with the picture's counts of rays of that kind and of tests.
+static void check_sums(const char *channels, uint32_t samples, int kind)
+{
+    FREED_BY(layers_free) Layers layers;
+    uint64_t tallies[TALLY_KINDS];
+    PictureRequest request = rendered_in_form(every_feature(), &form_all[0]);
+    request.tallies = tallies;
+    request.samples = samples;
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, channels, &layers);
+    assert_true(sum_of(&layers, 0) == (double)tallies[kind]);
+    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
+    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
 }
 
 TEST(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture)
 {
-    Layers layers;
-    uint64_t tallies[TALLY_KINDS];
-    Framebuffer picture = {0};
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    request.choice = choices[0];
-    request.tallies = tallies;
-    take_values(&request, "bounces,boxtests,tritests", &layers, &picture);
-    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_REFLECTED_RAYS]);
-    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
-    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
-    layers_free(&layers);
-    framebuffer_free(&picture);
-    request.samples = 3;
-    take_values(&request, "samples,boxtests,tritests", &layers, &picture);
-    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_CAMERA_RAYS]);
-    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
-    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
-    layers_free(&layers);
-    framebuffer_free(&picture);
+    check_sums("bounces,boxtests,tritests", 1, TALLY_REFLECTED_RAYS);
+    check_sums("samples,boxtests,tritests", 3, TALLY_CAMERA_RAYS);
 }
 
 TEST(the_picture_keeps_its_bits_with_channels)
 {
     FREED_BY(layers_free) Layers layers;
-    FREED_BY(framebuffer_free) Framebuffer picture = {0}, plain = {0};
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    draw(&request, &plain);
-    take_values(&request, JUDGED ",boxtests", &layers, &picture);
+    const PictureRequest request = every_feature();
+    FREED_BY(framebuffer_free)
+    Framebuffer plain = rendered(&request),
+                picture = rendered_with(request, JUDGED ",boxtests", &layers);
     assert_true(pictures_equal(&picture, &plain));
 }
 

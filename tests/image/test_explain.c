@@ -3,7 +3,7 @@
 // Their error bounds must hold for the oracle's results on the same stored numbers.
 #include "image/form.h"
 #include "image/inline_scenes.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "oracle/stored.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
@@ -12,19 +12,6 @@
 #include <unistd.h>
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
-
-static const KernelChoice choices[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
-
-static void draw(const PictureRequest *request)
-{
-    Error error = {0};
-    FREED_BY(framebuffer_free) Framebuffer picture = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
-}
 
 static uint32_t random_below(uint32_t *state, uint32_t bound)
 {
@@ -114,13 +101,11 @@ static void check_pixels(Explainer *explainer, const Framebuffer *picture, void 
 
 static void check_scene(const char *path, uint32_t samples)
 {
-    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
-        PictureRequest request = picture_request(path, 1);
-        request.choice = choices[i];
-        request.group_width = request.group_height = form_group(&choices[i]);
+    for (size_t i = 0; i < FORMS; i++) {
+        PictureRequest request = rendered_in_form(picture_request(path, 1), &form_all[i]);
         request.samples = samples;
         request.visit = check_pixels;
-        draw(&request);
+        FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     }
 }
 
@@ -198,14 +183,12 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
 static void check_bounds_of(const char *path, const KernelChoice *choice)
 {
     Bounds bounds = {.path = path};
-    PictureRequest request = picture_request(path, 1);
-    request.choice = *choice;
-    request.group_width = request.group_height = form_group(choice);
+    PictureRequest request = rendered_in_form(picture_request(path, 1), choice);
     request.width = 150;
     request.height = 110;
     request.visit = check_bounds;
     request.visit_context = &bounds;
-    draw(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     print_message("%s: %u distances, errors take up to %.2g of their bounds\n",
                   strrchr(path, '/') + 1, bounds.compared, bounds.largest);
     assert_true(bounds.compared > 200);
@@ -215,10 +198,10 @@ static void check_bounds_of(const char *path, const KernelChoice *choice)
 TEST(distances_are_off_by_less_than_is_told)
 {
     char path[INLINE_PATH_SIZE];
-    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[0]);
-    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[2]);
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[0]);
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[2]);
     inline_scenes_path(INLINE_FAR_AWAY, path);
-    check_bounds_of(path, &choices[1]);
+    check_bounds_of(path, &form_all[1]);
     inline_scenes_path(INLINE_MIRRORS, path);
-    check_bounds_of(path, &choices[0]);
+    check_bounds_of(path, &form_all[0]);
 }

@@ -24,15 +24,6 @@ static const KernelChoice choices[] = {
 };
 #define CHOICE_COUNT (sizeof choices / sizeof choices[0])
 
-static const KernelChoice fp64 = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
-
-static PictureRequest in_form(PictureRequest request, const KernelChoice *choice)
-{
-    request.choice = *choice;
-    request.group_width = request.group_height = form_group(choice);
-    return request;
-}
-
 // Neither side of the picture is a multiple of a tile's or work-group's side.
 static PictureRequest small_request(size_t scene)
 {
@@ -57,11 +48,12 @@ TEST(every_way_to_find_triangles_draws_the_same)
 TEST(every_form_of_the_kernels_draws_the_same)
 {
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        PictureRequest usual = in_form(small_request(scene), &choices[0]), others[CHOICE_COUNT * 4];
+        PictureRequest usual = rendered_in_form(small_request(scene), &choices[0]),
+                       others[CHOICE_COUNT * 4];
         usual.samples = 1;
         for (size_t i = 0; i < CHOICE_COUNT; i++) {
             PictureRequest *form = &others[i * 4];
-            form[0] = form[1] = form[2] = form[3] = in_form(usual, &choices[i]);
+            form[0] = form[1] = form[2] = form[3] = rendered_in_form(usual, &choices[i]);
             form[1].builder = BVH_MIDPOINT;
             form[2].uses_bvh = false;
             form[3].tile_width = 13;
@@ -79,8 +71,8 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
         usual.width = sizes[size][0];
         usual.height = sizes[size][1];
         for (size_t i = 1; i < CHOICE_COUNT; i++)
-            others[i - 1] = in_form(usual, &choices[i]);
-        usual = in_form(usual, &choices[0]);
+            others[i - 1] = rendered_in_form(usual, &choices[i]);
+        usual = rendered_in_form(usual, &choices[0]);
         rendered_expect_same(&usual, others, CHOICE_COUNT - 1);
     }
 }
@@ -139,7 +131,7 @@ static const char *write_scene(unsigned mask)
 static void expect_special_same(unsigned mask, const KernelChoice *choice)
 {
     uint64_t tallies[TALLY_KINDS];
-    PictureRequest general = in_form(picture_request(write_scene(mask & 15), 1), choice);
+    PictureRequest general = rendered_in_form(picture_request(write_scene(mask & 15), 1), choice);
     general.width = general.height = 40;
     general.uses_bvh = (mask & 16) != 0;
     PictureRequest special = general;
@@ -176,7 +168,7 @@ TEST(specialized_packets_draw_what_general_ones_do)
 TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
 {
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest sah = in_form(small_request(scene), &fp64);
+        const PictureRequest sah = rendered_in_form(small_request(scene), &form_all[FORMS_FP32]);
         PictureRequest others[] = {sah, sah, sah};
         others[0].builder = BVH_MIDPOINT;
         others[0].tile_width = 13;
@@ -190,13 +182,13 @@ TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
 
 TEST(specialized_fp64_draws_what_the_general_program_does)
 {
-    expect_specials_same(&fp64);
+    expect_specials_same(&form_all[FORMS_FP32]);
 }
 
 TEST(fp64_draws_another_picture_than_fp32)
 {
-    const PictureRequest reference = in_form(small_request(0), &fp64);
-    const PictureRequest usual = in_form(reference, &choices[0]);
+    const PictureRequest reference = rendered_in_form(small_request(0), &form_all[FORMS_FP32]);
+    const PictureRequest usual = rendered_in_form(reference, &choices[0]);
     FREED_BY(framebuffer_free) Framebuffer first = rendered(&reference), second = rendered(&usual);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
     assert_memory_not_equal(first.pixels, second.pixels, size);

@@ -2,12 +2,12 @@
 // Refined pictures show thin parts of meshes, narrower than a pixel, at any contrast.
 #include "image/form.h"
 #include "image/rendered.h"
+#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define SIDE 181
 #define PI   3.14159265358979
@@ -18,69 +18,46 @@ typedef struct {
     double x, y;
 } Corner;
 
+// Triangles that share no vertex, counter-clockwise in front.
 typedef struct {
-    char scene[64], mesh[64];
-    Corner (*triangles)[3]; // counter-clockwise in front
-    int count, capacity;
+    char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
+    Mesh triangles;
+    size_t capacity;
 } Drawing;
 
-static void open_file(char path[64], const char *pattern, int suffix)
-{
-    snprintf(path, 64, "%s", pattern);
-    const int file = mkstemps(path, suffix);
-    assert_true(file >= 0);
-    close(file);
-}
-
-static Drawing drawing_of(int capacity)
+static Drawing drawing_of(size_t capacity)
 {
     Drawing drawing = {.capacity = capacity};
-    drawing.triangles = calloc((size_t)capacity, sizeof *drawing.triangles);
-    assert_non_null(drawing.triangles);
-    open_file(drawing.scene, "/tmp/clrt-thin-XXXXXX.scn", 4);
-    open_file(drawing.mesh, "/tmp/clrt-thin-XXXXXX.ply", 4);
+    drawing.triangles.positions = calloc(3 * capacity, sizeof *drawing.triangles.positions);
+    drawing.triangles.triangles = calloc(capacity, sizeof *drawing.triangles.triangles);
+    assert_true(drawing.triangles.positions != NULL && drawing.triangles.triangles != NULL);
     return drawing;
 }
 
 static void add_triangle(Drawing *drawing, Corner a, Corner b, Corner c)
 {
-    assert_true(drawing->count < drawing->capacity);
-    Corner *corners = drawing->triangles[drawing->count++];
-    corners[0] = a;
-    corners[1] = b;
-    corners[2] = c;
-}
-
-static void write_mesh(const Drawing *drawing)
-{
+    const Corner corners[3] = {a, b, c};
     const double pixel = 2 * 100 * tan(PI / 6) / SIDE;
-    FILE *stream = fopen(drawing->mesh, "w");
-    assert_non_null(stream);
-    fprintf(stream,
-            "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
-            "property double z\nelement face %d\nproperty list uchar int vertex_indices\n"
-            "end_header\n",
-            3 * drawing->count, drawing->count);
-    for (int i = 0; i < 3 * drawing->count; i++) {
-        const Corner *corner = &drawing->triangles[i / 3][i % 3];
-        fprintf(stream, "%.12g 0 %.12g\n", corner->x * pixel, corner->y * pixel);
+    Mesh *mesh = &drawing->triangles;
+    assert_true(mesh->triangle_count < drawing->capacity);
+    for (int i = 0; i < 3; i++) {
+        mesh->positions[mesh->vertex_count][0] = corners[i].x * pixel;
+        mesh->positions[mesh->vertex_count][2] = corners[i].y * pixel;
+        mesh->triangles[mesh->triangle_count][i] = (uint32_t)mesh->vertex_count++;
     }
-    for (int i = 0; i < drawing->count; i++)
-        fprintf(stream, "3 %d %d %d\n", 3 * i, 3 * i + 1, 3 * i + 2);
-    assert_int_equal(fclose(stream), 0);
+    mesh->triangle_count++;
 }
 
 // Returns a request for the drawing with that brightness in front of a black background.
-static PictureRequest request_of(const Drawing *drawing, double light)
+static PictureRequest request_of(Drawing *drawing, double light)
 {
-    write_mesh(drawing);
-    FILE *stream = fopen(drawing->scene, "w");
-    assert_non_null(stream);
+    temporary_mesh(drawing->mesh, &drawing->triangles);
+    FILE *stream = temporary_open(drawing->scene);
     fprintf(stream,
             "background 0 0 0\ndefine it silhouette diffuse %g %g %g\nmaterial it\n"
             "camera 0 -100 0 0 0 0 60\nply_file %s\n",
-            light, light, light, drawing->mesh + sizeof "/tmp");
-    assert_int_equal(fclose(stream), 0);
+            light, light, light, drawing->mesh);
+    temporary_close(stream);
     PictureRequest request = picture_request(drawing->scene, 1);
     request.width = request.height = SIDE;
     request.contrasts[0] = 0.04f;
@@ -91,7 +68,7 @@ static void drawing_free(Drawing *drawing)
 {
     remove(drawing->scene);
     remove(drawing->mesh);
-    free(drawing->triangles);
+    mesh_free(&drawing->triangles);
 }
 
 static Corner turned(Corner center, double radius, double angle)
@@ -196,10 +173,11 @@ TEST(backs_of_one_sided_triangles_take_no_samples)
     uint64_t samples;
     FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID);
     add_grid(&drawing);
-    for (int i = 0; i < drawing.count; i++) {
-        const Corner first = drawing.triangles[i][0];
-        drawing.triangles[i][0] = drawing.triangles[i][1];
-        drawing.triangles[i][1] = first;
+    for (size_t i = 0; i < drawing.triangles.triangle_count; i++) {
+        uint32_t *corners = drawing.triangles.triangles[i];
+        const uint32_t first = corners[0];
+        corners[0] = corners[1];
+        corners[1] = first;
     }
     PictureRequest request = request_of(&drawing, 1);
     request.sample_count = &samples;
@@ -244,18 +222,14 @@ TEST(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one)
 
 TEST(every_form_and_any_threads_find_the_same)
 {
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
     FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID + 2);
     add_grid(&drawing);
     add_cable(&drawing, (Corner){-80, -40.1}, (Corner){80, 33}, 0.06);
     PictureRequest usual = request_of(&drawing, 0.5);
     FREED_BY(framebuffer_free) Framebuffer first = rendered(&usual);
-    for (uint32_t i = 0; i < 6; i++) {
-        PictureRequest other = usual;
+    for (uint32_t i = 0; i < 4; i++) {
+        PictureRequest other = rendered_in_form(usual, &form_all[i % 2 == 0 ? 0 : 3]);
         other.threads = i;
-        other.choice = choices[i % 2];
-        other.group_width = other.group_height = form_group(&other.choice);
         Framebuffer second = rendered(&other);
         assert_memory_equal(first.pixels, second.pixels, SIDE * SIDE * sizeof *first.pixels);
         framebuffer_free(&second);

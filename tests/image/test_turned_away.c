@@ -20,12 +20,6 @@
 // The test ignores lights whose height over a face is smaller than this.
 #define CLEAR 1e-4
 
-static const KernelChoice forms[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
-#define FORMS (sizeof forms / sizeof *forms)
-
 typedef struct {
     Vec3 corners[3], normals[3];
 } Triangle;
@@ -103,28 +97,23 @@ typedef struct {
     Vec3 eye, look_at, light;
 } Stage;
 
-typedef struct {
-    char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
-} Paths;
-
-static Paths stage_write(const Stage *stage)
+// Writes the scene and, if it has a solid, its mesh.
+static void stage_write(const Stage *stage, char path[TEMPORARY_PATH], char mesh[TEMPORARY_PATH])
 {
-    Paths paths;
-    FILE *mesh = temporary_open(paths.mesh);
-    if (stage->solid != NULL)
-        write_solid(stage->solid, mesh);
-    temporary_close(mesh);
-    FILE *scene = temporary_open(paths.scene);
+    FILE *scene = temporary_open(path);
     fprintf(scene, "background 0 0 0\nambient 0\nmaterial 1\nsides %s\n", stage->sides);
     fprintf(scene, "light %.17g %.17g %.17g 1\n", stage->light.x, stage->light.y, stage->light.z);
     fprintf(scene, "camera %g %g %g %g %g %g 60\n", stage->eye.x, stage->eye.y, stage->eye.z,
             stage->look_at.x, stage->look_at.y, stage->look_at.z);
-    if (stage->solid != NULL)
-        fprintf(scene, "ply_file %s\n", paths.mesh);
-    else
+    if (stage->solid != NULL) {
+        FILE *stream = temporary_open(mesh);
+        write_solid(stage->solid, stream);
+        temporary_close(stream);
+        fprintf(scene, "ply_file %s\n", mesh);
+    } else {
         fprintf(scene, "sphere 0 0 0 1\n");
+    }
     temporary_close(scene);
-    return paths;
 }
 
 // The contents of a pixel.
@@ -134,39 +123,23 @@ typedef struct {
     bool lit; // in the color and in the channel
 } Seen;
 
-static double float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
-static Vec3 vector_at(const uint32_t *values)
-{
-    return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
-}
-
 // Renders a picture of SIDE x SIDE pixels.
 static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
 {
-    FREED_BY(layers_free) Layers layers = {0};
-    Error error = {0};
-    const Paths paths = stage_write(stage);
-    PictureRequest request = picture_request(paths.scene, 1);
+    char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH] = "";
+    FREED_BY(layers_free) Layers layers;
+    stage_write(stage, scene, mesh);
+    PictureRequest request = rendered_in_form(picture_request(scene, 1), form);
     request.width = request.height = SIDE;
-    request.choice = *form;
-    request.group_width = request.group_height = form_group(form);
-    request.layers = &layers;
-    if (!aov_read_list("normal,position,primitive,shadow", &request.aovs, &error))
-        fail_msg("%s", error.text);
-    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free)
+    Framebuffer picture = rendered_with(request, "normal,position,primitive,shadow", &layers);
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         const uint32_t *v = layers_at(&layers, i % SIDE, i / SIDE);
-        seen[i] = (Seen){vector_at(v), vector_at(v + 3), v[6], float_of(v[7]) > 0};
+        seen[i] = (Seen){layer_vector(v), layer_vector(v + 3), v[6], layer_float(v[7]) > 0};
         assert_int_equal(seen[i].lit, picture.pixels[i][0] > 0);
     }
-    remove(paths.scene);
-    remove(paths.mesh);
+    remove(scene);
+    remove(mesh);
 }
 
 // Returns the light's height over the face that a pixel shows; positive on the eye's side.
@@ -210,7 +183,7 @@ static void check_outside(const Solid *solid)
         for (size_t form = 0; form < FORMS; form++) {
             Seen seen[SIDE * SIDE];
             const Stage stage = {solid, "one", {0.4, -2.1, 0.6}, {0, 0, 0}, lights[light]};
-            see(&stage, &forms[form], seen);
+            see(&stage, &form_all[form], seen);
             const Counts counts = judge_outside(&stage, seen);
             assert_in_range(counts.judged, 2000, SIDE * SIDE);
             assert_in_range(counts.lit, 50, counts.judged);
@@ -236,7 +209,7 @@ static void check_inside(const Solid *solid)
     for (size_t form = 0; form < FORMS; form++) {
         Seen seen[SIDE * SIDE];
         const Stage stage = {solid, "two", {0.3, -0.2, 0.1}, {1, 1, 0.3}, {0.8, 1.3, 0.9}};
-        see(&stage, &forms[form], seen);
+        see(&stage, &form_all[form], seen);
         for (uint32_t i = 0; i < SIDE * SIDE; i++) {
             assert_int_not_equal(seen[i].primitive, NOTHING);
             assert_false(seen[i].lit);
@@ -263,7 +236,7 @@ TEST(all_points_of_a_triangle_agree_about_a_light_in_its_plane)
         Seen seen[SIDE * SIDE];
         uint32_t dark[SPOKES] = {0}, lit[SPOKES] = {0}, spokes_seen = 0;
         const Stage stage = {&solid, "two", {0.6, -1.4, 1.6}, {0, 0, 0.2}, {0, 0, 0.27}};
-        see(&stage, &forms[form], seen);
+        see(&stage, &form_all[form], seen);
         for (uint32_t i = 0; i < SIDE * SIDE; i++)
             if (seen[i].primitive != NOTHING)
                 (seen[i].lit ? lit : dark)[seen[i].primitive]++;
