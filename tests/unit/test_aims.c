@@ -55,28 +55,26 @@ static void release(Fixture *all)
 
 TEST(every_edge_and_point_is_aimed_at_once)
 {
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
     assert_int_equal(all.aims.total, 6 + 4);
     assert_int_equal(all.aims.count, 6 + 4);
     for (size_t i = 0; i < 4; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 1.7);
     for (size_t i = 4; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
-    release(&all);
 }
 
 TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
 {
     uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    Fixture all = aimed_as(turned, 4, 64, true);
+    FREED_BY(release) Fixture all = aimed_as(turned, 4, 64, true);
     for (size_t i = 0; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
-    release(&all);
 }
 
 TEST(an_open_edge_is_aimed_at_beyond_it_too)
 {
-    Fixture all = aimed(faces, 3, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 3, 64);
     assert_int_equal(all.aims.total, 6 + 4 + 3);
     // The missing face is opposite the corner (1, 1, 1).
     const Vec3 outside = vec3(-1, -1, -1);
@@ -84,20 +82,18 @@ TEST(an_open_edge_is_aimed_at_beyond_it_too)
     for (size_t i = 4; i < all.aims.count; i++)
         beyond += vec3_dot(all.aims.aims[i].point, outside) > 1 + 1e-6;
     assert_int_equal(beyond, 3);
-    release(&all);
 }
 
 TEST(no_more_aims_are_kept_than_asked_for)
 {
-    Fixture all = aimed(faces, 4, 3);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 3);
     assert_int_equal(all.aims.total, 10);
     assert_int_equal(all.aims.count, 3);
-    release(&all);
 }
 
 TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 {
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
     const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     assert_true(count >= 6 && count <= 10);
     for (size_t i = 0; i < count; i++) {
@@ -110,12 +106,11 @@ TEST(rays_from_afar_start_outside_and_end_at_their_aims)
         assert_true(vec3_dot(direction, aim->outward) < 0);
         assert_true(aim->tolerance > 0 && aim->tolerance < 1e-3f);
     }
-    release(&all);
 }
 
 TEST(rays_are_judged_by_where_they_end)
 {
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
     aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
     aims_judge(&all.aims, all.targets, distances, 4);
@@ -133,5 +128,4 @@ TEST(rays_are_judged_by_where_they_end)
         assert_int_not_equal(all.targets[i], reached);
     }
     assert_true(again);
-    release(&all);
 }

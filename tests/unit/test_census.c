@@ -83,9 +83,8 @@ static void release(Taken *taken)
 
 static MeshCensus mesh_census(const char *points, const char *faces)
 {
-    Taken taken = census_of_mesh(points, faces);
+    FREED_BY(release) Taken taken = census_of_mesh(points, faces);
     const MeshCensus census = taken.census.meshes[0];
-    release(&taken);
     return census;
 }
 
@@ -183,12 +182,11 @@ TEST(triangles_of_no_area_are_counted)
 
 TEST(nothing_of_an_empty_mesh_is_closed)
 {
-    Taken taken = census_of_mesh("0 0 0", "");
+    FREED_BY(release) Taken taken = census_of_mesh("0 0 0", "");
     assert_int_equal(taken.census.empty_meshes, 1);
     assert_false(taken.census.meshes[0].closedness.is_closed);
     assert_int_equal(taken.census.meshes[0].unused_vertices, 1);
     assert_true(isinf(taken.census.meshes[0].features.edge.steps));
-    release(&taken);
 }
 
 TEST(what_is_not_finite_is_counted_and_left_out)
@@ -263,6 +261,7 @@ TEST(coordinates_far_from_the_origin_are_written_in_coarser_steps)
 
 TEST(repeated_meshes_spheres_and_lights_are_duplicates)
 {
+    FREED_BY(release)
     Taken taken = census_of_scene("light 1 2 3 1\nlight 1 2 4 1\nlight 1 2 3 0.5\n"
                                   "sphere 0 0 0 1\nsphere 0 -0 0 1\nsphere 0 0 0 2\n"
                                   "ply_file cube.ply\nply_file cone.ply\nply_file cube.ply\n"
@@ -270,14 +269,13 @@ TEST(repeated_meshes_spheres_and_lights_are_duplicates)
     assert_int_equal(taken.census.duplicate_lights, 1);
     assert_int_equal(taken.census.duplicate_spheres, 1);
     assert_int_equal(taken.census.duplicate_meshes, 1);
-    release(&taken);
 }
 
 TEST(defined_materials_that_nothing_has_are_unused)
 {
+    FREED_BY(release)
     Taken taken = census_of_scene("define red matte\ndefine green matte\ndefine blue matte\n"
                                   "material green\nsphere 0 0 0 1\nmaterial red\n"
                                   "ply_file cube.ply");
     assert_int_equal(taken.census.unused_materials, 1);
-    release(&taken);
 }

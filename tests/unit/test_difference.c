@@ -100,41 +100,15 @@ TEST(first_hits_are_compared_where_both_files_have_them)
     assert_false(difference.has_hits);
 }
 
-TEST(what_cannot_be_compared_is_refused_in_a_sentence)
+// cli/test_compare.py tests other pairs that cannot be compared, and the map of differences.
+TEST(pictures_without_colors_are_refused)
 {
     Difference difference;
-    Error sizes = {0}, finite = {0}, colors = {0};
-    StoredImage images[2] = {image_of(plain), image_of(plain)};
-    images[1].height = 1;
-    assert_false(measure(&difference, images, &sizes));
-    assert_string_equal(sizes.text, "a has 2 x 2 pixels and b has 2 x 1");
-    StoredImage holes[2] = {image_of(plain), image_of(plain)};
-    holes[1].values[4 * 3 + 1] = NAN;
-    assert_false(measure(&difference, holes, &finite));
-    assert_string_equal(finite.text, "b: G of pixel 1,1 is not finite");
-    StoredImage nameless[2] = {image_of(plain), image_of(plain)};
-    strcpy(nameless[0].names[2], "red");
-    assert_false(measure(&difference, nameless, &colors));
-    assert_string_equal(colors.text, "a: it has no channels R, G and B");
-}
-
-TEST(the_map_shows_steps_at_their_fixed_brightness)
-{
-    const float a[PIXELS][4] = {{0}},
-                b[PIXELS][4] = {{0, 0, 1 / 255.0f, 0}, {0, 4 / 255.0f, 0, 0}, {0.5f, 0, 0, 0}};
-    StoredImage images[2] = {image_of(a), image_of(b)};
-    ImagePair pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
-    FREED_BY(framebuffer_free) Framebuffer seen, exact;
     Error error = {0};
-    assert_true(image_pair_check(&pair, &error));
-    assert_true(difference_picture_make(&seen, &pair, true, &error));
-    assert_true(difference_picture_make(&exact, &pair, false, &error));
-    assert_float_equal(seen.pixels[0][0], 0.125, 1e-6);
-    assert_float_equal(seen.pixels[1][1], 0.25, 1e-6);
-    assert_true(seen.pixels[2][2] == 1 && seen.pixels[3][0] == 0);
-    assert_true(exact.pixels[0][0] == 1 / 255.0f && exact.pixels[2][2] == 0.5f);
-    stored_image_free(&images[0]);
-    stored_image_free(&images[1]);
+    StoredImage images[2] = {image_of(plain), image_of(plain)};
+    strcpy(images[0].names[2], "red");
+    assert_false(measure(&difference, images, &error));
+    assert_string_equal(error.text, "a: it has no channels R, G and B");
 }
 
 TEST(limits_are_kept_up_to_their_value)

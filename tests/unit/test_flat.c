@@ -83,17 +83,16 @@ TEST(zero_has_one_sign)
     static const double positions[3][3] = {{-1, -1, -1}, {1, 1, 1}, {1, -1, -0.0}};
     FREED_BY(triangles_free) Triangles triangles;
     Error error = {0};
-    Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     memcpy(all.scene.objects.data[0].mesh.positions, positions, sizeof positions);
     const Normalization frame = normalization_of(&all.scene);
     assert_true(triangles_make(&triangles, &all.scene, &frame, NULL, &error));
     assert_true(triangles.points[2][2] == 0 && !signbit(triangles.points[2][2]));
-    release(&all);
 }
 
 TEST(sphere_parts_add_up_to_the_double)
 {
-    Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
+    FREED_BY(release) Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
     const Normalization frame = normalization_of(&all.scene);
     const SphereData *sphere = &all.flat.spheres[0];
     const double radius = (double)sphere->radius + (double)sphere->radius_low;
@@ -104,29 +103,26 @@ TEST(sphere_parts_add_up_to_the_double)
     const double z = (double)sphere->center[2] + (double)sphere->center_low[2];
     assert_true(fabs(x - center.x) < 0x1p-48 && fabs(z - center.z) < 0x1p-48);
     assert_true(sphere->center_low[0] != 0 && sphere->center_low[2] != 0);
-    release(&all);
 }
 
 TEST(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them)
 {
-    Flattened all = flattened("sphere 0 0 0 1", true);
+    FREED_BY(release) Flattened all = flattened("sphere 0 0 0 1", true);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.triangle_count, 0);
     assert_int_equal(all.flat.normals_count, 0);
-    release(&all);
 }
 
 TEST(flat_objects_upload_no_normals)
 {
-    Flattened all = flattened("normals flat\nply_file cube.ply", true);
+    FREED_BY(release) Flattened all = flattened("normals flat\nply_file cube.ply", true);
     assert_int_equal(all.flat.normals_count, 0);
     assert_true(all.flat.triangles[0].normals == NOTHING);
-    release(&all);
 }
 
 TEST(a_lone_leaf_gets_a_node_with_one_child)
 {
-    Flattened all = flattened("ply_file cube.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file cube.ply", true);
     Bvh leaf = {.node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
@@ -138,12 +134,11 @@ TEST(a_lone_leaf_gets_a_node_with_one_child)
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
     assert_true(flat.pairs[0].planes[0][0][1] > flat.pairs[0].planes[0][1][1]);
-    release(&all);
 }
 
 TEST(a_missing_vertex_normal_becomes_the_faces)
 {
-    Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     assert_int_equal(all.flat.normals_count, 1);
     const CornerOrder *order = triangles_order(&all.triangles, 0);
     const float *of[3] = {NULL}; // normals in the file's order of corners
@@ -152,7 +147,6 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
     // Given normals keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
-    release(&all);
 }
 
 // Every scene here has one sphere, so a triangle's id is its number plus 1.
@@ -236,6 +230,7 @@ TEST(the_wide_tree_holds_every_triangle_once_inside_nested_boxes)
 
 TEST(a_leaf_too_large_for_a_block_becomes_several)
 {
+    FREED_BY(release)
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", true, NODES_WIDE);
     const Bvh leaf = {
         .node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
@@ -248,21 +243,21 @@ TEST(a_leaf_too_large_for_a_block_becomes_several)
     assert_true(flat_make(&all.flat, &source, &error));
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
     check_all_wide(&all);
-    release(&all);
 }
 
 TEST(without_a_tree_blocks_hold_the_triangles_in_file_order)
 {
+    FREED_BY(release)
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", false, NODES_WIDE);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
     for (uint32_t i = 0; i < all.triangles.count; i++)
         assert_int_equal(NUMBER_OF(all.flat.blocks[i / 8].id[i % 8]), i);
-    release(&all);
 }
 
 TEST(blocks_mark_two_sided_triangles_and_looks_do_not)
 {
+    FREED_BY(release)
     Flattened all = flattened_as("material 1\nsphere 0 0 0 1\nply_file tetrahedron.ply\n"
                                  "sides two\nmaterial 2\nnormals flat\nply_file tetrahedron.ply",
                                  true, NODES_WIDE);
@@ -276,5 +271,4 @@ TEST(blocks_mark_two_sided_triangles_and_looks_do_not)
     assert_int_equal(all.flat.looks[0].material, 1);
     assert_int_equal(all.flat.looks[half].material, 2);
     assert_true(all.flat.looks[half].normals == NOTHING);
-    release(&all);
 }

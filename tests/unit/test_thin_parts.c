@@ -25,13 +25,12 @@ typedef struct {
     ThinParts parts;
 } World;
 
-static void open_world(World *world, size_t triangles)
+static World world_of(size_t triangles)
 {
-    *world = (World){0};
-    world->positions = calloc(3 * triangles, sizeof *world->positions);
-    world->triangles = calloc(triangles, sizeof *world->triangles);
-    assert_non_null(world->positions);
-    assert_non_null(world->triangles);
+    World world = {.positions = calloc(3 * triangles, sizeof *world.positions),
+                   .triangles = calloc(triangles, sizeof *world.triangles)};
+    assert_true(world.positions != NULL && world.triangles != NULL);
+    return world;
 }
 
 static void add_triangle(World *world, Vec3 a, Vec3 b, Vec3 c)
@@ -92,13 +91,11 @@ static uint64_t count_cuts(const World *world, uint32_t level)
 
 static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
 {
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     world.object.two_sided = two_sided;
     add_triangle(&world, a, b, c);
     search(&world, 1);
     const uint64_t count = count_cuts(&world, 0);
-    close_world(&world);
     return count;
 }
 
@@ -110,8 +107,7 @@ static Vec3 point_at(double x, double y, double depth)
 
 TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
 {
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, point_at(40.1, 70.9, 5), point_at(40.4, 70.8, 6), point_at(40.3, 70.7, 7));
     search(&world, 1);
     assert_true(is_cut(&world, 40, 70, 0));
@@ -120,7 +116,6 @@ TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
     assert_true(is_cut(&world, 40 * 9 + 2, 70 * 9 + 7, 2));
     assert_int_equal(count_cuts(&world, 0), 1);
     assert_int_equal(count_cuts(&world, 1), 2);
-    close_world(&world);
 }
 
 TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)
@@ -144,9 +139,8 @@ TEST(what_is_edge_on_behind_or_beside_is_not_cut)
 // A sliver below the eye that starts far behind it appears from the picture's lower edge upward.
 TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
 {
-    World world;
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
-    open_world(&world, 2);
+    FREED_BY(close_world) World world = world_of(2);
     add_triangle(&world, vec3(side, -far, -1), vec3(side * 1.01, -far, -1), vec3(side, end, -1));
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++) {
@@ -155,19 +149,16 @@ TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
             cut = cut || is_cut(&world, column, row, 0);
         assert_int_equal(cut, row >= 70);
     }
-    close_world(&world);
 }
 
 TEST(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture)
 {
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, vec3(0.005, 1, -1e9), vec3(0.006, 1, -1e9), vec3(0.0055, 1, 1e9));
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++)
         assert_true(is_cut(&world, 60, row, 0));
     assert_int_equal(count_cuts(&world, 0), SIDE);
-    close_world(&world);
 }
 
 // Adds slivers across the picture in all directions.
@@ -192,8 +183,7 @@ static void add_slivers(World *world, int count, double thickness)
 
 TEST(too_many_slivers_take_no_more_samples_than_there_are)
 {
-    World world;
-    open_world(&world, 20000);
+    FREED_BY(close_world) World world = world_of(20000);
     world.object.two_sided = true;
     add_slivers(&world, 20000, 0.001);
     search(&world, 2);
@@ -202,14 +192,13 @@ TEST(too_many_slivers_take_no_more_samples_than_there_are)
         samples += (GROUP_CELLS - 1) * count_cuts(&world, level);
     assert_true(100 * count_cuts(&world, 0) > 99 * SIDE * SIDE);
     assert_true(samples <= (uint64_t)THIN_SAMPLES * SIDE * SIDE);
-    close_world(&world);
 }
 
 TEST(any_threads_find_the_same_cells)
 {
     World worlds[4];
     for (uint32_t i = 0; i < 4; i++) {
-        open_world(&worlds[i], 5000);
+        worlds[i] = world_of(5000);
         worlds[i].object.two_sided = true;
         add_slivers(&worlds[i], 10, 0.3);
         search(&worlds[i], i + 1);
@@ -237,13 +226,11 @@ static void add_strip(World *world, double left, double right)
 
 TEST(a_wide_part_made_of_thin_ones_is_not_cut)
 {
-    World world;
-    open_world(&world, 400);
+    FREED_BY(close_world) World world = world_of(400);
     for (int i = 0; i < 200; i++)
         add_strip(&world, 50 + 0.1 * i, 50 + 0.1 * (i + 1));
     search(&world, 1);
     assert_int_equal(count_cuts(&world, 0), 0);
-    close_world(&world);
 }
 
 // Adds a strip whose triangles form a piece.
@@ -270,21 +257,18 @@ static void add_joined_strip(World *world, double left, double right)
 
 TEST(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh)
 {
-    World world;
-    open_world(&world, 2 * PIECE_TRIANGLES);
+    FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 20, 90);
     add_joined_strip(&world, 50.2, 50.5);
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++)
         assert_int_equal(is_cut(&world, 50, row, 0), row >= 10 && row < 110);
-    close_world(&world);
 }
 
 // The broader strip contains samples of these cells, and is searched first.
 TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
 {
-    World world;
-    open_world(&world, 2 * PIECE_TRIANGLES);
+    FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 50.05, 50.95);
     add_joined_strip(&world, 50.45, 50.55);
     search(&world, 1);
@@ -292,5 +276,4 @@ TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
         assert_true(is_cut(&world, 3 * 50 + 1, 3 * row, 1));
         assert_true(is_cut(&world, 9 * 50 + 4, 9 * row, 2));
     }
-    close_world(&world);
 }
