@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
-// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels, and tier 1
-// all of more than ten million.
+// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels of small
+// pictures, and tier 1 all of more than ten million.
 #include "certainty/extreme_scenes.h"
 #include "certainty/real_draw.h"
 #include "extremes/support/check.h"
@@ -72,8 +72,10 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     Error error = {0};
     FREED_BY(certified_free) Certified certified;
     Comparison comparison;
-    const CertifiedView wanted = {.view = view, .samples = 1};
-    const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 16 : 8, 1);
+    const uint32_t part = (uint32_t)tier_size(2, 1); // of the picture's sides
+    const CertifiedView wanted = {
+        .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};
+    const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 8 : 4, 1);
     require(certified_make(&certified, &office, scene, &wanted, &error) &&
                 real_compare(&comparison, &certified, step, &error),
             &error);

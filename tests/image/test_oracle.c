@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares the renderer with the fp64 oracle, in all views of the course's, the project's and some
-// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. In
-// large meshes, some pixels are compared; CLRT_FULL=1 in the environment compares all pixels.
+// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. Every
+// STEP-th pixel of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/inline_scenes.h"
@@ -17,7 +17,8 @@
 // The number of pixels of a 512 x 512 picture that may differ.
 #define LIMIT 30
 
-// Compares every STEP-th pixel of every STEP-th row of meshes. All pixels would take minutes.
+// All pixels would take minutes.
+#define STEP              2
 #define COURSE_MESH_STEP  4
 #define PROJECT_MESH_STEP 8
 
@@ -64,68 +65,43 @@ static void check_course(const char *name, uint32_t step)
         check(path, step);
 }
 
-TEST(the_courses_small_scenes_are_drawn_as_the_oracle_does)
+TEST(the_courses_scenes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = 1;
-    check_course("silhouette.scn", step);
-    check_course("matte.scn", step);
-    check_course("blinn_phong.scn", step);
-    check_course("reflections.scn", step);
-    check_course("simple.scn", step);
-}
-
-TEST(the_courses_meshes_are_drawn_as_the_oracle_does)
-{
-    const uint32_t step = COURSE_MESH_STEP;
-    check_course("cow.scn", step);
-    check_course("buddha.scn", step);
+    check_course("silhouette.scn", STEP);
+    check_course("matte.scn", STEP);
+    check_course("blinn_phong.scn", STEP);
+    check_course("reflections.scn", STEP);
+    check_course("simple.scn", STEP);
+    check_course("cow.scn", COURSE_MESH_STEP);
+    check_course("buddha.scn", COURSE_MESH_STEP);
 }
 
 TEST(the_projects_small_scenes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = 1;
-    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", step);
-    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
 }
 
 TEST(the_projects_meshes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = PROJECT_MESH_STEP;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
-    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", PROJECT_MESH_STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", PROJECT_MESH_STEP);
 }
 
-static void check_inline(InlineScene scene)
+// Open two-sided meshes, facets and mirrors, a huge sphere far away, and distant lights.
+TEST(unusual_scenes_are_drawn_as_the_oracle_does)
 {
     char path[INLINE_PATH_SIZE];
-    inline_scenes_path(scene, path);
-    check(path, 1);
-}
-
-TEST(two_sided_open_meshes_are_drawn_as_the_oracle_does)
-{
-    check_inline(INLINE_OPEN_SHEET);
-}
-
-TEST(facets_and_mirrors_are_drawn_as_the_oracle_does)
-{
-    check_inline(INLINE_MIRRORS);
-}
-
-TEST(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does)
-{
-    check_inline(INLINE_FAR_AWAY);
-}
-
-TEST(creases_under_distant_lights_are_drawn_as_the_oracle_does)
-{
-    check_inline(INLINE_DISTANT_LIGHTS);
+    for (int scene = 0; scene < INLINE_COUNT; scene++) {
+        inline_scenes_path((InlineScene)scene, path);
+        check(path, STEP);
+    }
 }
