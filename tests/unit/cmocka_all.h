@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cmocka.h, the headers it wants before it, and tests that register themselves. A program that
-// defines its tests by TEST() gets its main() from unit/main.c.
+// defines its tests by TEST() gets its main() from unit/main.c, or calls tests_run().
 #pragma once
 
 // clang-format off
@@ -15,6 +15,9 @@
 void test_set_up(CMFixtureFunction fixture);
 void test_tear_down(CMFixtureFunction fixture);
 void test_add(CMUnitTestFunction test, const char *name);
+
+// Returns the number of failures.
+int tests_run(void);
 
 #define AT_START(name) __attribute__((constructor)) static void at_start_##name(void)
 
