@@ -72,10 +72,6 @@ class Usage(Work):
         told = self.clrt(SCENE, code=2, WAYLAND_DISPLAY=None, DISPLAY=":12345")
         self.assertRegex(told, r"^clrt: no window can be opened \(.*\): write the picture with -o FILE\n$")
 
-    def test_a_mesh_that_lies_about_its_size_is_exit_3(self):
-        self.write(lie_ply="ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n")
-        self.clrt("lie.ply", "-o", "a.pfm", code=3)
-
     def test_help_lists_options_keys_and_exit_statuses(self):
         told = self.clrt("--help")
         self.assertIn("--list-devices", told)

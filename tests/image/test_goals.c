@@ -61,13 +61,3 @@ TEST(a_picture_of_one_color_keeps_it)
         assert_memory_equal(picture.pixels[i], ((float[3]){0.1f, 0.3f, 0.7f}), 3 * sizeof(float));
     unlink(path);
 }
-
-TEST(an_error_below_that_of_1024_samples_is_not_held)
-{
-    Error error = {0};
-    FREED_BY(framebuffer_free) Framebuffer picture;
-    PictureRequest request = request_for(SCENES "reflections.scn", 1e-7);
-    request.width = request.height = 8;
-    assert_false(picture_render(&picture, &request, &error));
-    assert_string_equal(error.text, "the goal is missed");
-}

@@ -16,14 +16,6 @@ static const char *const scenes[] = {
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
-static const KernelChoice choices[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 4, PRECISION_FP32},
-    {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 16, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
-};
-#define CHOICE_COUNT (sizeof choices / sizeof choices[0])
-
 // Neither side of the picture is a multiple of a tile's or work-group's side.
 static PictureRequest small_request(size_t scene)
 {
@@ -34,32 +26,21 @@ static PictureRequest small_request(size_t scene)
     return request;
 }
 
-TEST(every_way_to_find_triangles_draws_the_same)
+TEST(every_form_and_tree_draws_the_same)
 {
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest sah = small_request(scene);
-        PictureRequest others[] = {sah, sah};
-        others[0].builder = BVH_MIDPOINT;
-        others[1].uses_bvh = false;
-        rendered_expect_same(&sah, others, 2);
-    }
-}
-
-TEST(every_form_of_the_kernels_draws_the_same)
-{
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        PictureRequest usual = rendered_in_form(small_request(scene), &choices[0]),
-                       others[CHOICE_COUNT * 4];
+        PictureRequest usual = rendered_in_form(small_request(scene), &form_all[0]),
+                       others[FORMS_FP32][3];
         usual.samples = 1;
-        for (size_t i = 0; i < CHOICE_COUNT; i++) {
-            PictureRequest *form = &others[i * 4];
-            form[0] = form[1] = form[2] = form[3] = rendered_in_form(usual, &choices[i]);
+        for (size_t i = 0; i < FORMS_FP32; i++) {
+            PictureRequest *form = others[i];
+            form[0] = form[1] = form[2] = rendered_in_form(usual, &form_all[i]);
             form[1].builder = BVH_MIDPOINT;
+            form[1].tile_width = 13;
+            form[1].tile_height = 7;
             form[2].uses_bvh = false;
-            form[3].tile_width = 13;
-            form[3].tile_height = 7;
         }
-        rendered_expect_same(&usual, others, CHOICE_COUNT * 4);
+        rendered_expect_same(&usual, others[0], FORMS_FP32 * 3);
     }
 }
 
@@ -67,48 +48,34 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
 {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
     for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
-        PictureRequest usual = small_request(SCENE_COUNT - 1), others[CHOICE_COUNT - 1];
+        PictureRequest usual = small_request(SCENE_COUNT - 1), others[FORMS_FP32];
         usual.width = sizes[size][0];
         usual.height = sizes[size][1];
-        for (size_t i = 1; i < CHOICE_COUNT; i++)
-            others[i - 1] = rendered_in_form(usual, &choices[i]);
-        usual = rendered_in_form(usual, &choices[0]);
-        rendered_expect_same(&usual, others, CHOICE_COUNT - 1);
+        for (size_t i = 0; i < FORMS_FP32; i++)
+            others[i] = rendered_in_form(usual, &form_all[i]);
+        rendered_expect_same(&others[0], &others[1], FORMS_FP32 - 1);
     }
 }
 
+// Each size of work-groups is compiled, so one scene suffices.
 TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
     static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
     enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest usual = small_request(scene);
-        PictureRequest others[TILES + GROUPS];
-        for (size_t i = 0; i < TILES + GROUPS; i++) {
-            others[i] = usual;
-            if (i < TILES) {
-                others[i].tile_width = tiles[i][0];
-                others[i].tile_height = tiles[i][1];
-            } else {
-                others[i].group_width = groups[i - TILES][0];
-                others[i].group_height = groups[i - TILES][1];
-            }
+    const PictureRequest usual = small_request(SCENE_COUNT - 1);
+    PictureRequest others[TILES + GROUPS];
+    for (size_t i = 0; i < TILES + GROUPS; i++) {
+        others[i] = usual;
+        if (i < TILES) {
+            others[i].tile_width = tiles[i][0];
+            others[i].tile_height = tiles[i][1];
+        } else {
+            others[i].group_width = groups[i - TILES][0];
+            others[i].group_height = groups[i - TILES][1];
         }
-        rendered_expect_same(&usual, others, TILES + GROUPS);
     }
-}
-
-TEST(counting_changes_no_pixel)
-{
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        uint64_t tallies[TALLY_KINDS];
-        const PictureRequest usual = small_request(scene);
-        PictureRequest counted = usual;
-        counted.tallies = tallies;
-        rendered_expect_same(&usual, &counted, 1);
-        assert_int_equal(tallies[TALLY_CAMERA_RAYS], 131 * 97 * 4);
-    }
+    rendered_expect_same(&usual, others, TILES + GROUPS);
 }
 
 // Writes a scene with exactly the features of the mask, and returns its path.
@@ -153,10 +120,10 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
 // rays, which compile soonest.
 TEST(specialized_rays_draw_what_general_ones_do)
 {
-    expect_extreme_specials_same(&choices[0]);
+    expect_extreme_specials_same(&form_all[0]);
     for (unsigned place = 0; place < 6; place++) {
-        expect_special_same(1u << place, &choices[0]);
-        expect_special_same(63u & ~(1u << place), &choices[0]);
+        expect_special_same(1u << place, &form_all[0]);
+        expect_special_same(63u & ~(1u << place), &form_all[0]);
     }
 }
 
@@ -172,29 +139,19 @@ TEST(specialized_packets_draw_what_general_ones_do)
 
 TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
 {
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest sah = rendered_in_form(small_request(scene), &form_all[FORMS_FP32]);
-        PictureRequest others[] = {sah, sah, sah};
-        others[0].builder = BVH_MIDPOINT;
-        others[0].tile_width = 13;
-        others[1].uses_bvh = false;
-        others[1].group_width = others[1].group_height = 1;
-        others[2].group_width = 3;
-        others[2].group_height = 5;
-        rendered_expect_same(&sah, others, 3);
-    }
+    const PictureRequest sah =
+        rendered_in_form(small_request(SCENE_COUNT - 1), &form_all[FORMS_FP32]);
+    PictureRequest others[] = {sah, sah, sah};
+    others[0].builder = BVH_MIDPOINT;
+    others[0].tile_width = 13;
+    others[1].uses_bvh = false;
+    others[1].group_width = others[1].group_height = 1;
+    others[2].group_width = 3;
+    others[2].group_height = 5;
+    rendered_expect_same(&sah, others, 3);
 }
 
 TEST(specialized_fp64_draws_what_the_general_program_does)
 {
     expect_extreme_specials_same(&form_all[FORMS_FP32]);
-}
-
-TEST(fp64_draws_another_picture_than_fp32)
-{
-    const PictureRequest reference = rendered_in_form(small_request(0), &form_all[FORMS_FP32]);
-    const PictureRequest usual = rendered_in_form(reference, &choices[0]);
-    FREED_BY(framebuffer_free) Framebuffer first = rendered(&reference), second = rendered(&usual);
-    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
-    assert_memory_not_equal(first.pixels, second.pixels, size);
 }

@@ -176,9 +176,6 @@ TEST(what_is_too_far_away_to_be_drawn_is_told)
 TEST(devices_that_are_not_there_are_told)
 {
     ClrtError error = faults_blank();
-    faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
-                  "/nowhere/at all.scn");
-    error = faults_blank();
     faults_assert(clrt_renderer_create("no such device %s", 0, &error) != NULL, &error, CLRT_DEVICE,
                   "no device matches 'no such device %s'");
     assert_null(clrt_renderer_create("99:99", UINT32_MAX, NULL));
