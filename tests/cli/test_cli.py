@@ -48,13 +48,11 @@ REFUSALS = [
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
 # Options that change no bit, with parts of the statistics.
-SAME = {
-    "-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize never": None,
-    "--no-bvh": {"tests__box": 0, "bvh__builder": "none"}, "--bvh midpoint": {"bvh__builder": "midpoint"},
-    "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
-    "--specialize always": {"settings__specialized": True},
-    "--precision fp32": {"settings__precision": "fp32"}, "--device 0:0": None, "--device cpu": None,
-}
+SAME = {"-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize never": None,
+        "--no-bvh": {"tests__box": 0, "bvh__builder": "none"}, "--bvh midpoint": {"bvh__builder": "midpoint"},
+        "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
+        "--specialize always": {"settings__specialized": True},
+        "--precision fp32": {"settings__precision": "fp32"}, "--device 0:0": None, "--device cpu": None}
 SAME_IN_FP64 = ["--no-bvh", "--bvh midpoint", "-j 1", "--tile 16x8", "--work-group 4x2",
                 "--specialize always", "--kernel ray", "--nodes pair"]
 

@@ -97,12 +97,10 @@ FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide",
 class Explain(SharedWork):
     def prepare(self):
         corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
-        self.write(
-            mirrors_scn=MIRRORS, leaning_scn=LEANING, floor_ply=ply(corners, [(0, 1, 2), (0, 2, 3)]),
-            leaning_ply=ply(corners[:3], [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
-            ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
-            flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n",
-        )
+        self.write(mirrors_scn=MIRRORS, leaning_scn=LEANING, floor_ply=ply(corners, [(0, 1, 2), (0, 2, 3)]),
+                   leaning_ply=ply(corners[:3], [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
+                   ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
+                   flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n")
 
 
 class Pixels(Explain):
@@ -197,11 +195,9 @@ class Scenes(Explain):
             self.assertIn(part, told)
 
     def test_special_kernels_have_what_the_scene_has(self):
-        found = self.expect_parts(
-            ["ball.scn", "--specialize", "always"],
-            spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
-            mirrors=(False, False, "no material in use reflects: no ray is followed on"),
-        )
+        found = self.expect_parts(["ball.scn", "--specialize", "always"],
+                                  spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
+                                  mirrors=(False, False, "no material in use reflects: no ray is followed on"))
         self.assertEqual(found["program"], {"special": True, "reason": "--specialize always"})
 
     def test_general_kernels_have_all_but_counters_that_nobody_requests(self):

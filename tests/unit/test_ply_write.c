@@ -40,29 +40,13 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     free(bytes);
 }
 
-TEST(floats_are_written_as_floats_and_come_back)
-{
-    expect_same(
-        (Mesh){.positions = floats, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
-        12);
-}
+#define MESH .triangles = triangles, .vertex_count = 4, .triangle_count = 2
 
-TEST(doubles_are_written_as_doubles_and_come_back)
+TEST(a_mesh_comes_back_in_floats_where_they_suffice_and_with_its_normals)
 {
-    expect_same(
-        (Mesh){
-            .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2},
-        24);
-}
-
-TEST(normals_come_back_whatever_their_length)
-{
-    expect_same((Mesh){.positions = doubles,
-                       .normals = normals,
-                       .triangles = triangles,
-                       .vertex_count = 4,
-                       .triangle_count = 2},
-                36);
+    expect_same((Mesh){MESH, .positions = floats}, 12);
+    expect_same((Mesh){MESH, .positions = doubles}, 24);
+    expect_same((Mesh){MESH, .positions = doubles, .normals = normals}, 36);
 }
 
 TEST(an_empty_mesh_comes_back)
@@ -82,8 +66,7 @@ TEST(an_empty_mesh_comes_back)
 
 TEST(a_full_disk_is_told)
 {
-    const Mesh mesh = {
-        .positions = doubles, .triangles = triangles, .vertex_count = 4, .triangle_count = 2};
+    const Mesh mesh = {MESH, .positions = doubles};
     FILE *full = fopen("/dev/full", "wb");
     setvbuf(full, NULL, _IONBF, 0);
     assert_false(ply_write(&mesh, full));
