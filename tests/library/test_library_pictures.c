@@ -72,13 +72,11 @@ TEST(what_is_null_is_named)
 {
     ClrtScene *scene = stage.scene;
     const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
-    ASSERT_ARGUMENT(clrt_render(NULL, scene, &picture, stage.rgb, &error), "the renderer is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, NULL, &picture, stage.rgb, &error),
-                    "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, NULL, stage.rgb, &error),
-                    "the picture is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, NULL, &error),
-                    "the picture's memory is NULL");
+    REFUSES(clrt_render(NULL, scene, &picture, stage.rgb, &error), "the renderer is NULL");
+    REFUSES(clrt_render(stage.renderer, NULL, &picture, stage.rgb, &error), "the scene is NULL");
+    REFUSES(clrt_render(stage.renderer, scene, NULL, stage.rgb, &error), "the picture is NULL");
+    REFUSES(clrt_render(stage.renderer, scene, &picture, NULL, &error),
+            "the picture's memory is NULL");
     assert_false(clrt_render(NULL, NULL, NULL, NULL, NULL));
     clrt_renderer_free(NULL);
 }
@@ -102,14 +100,14 @@ TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
     bad[4].view = 3;
     bad[5].width = UINT32_MAX;
     for (int i = 0; i < 6; i++)
-        ASSERT_ARGUMENT(render(bad[i], &error), words[i]);
+        REFUSES(render(bad[i], &error), words[i]);
     ClrtCamera far = filled_cameras[0];
     far.eye[0] = 1e20;
     bad[0] = good;
     bad[0].camera = &far;
-    ASSERT_ARGUMENT(render(bad[0], &error), "more than 1e12 times");
+    REFUSES(render(bad[0], &error), "more than 1e12 times");
     far.size = 0;
-    ASSERT_ARGUMENT(render(bad[0], &error), "the camera has a size of 0");
+    REFUSES(render(bad[0], &error), "the camera has a size of 0");
     assert_true(render(good, NULL));
 }
 
@@ -121,12 +119,12 @@ TEST(structs_tell_what_they_know_by_their_size)
     } newer = {{.size = sizeof newer, .width = WIDTH, .height = HEIGHT}, 0};
     assert_true(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, NULL));
     newer.later = 1;
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
-                    "asks for what libclrt");
+    REFUSES(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
+            "asks for what libclrt");
     newer.picture.size = sizeof newer.picture.size - 1;
-    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of 7");
+    REFUSES(render(newer.picture, &error), "the picture has a size of 7");
     newer.picture.size = SIZE_MAX;
-    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of");
+    REFUSES(render(newer.picture, &error), "the picture has a size of");
 }
 
 TEST(what_an_older_program_does_not_know_is_the_default)
@@ -149,8 +147,8 @@ TEST(a_scene_without_cameras_is_drawn_by_the_pictures_own)
 {
     ClrtScene *scene = clrt_scene_create(NULL);
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
-                    "view 1 is not among the scene's 0");
+    REFUSES(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
+            "view 1 is not among the scene's 0");
     picture.camera = &filled_cameras[0];
     assert_true(clrt_render(stage.renderer, scene, &picture, stage.rgb, NULL));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
