@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Each thread repeatedly takes the next row.
 #include "certainty/real_draw.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
-#include <unistd.h>
+#include "base/processors.h"
+#include "base/thread_pool.h"
 
-#define THREADS_MAX 64
+#include <stdatomic.h>
 
 typedef struct {
     const Certified *certified;
     RealView view;
     uint32_t step;
-    atomic_uint next_row;
     _Atomic uint64_t compared, first, deeper, unsettled, in_113;
 } Comparing;
 
@@ -34,29 +31,12 @@ static void compare_pixel(Comparing *comparing, uint32_t x, uint32_t y)
     comparing->deeper += same && real.settled && real.signature != mark->signature;
 }
 
-static void *compare_rows(void *context)
+static void compare_row(void *context, uint32_t row, uint32_t worker)
 {
     Comparing *comparing = context;
-    for (;;) {
-        const uint32_t row = atomic_fetch_add(&comparing->next_row, 1) * comparing->step;
-        if (row >= comparing->view.height)
-            return NULL;
-        for (uint32_t x = 0; x < comparing->view.width; x += comparing->step)
-            compare_pixel(comparing, x, row);
-    }
-}
-
-static void run(Comparing *comparing)
-{
-    pthread_t threads[THREADS_MAX];
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int started = 0;
-    while (started < processors - 1 && started < THREADS_MAX &&
-           pthread_create(&threads[started], NULL, compare_rows, comparing) == 0)
-        started++;
-    compare_rows(comparing);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
+    (void)worker;
+    for (uint32_t x = 0; x < comparing->view.width; x += comparing->step)
+        compare_pixel(comparing, x, row * comparing->step);
 }
 
 bool real_compare(Comparison *comparison, const Certified *certified, uint32_t step, Error *error)
@@ -68,8 +48,11 @@ bool real_compare(Comparison *comparison, const Certified *certified, uint32_t s
                                     certified->settings.width, certified->settings.height,
                                     certified->settings.max_level},
                            .step = step};
-    if (ok)
-        run(&comparing);
+    if (ok) {
+        ThreadPool *pool = thread_pool_open(processors_usable());
+        thread_pool_run(pool, (comparing.view.height + step - 1) / step, compare_row, &comparing);
+        thread_pool_close(pool);
+    }
     *comparison = (Comparison){comparing.compared, comparing.first, comparing.deeper,
                                comparing.unsettled, comparing.in_113};
     real_tree_free(&tree);

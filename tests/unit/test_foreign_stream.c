@@ -20,6 +20,15 @@ static Builder whole_stream(void)
     return builder;
 }
 
+static ForeignModel parsed(const Builder *builder)
+{
+    ForeignModel model;
+    Error error;
+    if (!parse(&model, builder->bytes, builder->size, &error))
+        fail_msg("%s", error.text);
+    return model;
+}
+
 static void expect_failure(const Builder *builder, const char *sentence)
 {
     ForeignModel model;
@@ -31,9 +40,7 @@ static void expect_failure(const Builder *builder, const char *sentence)
 TEST(a_stream_becomes_files_materials_parts_and_a_note)
 {
     const Builder builder = whole_stream();
-    FREED_BY(foreign_model_free) ForeignModel model;
-    Error error;
-    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    FREED_BY(foreign_model_free) ForeignModel model = parsed(&builder);
     assert_int_equal(model.files.count, 2);
     assert_string_equal(model.files.data[1], "./m.mtl");
     assert_memory_equal(&model.hashes.data[1], "0123456789abcdef", 16);
@@ -55,9 +62,7 @@ TEST(a_path_may_be_as_long_as_the_system_has_them)
     Builder builder = {0};
     put_file(&builder, path);
     put_text(&builder, FOREIGN_END, "");
-    FREED_BY(foreign_model_free) ForeignModel model;
-    Error error;
-    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    FREED_BY(foreign_model_free) ForeignModel model = parsed(&builder);
     assert_string_equal(model.files.data[0], path);
 }
 
@@ -87,9 +92,7 @@ TEST(colors_come_into_range_and_names_into_one_word)
     Builder builder = {0};
     put_record(&builder, FOREIGN_MATERIAL, 0, &wild, sizeof wild);
     put_text(&builder, FOREIGN_END, "");
-    FREED_BY(foreign_model_free) ForeignModel model;
-    Error error;
-    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    FREED_BY(foreign_model_free) ForeignModel model = parsed(&builder);
     const ForeignMaterial *tame = &model.materials.data[0];
     assert_string_equal(tame->name, "a_b_____c");
     assert_true(tame->diffuse[0] == 0 && tame->diffuse[1] == 1 && tame->diffuse[2] == 0);
@@ -104,9 +107,7 @@ TEST(a_name_without_an_end_gets_one)
     Builder builder = {0};
     put_record(&builder, FOREIGN_MATERIAL, 0, &endless, sizeof endless);
     put_text(&builder, FOREIGN_END, "");
-    FREED_BY(foreign_model_free) ForeignModel model;
-    Error error;
-    assert_true(parse(&model, builder.bytes, builder.size, &error));
+    FREED_BY(foreign_model_free) ForeignModel model = parsed(&builder);
     assert_int_equal(strlen(model.materials.data[0].name), sizeof endless.name - 1);
 }
 

@@ -35,22 +35,27 @@ static double sum_of_line(const Seam *seam, const SampleData cells[GROUP_CELLS])
     return (double)(sums[0][0] + sums[1][0] + sums[2][0]) / STEPS / AREA;
 }
 
+// Returns the seam between the first two cells.
+static Seam first_seam(const SampleData cells[GROUP_CELLS])
+{
+    return (Seam){.stride = 1,
+                  .cells = GROUP_SIDE,
+                  .side = SIDE,
+                  .from = SIDE / 2,
+                  .to = SIDE / 2 + SIDE,
+                  .low = SIDE / 2,
+                  .high = SIDE / 2 + SIDE,
+                  .ends = {cells[0], cells[1]},
+                  .assumed = SEAM_ENDS};
+}
+
 TEST(samples_place_a_step_between_two_cells_wherever_it_lies)
 {
     for (uint32_t step = SIDE / 2 + 1; step <= SIDE / 2 + SIDE; step++) {
         SampleData cells[GROUP_CELLS];
         uint32_t place[2], samples = 0;
-        Seam rest, seam = {.stride = 1,
-                           .cells = GROUP_SIDE,
-                           .side = SIDE,
-                           .from = SIDE / 2,
-                           .to = SIDE / 2 + SIDE,
-                           .assumed = SEAM_ENDS};
         see_cells(cells, step);
-        seam.low = seam.from;
-        seam.high = seam.to;
-        seam.ends[0] = cells[0];
-        seam.ends[1] = cells[1];
+        Seam rest, seam = first_seam(cells);
         for (; seam_asks(&seam, place); samples++) {
             const float before = seam_contrast(&seam);
             const SampleData sample = step_at(place[0], step);
@@ -66,12 +71,10 @@ TEST(samples_place_a_step_between_two_cells_wherever_it_lies)
 
 static Seam border_seam(const SampleData cells[GROUP_CELLS])
 {
-    Seam seam = {.stride = 1,
-                 .cells = GROUP_SIDE,
-                 .side = SIDE,
-                 .to = SIDE / 2,
-                 .high = SIDE / 2,
-                 .assumed = SEAM_END_FIRST};
+    Seam seam = first_seam(cells);
+    seam.from = seam.low = 0;
+    seam.to = seam.high = SIDE / 2;
+    seam.assumed = SEAM_END_FIRST;
     seam.ends[0] = seen(0.75f, 2);
     seam.ends[1] = cells[0];
     return seam;
@@ -99,17 +102,8 @@ TEST(a_third_surface_between_two_makes_a_seam_on_either_side)
 {
     const SampleData third = seen(1, 3);
     SampleData cells[GROUP_CELLS];
-    Seam rest, seam = {.stride = 1,
-                       .cells = GROUP_SIDE,
-                       .side = SIDE,
-                       .from = 13,
-                       .to = 40,
-                       .low = 13,
-                       .high = 40,
-                       .assumed = SEAM_ENDS};
     see_cells(cells, 30);
-    seam.ends[0] = cells[0];
-    seam.ends[1] = cells[1];
+    Seam rest, seam = first_seam(cells);
     assert_true(seam_take(&seam, &third, &rest));
     assert_int_equal(seam.to, 26);
     assert_int_equal(rest.from, 26);
