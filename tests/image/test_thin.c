@@ -219,19 +219,3 @@ TEST(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one)
     add_triangle(&plain, (Corner){-half, -half}, (Corner){half, half}, (Corner){-half, half});
     assert_int_equal(samples_of(&fine), samples_of(&plain));
 }
-
-TEST(every_form_and_any_threads_find_the_same)
-{
-    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID + 2);
-    add_grid(&drawing);
-    add_cable(&drawing, (Corner){-80, -40.1}, (Corner){80, 33}, 0.06);
-    PictureRequest usual = request_of(&drawing, 0.5);
-    FREED_BY(framebuffer_free) Framebuffer first = rendered(&usual);
-    for (uint32_t i = 0; i < 4; i++) {
-        PictureRequest other = rendered_in_form(usual, &form_all[i % 2 == 0 ? 0 : 3]);
-        other.threads = i;
-        Framebuffer second = rendered(&other);
-        assert_memory_equal(first.pixels, second.pixels, SIDE * SIDE * sizeof *first.pixels);
-        framebuffer_free(&second);
-    }
-}

@@ -67,33 +67,17 @@ TEST(what_the_program_writes_about_the_file_is_the_stream)
     assert_memory_equal(stream.bytes, "about m.obj\nmore\n", stream.size);
 }
 
-TEST(a_crash_is_told_with_its_signal)
-{
-    expect_failure("echo part of it; kill -SEGV $$",
-                   "m.obj: Assimp crashed while reading it (signal 11)");
-}
-
-TEST(a_limit_of_time_is_told)
+TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
 {
     const char *late = "m.obj: Assimp took too long to read it and was stopped";
+    expect_failure("echo part of it; kill -SEGV $$",
+                   "m.obj: Assimp crashed while reading it (signal 11)");
     expect_failure("kill -XCPU $$", late);
     expect_failure("kill -ALRM $$", late);
     expect_failure("exec sleep 60", late);
     expect_failure("while :; do echo; sleep 0.05; done", late);
-}
-
-TEST(a_stream_without_an_end_is_stopped)
-{
     expect_failure("exec yes", "m.obj: Assimp exceeded the limit of its output and was stopped");
-}
-
-TEST(a_program_that_stays_when_its_stream_has_ended_is_ended)
-{
     expect_failure("exec sleep 60 >/dev/null", "m.obj: Assimp crashed while reading it (signal 9)");
-}
-
-TEST(a_program_that_gives_up_is_told)
-{
     expect_failure("exit 1", "m.obj: the program that reads it ended too early");
 }
 

@@ -6,6 +6,7 @@
 
 #include "unit/cmocka_all.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static Tokens tokens_in(const char *text, Error *error)
@@ -13,52 +14,42 @@ static Tokens tokens_in(const char *text, Error *error)
     return tokens_of(text, strlen(text), "a.scn", error);
 }
 
+// Expects these statements, each token with its line and column.
+static void expect_tokens(const char *text, const char *expected)
+{
+    Error error = {0};
+    char found[256] = "";
+    Tokens tokens = tokens_in(text, &error);
+    for (Token token; (token = tokens_next_statement(&tokens)).text != NULL; strcat(found, "; "))
+        for (; token.text != NULL; token = tokens_next(&tokens))
+            snprintf(found + strlen(found), sizeof found - strlen(found), "%u:%u %.*s ", token.line,
+                     token.column, (int)token.length, token.text);
+    assert_string_equal(found, expected);
+}
+
 TEST(tokens_carry_line_and_column)
 {
-    Error error = {0};
-    Tokens tokens = tokens_in("\n\n  light\t1\n", &error);
-    const Token light = tokens_next_statement(&tokens);
-    assert_true(token_is(light, "light"));
-    assert_int_equal(light.line, 3);
-    assert_int_equal(light.column, 3);
-    assert_int_equal(tokens_next(&tokens).column, 9);
-    assert_null(tokens_next(&tokens).text);
-    assert_null(tokens_next_statement(&tokens).text);
+    expect_tokens("\n\n  light\t1\n", "3:3 light 3:9 1 ; ");
+    expect_tokens("a\r\nb\rc\nd", "1:1 a ; 2:1 b ; 3:1 c ; 4:1 d ; ");
+    expect_tokens("\xef\xbb\xbflight", "1:1 light ; "); // after a byte order mark
 }
 
-TEST(comments_end_a_line_anywhere)
+TEST(comments_end_a_line_anywhere_but_inside_a_path)
 {
-    Error error = {0};
-    Tokens tokens = tokens_in("// one\n# two\nlight // three\nsphere # four", &error);
-    assert_true(token_is(tokens_next_statement(&tokens), "light"));
-    assert_null(tokens_next(&tokens).text);
-    assert_true(token_is(tokens_next_statement(&tokens), "sphere"));
-    assert_null(tokens_next(&tokens).text);
+    expect_tokens("// one\n# two\nlight // three\nsphere # four", "3:1 light ; 4:1 sphere ; ");
+    expect_tokens("ply_file ..//a#b.ply", "1:1 ply_file 1:10 ..//a#b.ply ; ");
 }
 
-TEST(slashes_inside_a_path_are_no_comment)
-{
-    Error error = {0};
-    Tokens tokens = tokens_in("ply_file ..//a#b.ply", &error);
-    tokens_next_statement(&tokens);
-    assert_true(token_is(tokens_next(&tokens), "..//a#b.ply"));
-}
-
-TEST(all_three_line_ends_count_one_line)
-{
-    Error error = {0};
-    Tokens tokens = tokens_in("a\r\nb\rc\nd", &error);
-    for (unsigned line = 1; line <= 4; line++)
-        assert_int_equal(tokens_next_statement(&tokens).line, line);
-}
-
-TEST(quotes_hold_blanks_together)
+TEST(quotes_hold_blanks_together_and_an_unclosed_quote_is_part_of_the_word)
 {
     Error error = {0};
     Tokens tokens = tokens_in("ply_file \"my model.ply\" x", &error);
     tokens_next_statement(&tokens);
     assert_true(token_is(tokens_next(&tokens), "my model.ply"));
     assert_true(token_is(tokens_next(&tokens), "x"));
+    tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
+    tokens_next_statement(&tokens);
+    assert_true(token_is(tokens_next(&tokens), "\"my"));
 }
 
 TEST(messages_show_no_control_bytes_and_shorten_long_tokens)
@@ -69,23 +60,6 @@ TEST(messages_show_no_control_bytes_and_shorten_long_tokens)
     assert_false(tokens_fail(&tokens, token, "no"));
     assert_string_equal(error.text,
                         "a.scn:1:1: no: found '?[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx'...");
-}
-
-TEST(an_unclosed_quote_is_part_of_the_word)
-{
-    Error error = {0};
-    Tokens tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
-    tokens_next_statement(&tokens);
-    assert_true(token_is(tokens_next(&tokens), "\"my"));
-}
-
-TEST(a_byte_order_mark_is_passed_over)
-{
-    Error error = {0};
-    Tokens tokens = tokens_in("\xef\xbb\xbflight", &error);
-    const Token token = tokens_next_statement(&tokens);
-    assert_true(token_is(token, "light"));
-    assert_int_equal(token.column, 1);
 }
 
 static const char *const words[] = {"light", "material", "sphere", "ply_file"};
