@@ -2,8 +2,11 @@
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
 // pixels are certified, and only repaired pixels change. Tier 0 compares some pixels of small
 // pictures, and tier 1 all of more than ten million.
+#include "base/processors.h"
+#include "base/thread_pool.h"
+#include "certainty/certified.h"
 #include "certainty/extreme_scenes.h"
-#include "certainty/real_draw.h"
+#include "certainty/real.h"
 #include "extremes/support/check.h"
 #include "extremes/support/tier.h"
 #include "image/inline_scenes.h"
@@ -11,6 +14,7 @@
 #include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -19,6 +23,69 @@ static Office office;
 typedef struct {
     uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
 } Sum;
+
+typedef struct {
+    uint64_t compared;  // pixels, certified or repaired
+    uint64_t first;     // of those: another first hit, or another light seen there
+    uint64_t deeper;    // of those: any other decision of the ray tree
+    uint64_t unsettled; // of those: not even 113 bits settle the first hit and its lights
+    uint64_t in_113;    // of those: 64 bits did not settle the ray tree
+} Comparison;
+
+typedef struct {
+    const Certified *certified;
+    RealView view;
+    uint32_t step;
+    _Atomic uint64_t compared, first, deeper, unsettled, in_113;
+} Comparing;
+
+static void compare_pixel(Comparing *comparing, uint32_t x, uint32_t y)
+{
+    const CertaintyMap *map = &comparing->certified->map;
+    const CertaintyMark *mark = &map->marks[(size_t)y * map->width + x];
+    if (mark->certainty == CERTAINTY_OPEN)
+        return;
+    RealDecisions real = real_decide_64(&comparing->view, x, y);
+    if (!real.settled) {
+        comparing->in_113++;
+        real = real_decide_113(&comparing->view, x, y);
+    }
+    const bool same = real.first_id == mark->first_id && real.lit == mark->lit;
+    comparing->compared++;
+    comparing->unsettled += !real.first_settled;
+    comparing->first += !same;
+    comparing->deeper += same && real.settled && real.signature != mark->signature;
+}
+
+static void compare_row(void *context, uint32_t row, uint32_t worker)
+{
+    Comparing *comparing = context;
+    (void)worker;
+    for (uint32_t x = 0; x < comparing->view.width; x += comparing->step)
+        compare_pixel(comparing, x, row * comparing->step);
+}
+
+// Compares every step-th pixel of every step-th row.
+static bool real_compare(Comparison *comparison, const Certified *certified, uint32_t step,
+                         Error *error)
+{
+    RealTree tree;
+    const bool ok = real_tree_make(&tree, &certified->flat, error);
+    Comparing comparing = {.certified = certified,
+                           .view = {&certified->flat, &tree, &certified->camera,
+                                    certified->settings.width, certified->settings.height,
+                                    certified->settings.max_level},
+                           .step = step};
+    if (ok) {
+        ThreadPool *pool = thread_pool_open(processors_usable());
+        thread_pool_run(pool, (comparing.view.height + step - 1) / step, compare_row, &comparing);
+        thread_pool_close(pool);
+    }
+    *comparison = (Comparison){comparing.compared, comparing.first, comparing.deeper,
+                               comparing.unsettled, comparing.in_113};
+    real_tree_free(&tree);
+    return ok;
+}
 
 static uint64_t count_changed(const Certified *certified, Certainty certainty)
 {
@@ -71,7 +138,7 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
 {
     Error error = {0};
     FREED_BY(certified_free) Certified certified;
-    Comparison comparison;
+    Comparison comparison = {0};
     const uint32_t part = (uint32_t)tier_size(2, 1); // of the picture's sides
     const CertifiedView wanted = {
         .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};

@@ -25,18 +25,12 @@ static void tell(char *text, size_t size, double seconds, const RenderProgress *
     fclose(log);
 }
 
-TEST(the_time_left_follows_from_the_tiles_that_are_done)
+TEST(the_time_left_follows_from_the_tiles_that_this_run_has_done)
 {
     char text[128];
-    const RenderProgress render = {.tiles_done = 25, .tiles = 100};
-    tell(text, sizeof text, 10.2, &render);
+    tell(text, sizeof text, 10.2, &(RenderProgress){.tiles_done = 25, .tiles = 100});
     assert_string_equal(text, "tracing 25 %, 31 s left\n");
-}
-
-TEST(tiles_of_an_earlier_run_took_this_one_no_time)
-{
-    char text[128];
-    const RenderProgress render = {.tiles_done = 60, .tiles = 100, .tiles_ready = 50};
-    tell(text, sizeof text, 10.1, &render);
+    tell(text, sizeof text, 10.1,
+         &(RenderProgress){.tiles_done = 60, .tiles = 100, .tiles_ready = 50});
     assert_string_equal(text, "tracing 60 %, 40 s left\n");
 }

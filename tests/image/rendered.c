@@ -3,9 +3,11 @@
 #include "image/rendered.h"
 
 #include "image/form.h"
+#include "mesh/ply.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 Framebuffer rendered(const PictureRequest *request)
@@ -78,4 +80,26 @@ double rendered_error(const Framebuffer *one, const Framebuffer *other)
     for (size_t i = 0; i < values; i++)
         sum += pow((double)first[i] - (double)second[i], 2);
     return sqrt(sum / (double)values);
+}
+
+FILE *temporary_open(char path[TEMPORARY_PATH])
+{
+    snprintf(path, TEMPORARY_PATH, "%s", "/tmp/clrt-scene-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    return stream;
+}
+
+void temporary_close(FILE *stream)
+{
+    assert_int_equal(fclose(stream), 0);
+}
+
+void temporary_mesh(char path[TEMPORARY_PATH], const Mesh *mesh)
+{
+    FILE *stream = temporary_open(path);
+    assert_true(ply_write(mesh, stream));
+    temporary_close(stream);
 }

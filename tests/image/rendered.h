@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Pictures for tests that are about their pixels: what cannot be drawn fails the test.
+// Pictures for tests, and files for their scenes. A picture that cannot be drawn and a file that
+// cannot be written fail the test.
 #pragma once
 
 #include "image/picture.h"
+#include "mesh/mesh.h"
+
+#include <stdio.h>
 
 // The caller frees the picture.
 Framebuffer rendered(const PictureRequest *request);
@@ -26,3 +30,12 @@ void rendered_expect_same_in_every_form(const PictureRequest *usual);
 
 // The root mean square difference of the values of two pictures of one size.
 double rendered_error(const Framebuffer *one, const Framebuffer *other);
+
+#define TEMPORARY_PATH 64
+
+// Opens a new file for writing in /tmp and stores its path. The caller removes the file.
+FILE *temporary_open(char path[TEMPORARY_PATH]);
+void temporary_close(FILE *stream);
+
+// Writes the mesh to a new PLY file and stores its path. The caller removes the file.
+void temporary_mesh(char path[TEMPORARY_PATH], const Mesh *mesh);

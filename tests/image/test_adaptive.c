@@ -2,7 +2,6 @@
 // Tests the error and the cost of adaptive anti-aliasing, and that every device draws the same
 // picture.
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
@@ -154,21 +153,15 @@ TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
     remove(request.scene_path);
 }
 
-// Writes a sphere, 80 pixels wide, that has little contrast with the background.
-static const char *write_faint_sphere(void)
-{
-    static char path[TEMPORARY_PATH];
-    FILE *stream = temporary_open(path);
-    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
-                    "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
-    temporary_close(stream);
-    return path;
-}
-
 TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)
 {
     uint64_t samples;
-    PictureRequest plain = square(write_faint_sphere(), 100), many = plain;
+    char path[TEMPORARY_PATH];
+    FILE *stream = temporary_open(path); // a sphere, 80 pixels wide, of little contrast
+    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
+                    "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
+    temporary_close(stream);
+    PictureRequest plain = square(path, 100), many = plain;
     many.samples = 32;
     PictureRequest request = adaptive(plain, 0.08f);
     request.sample_count = &samples;

@@ -4,7 +4,6 @@
 // not change a bit.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
 // the smallest and largest goals. tests/goals measures whether clrt meets the goals.
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <string.h>

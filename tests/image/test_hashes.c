@@ -46,7 +46,7 @@ static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
     char file[128];
     snprintf(file, sizeof file, "%s.scn", is_course(scene) ? scene + 7 : scene);
     if (is_course(scene))
-        course_path(path, "scenes", file);
+        course_path(path, file);
     else
         snprintf(path, COURSE_PATH_SIZE, "%s/%s%s", CLRT_SOURCE_FOLDER,
                  strchr(scene, '/') == NULL ? "scenes/" : "", file);

@@ -3,7 +3,6 @@
 // program.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>

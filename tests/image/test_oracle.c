@@ -60,7 +60,7 @@ static void check(const char *path, uint32_t step)
 static void check_course(const char *name, uint32_t step)
 {
     char path[COURSE_PATH_SIZE];
-    course_path(path, "scenes", name);
+    course_path(path, name);
     if (course_has(path))
         check(path, step);
 }

@@ -133,7 +133,7 @@ TEST(every_compared_pixel_of_the_courses_scenes_is_the_oracles)
     static const char *const names[] = {"reflections.scn", "cow.scn"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[COURSE_PATH_SIZE];
-        course_path(path, "scenes", names[i]);
+        course_path(path, names[i]);
         if (course_has(path))
             check_oracle(path, meshes);
     }

@@ -2,7 +2,6 @@
 // Refined pictures show thin parts of meshes, narrower than a pixel, at any contrast.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>

@@ -4,7 +4,6 @@
 // test the same for spheres and for solids seen from outside.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>

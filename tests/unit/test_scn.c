@@ -43,47 +43,29 @@ TEST(the_six_viewpoints_are_the_courses)
 
 TEST(spheres_take_the_material_before_them)
 {
+    FREED_BY(scene_free)
     Scene scene =
-        parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n");
-    assert_int_equal(scene.spheres.count, 3);
-    assert_int_equal(scene.spheres.data[0].material, 0);
-    assert_int_equal(scene.spheres.data[1].material, 2);
-    assert_int_equal(scene.spheres.data[2].material, 0);
+        parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n"
+               "material 2\nmaterial own\nsphere 0 0 0 1\n"
+               "define own matte\nmaterial own\nsphere 0 0 0 1");
+    // Without a file, `own` is the silhouette, unless it is defined.
+    static const uint32_t materials[] = {0, 2, 0, 0, 4};
+    assert_int_equal(scene.spheres.count, 5);
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(scene.spheres.data[i].material, materials[i]);
     assert_true(scene.spheres.data[1].center.z == 3 && scene.spheres.data[1].radius == 0.5);
-    scene_free(&scene);
+    assert_int_equal(scene.materials.data[3].shader, SHADER_MATTE);
+    assert_true(scene.materials.data[3].reflectivity == 0.25f);
 }
 
-TEST(the_last_line_needs_no_line_end)
+TEST(lights_are_white_or_have_a_color_and_the_last_line_needs_no_line_end)
 {
-    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5");
-    assert_int_equal(scene.lights.count, 1);
-    assert_true(scene.lights.data[0].position.y == 2 && scene.lights.data[0].intensity == 0.5);
-}
-
-TEST(lights_are_white_or_have_a_color)
-{
-    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0\n");
+    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0");
     const Vec3 white = scene.lights.data[0].color, color = scene.lights.data[1].color;
+    assert_int_equal(scene.lights.count, 2);
+    assert_true(scene.lights.data[0].position.y == 2 && scene.lights.data[0].intensity == 0.5);
     assert_true(white.x == 1 && white.y == 1 && white.z == 1);
     assert_true(color.x == 0.25 && color.y == 1 && color.z == 0);
-}
-
-TEST(own_materials_are_the_silhouette_where_a_file_has_none)
-{
-    FREED_BY(scene_free)
-    Scene scene = parsed("material 2\nsphere 0 0 0 1\nmaterial own\nsphere 0 0 0 1\n"
-                         "define own matte\nmaterial own\nsphere 0 0 0 1");
-    assert_int_equal(scene.spheres.data[0].material, 2);
-    assert_int_equal(scene.spheres.data[1].material, 0);
-    assert_int_equal(scene.spheres.data[2].material, 4); // a defined name takes precedence
-}
-
-TEST(course_material_three_is_matte_and_a_quarter_mirror)
-{
-    FREED_BY(scene_free) Scene scene = parsed("");
-    const Material *mirror = &scene.materials.data[3];
-    assert_int_equal(mirror->shader, SHADER_MATTE);
-    assert_true(mirror->reflectivity == 0.25f);
 }
 
 TEST(a_definition_starts_from_its_kind)
