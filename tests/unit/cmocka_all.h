@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cmocka.h, the headers it wants before it, and tests that register themselves. A program that
-// defines its tests by TEST() gets its main() from unit/main.c, or calls tests_run().
+// defines its tests by TEST() gets its main() from unit/tests.c, or calls tests_run().
 #pragma once
 
 // clang-format off

@@ -2,17 +2,12 @@
 // Tests that sets contain exactly the added cells, and that widening matches its definition.
 #include "refine/cell_set.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdlib.h>
 
 #define WIDTH  75
 #define HEIGHT 20
-
-static uint32_t random_below(uint64_t *state, uint32_t end)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33) % end;
-}
 
 TEST(cells_have_room_in_pixels_with_a_slot)
 {

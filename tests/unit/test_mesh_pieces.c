@@ -2,14 +2,9 @@
 // Tests that pieces of meshes are correct for any number of threads.
 #include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdlib.h>
-
-static uint32_t random_below(uint64_t *state, uint32_t end)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33) % end;
-}
 
 static Mesh mesh_of(uint32_t vertices, uint32_t triangles)
 {

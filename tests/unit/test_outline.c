@@ -2,14 +2,14 @@
 // Tests the cells that an outline touches, and the centers that it contains, cell by cell.
 #include "refine/outline.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #define TRIALS 3000
 #define GRID   12
 
 static double random_number(uint64_t *state, double low, double high)
 {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
+    return low + (high - low) * random_unit(state);
 }
 
 static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};

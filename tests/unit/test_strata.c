@@ -4,6 +4,7 @@
 #include "refine/pixel_requests.h"
 #include "refine/strata.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,13 +12,6 @@
 #define PIXELS      20000
 #define POPULATIONS 200
 #define ROUNDS_MOST 300
-
-// Returns pseudorandom numbers in [0, 1).
-static double chance(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
 
 // error is the pixel's squared error on its current rung.
 typedef struct {
@@ -30,17 +24,18 @@ typedef struct {
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;
-    const double edges = 0.3 * chance(&state), hiding = 0.01 * chance(&state);
+    const double edges = 0.3 * random_unit(&state), hiding = 0.01 * random_unit(&state);
     *strata = (Strata){.pixels = PIXELS};
     for (int i = 0; i < PIXELS; i++) {
-        const bool is_edge = chance(&state) < edges, is_near = chance(&state) < 0.3;
-        const bool hides = !is_edge && chance(&state) < (is_near ? hiding : 0.1 * hiding);
-        const double bend = is_edge ? chance(&state) : 0.02 * chance(&state) * chance(&state);
-        const double error = is_edge ? 0.1 * bend : hides ? 0.1 * chance(&state) : 0.1 * bend;
+        const bool is_edge = random_unit(&state) < edges, is_near = random_unit(&state) < 0.3;
+        const bool hides = !is_edge && random_unit(&state) < (is_near ? hiding : 0.1 * hiding);
+        const double bend =
+            is_edge ? random_unit(&state) : 0.02 * random_unit(&state) * random_unit(&state);
+        const double error = is_edge ? 0.1 * bend : hides ? 0.1 * random_unit(&state) : 0.1 * bend;
         pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0),
                             .feature = bend * bend,
                             .error = error * error,
-                            .chance = chance(&state)};
+                            .chance = random_unit(&state)};
         strata_enter(strata, pixels[i].stratum, pixels[i].feature);
     }
 }
@@ -53,7 +48,7 @@ static void advance(Pixel *pixel, Strata *strata, uint64_t *state)
     pixel->error *= 0.04;
     pixel->stratum = strata_of_deviation(rung + 1, sqrt(pixel->feature), false);
     pixel->feature /= 16;
-    pixel->chance = chance(state);
+    pixel->chance = random_unit(state);
     strata_enter(strata, pixel->stratum, pixel->feature);
 }
 

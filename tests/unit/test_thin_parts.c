@@ -4,6 +4,7 @@
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -166,12 +167,8 @@ static void add_slivers(World *world, int count, double thickness)
 {
     uint64_t random = 1;
     for (int i = 0; i < count; i++) {
-        double numbers[2];
-        for (int k = 0; k < 2; k++) {
-            random = random * 6364136223846793005u + 1442695040888963407u;
-            numbers[k] = (double)(random >> 11) * 0x1p-53;
-        }
-        const double angle = PI * numbers[0], offset = SIDE * (numbers[1] - 0.5);
+        const double angle = PI * random_unit(&random);
+        const double offset = SIDE * (random_unit(&random) - 0.5);
         const double x = cos(angle), y = sin(angle), far = 2 * SIDE;
         const double middle[2] = {SIDE / 2.0 - offset * y, SIDE / 2.0 + offset * x};
         add_triangle(

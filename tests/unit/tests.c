@@ -23,23 +23,31 @@ void test_add(CMUnitTestFunction test, const char *name)
     tests[test_count++] = (struct CMUnitTest){.name = name, .test_func = test};
 }
 
-static int set_up_all(void **state)
+static int run_all(CMFixtureFunction *fixtures, size_t count, void **state)
 {
     int failures = 0;
-    for (size_t i = 0; i < set_up_count; i++)
-        failures += set_ups[i](state) != 0;
+    for (size_t i = 0; i < count; i++)
+        failures += fixtures[i](state) != 0;
     return failures;
+}
+
+static int set_up_all(void **state)
+{
+    return run_all(set_ups, set_up_count, state);
 }
 
 static int tear_down_all(void **state)
 {
-    int failures = 0;
-    for (size_t i = 0; i < tear_down_count; i++)
-        failures += tear_downs[i](state) != 0;
-    return failures;
+    return run_all(tear_downs, tear_down_count, state);
 }
 
 int tests_run(void)
 {
     return _cmocka_run_group_tests("tests", tests, test_count, set_up_all, tear_down_all);
+}
+
+// Programs with arguments have their own.
+__attribute__((weak)) int main(void)
+{
+    return tests_run();
 }
