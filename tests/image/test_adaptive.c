@@ -112,28 +112,25 @@ TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
 
 #define SPHERES 60 // spheres along a side of the wall
 
-// Writes a wall of bright spheres on black. The radii, in pixels, alternate among the given radii.
-static const char *write_spheres(const double radii[], int count)
+// Bright spheres on black. Neighbors are three pixels apart.
+TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
 {
-    static char path[TEMPORARY_PATH];
+    static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
+    char path[TEMPORARY_PATH];
     FILE *stream = temporary_open(path);
     fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 1 1 1\nmaterial it\n"
                     "camera 0 -100 0 0 0 0 60\n");
     const double pixel = 2 * 100 * tan(acos(-1) / 6) / 181;
-    for (int y = 0; y < SPHERES; y++)
-        for (int x = 0; x < SPHERES; x++)
-            fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
-                    (2.971 * (y - 30) + 1.5) * pixel, radii[(y * 7 + x) % count] * pixel);
-    temporary_close(stream);
-    return path;
-}
-
-// Neighboring spheres are three pixels apart.
-TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
-{
-    static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
     double expected = 0, sum = 0;
-    PictureRequest request = adaptive(square(write_spheres(radii, 6), 181), 1);
+    for (int y = 0; y < SPHERES; y++)
+        for (int x = 0; x < SPHERES; x++) {
+            const double radius = radii[(y * 7 + x) % 6];
+            expected += acos(-1) * pow(radius, 2);
+            fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
+                    (2.971 * (y - 30) + 1.5) * pixel, radius * pixel);
+        }
+    temporary_close(stream);
+    const PictureRequest request = adaptive(square(path, 181), 1);
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     int seen = 0;
     for (int y = 0; y < SPHERES; y++)
@@ -146,11 +143,10 @@ TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
                     light += (double)picture.pixels[((int)row + dy) * 181 + (int)column + dx][0];
             seen += light > 0;
             sum += light;
-            expected += acos(-1) * pow(radii[(y * 7 + x) % 6], 2);
         }
     assert_int_equal(seen, SPHERES * SPHERES);
     assert_true(fabs(sum / expected - 1) < 0.1);
-    remove(request.scene_path);
+    remove(path);
 }
 
 TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)

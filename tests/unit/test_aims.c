@@ -20,7 +20,7 @@ typedef struct {
     uint32_t targets[64];
 } Fixture;
 
-static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
+static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
 {
     Fixture all = {.mesh = {.positions = corners,
                             .triangles = triangles,
@@ -40,11 +40,6 @@ static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, boo
     return all;
 }
 
-static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
-{
-    return aimed_as(triangles, count, most, false);
-}
-
 static void release(Fixture *all)
 {
     aims_free(&all->aims);
@@ -55,7 +50,7 @@ static void release(Fixture *all)
 
 TEST(every_edge_and_point_is_aimed_at_once)
 {
-    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     assert_int_equal(all.aims.total, 6 + 4);
     assert_int_equal(all.aims.count, 6 + 4);
     for (size_t i = 0; i < 4; i++)
@@ -67,14 +62,14 @@ TEST(every_edge_and_point_is_aimed_at_once)
 TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
 {
     uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    FREED_BY(release) Fixture all = aimed_as(turned, 4, 64, true);
+    FREED_BY(release) Fixture all = aimed(turned, 4, 64, true);
     for (size_t i = 0; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
 }
 
 TEST(an_open_edge_is_aimed_at_beyond_it_too)
 {
-    FREED_BY(release) Fixture all = aimed(faces, 3, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 3, 64, false);
     assert_int_equal(all.aims.total, 6 + 4 + 3);
     // The missing face is opposite the corner (1, 1, 1).
     const Vec3 outside = vec3(-1, -1, -1);
@@ -86,14 +81,14 @@ TEST(an_open_edge_is_aimed_at_beyond_it_too)
 
 TEST(no_more_aims_are_kept_than_asked_for)
 {
-    FREED_BY(release) Fixture all = aimed(faces, 4, 3);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 3, false);
     assert_int_equal(all.aims.total, 10);
     assert_int_equal(all.aims.count, 3);
 }
 
 TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 {
-    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     assert_true(count >= 6 && count <= 10);
     for (size_t i = 0; i < count; i++) {
@@ -110,7 +105,7 @@ TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 
 TEST(rays_are_judged_by_where_they_end)
 {
-    FREED_BY(release) Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
     aims_judge(&all.aims, all.targets, distances, 4);
