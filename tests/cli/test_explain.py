@@ -133,11 +133,11 @@ class Pixels(Explain):
         for text, pixel, rays, parts in BY_HAND:
             self.write(hand_scn=text if text.startswith(HEAD) else HEAD + text)
             found = self.report("hand.scn", "--explain-pixel", pixel, "--json")
-            weight = 0.5 ** len(rays) if "mirror" in text else float(rays[0]["hit"] is None)
+            weight = 0.5 ** len(rays) if "mirror" in text else float(not rays[0]["hit"])
             self.expect_near(found, {"schema": 1, "pixel": list(map(int, pixel.split(","))), "size": [5, 5],
                                      "samples": [{"rays": rays, "background_weight": weight}], **parts}, text)
             for ray in found["samples"][0]["rays"]:
-                self.assertTrue(ray["hit"] is None or 0 <= ray["hit"]["distance_error"] < 1e-4, text)
+                self.assertTrue(not ray["hit"] or 0 <= ray["hit"]["distance_error"] < 1e-4, text)
         self.assertEqual([ray["kind"] for ray in self.report(*PIXEL, "--json")["samples"][0]["rays"]],
                          ["camera", "reflected", "reflected"])
 

@@ -29,7 +29,7 @@ static const struct {
                 {"error-0.01", 0, 0.01}};
 #define SETTINGS (sizeof settings / sizeof settings[0])
 
-// Of a refined picture, `number` is the setting, otherwise the view.
+// `number` is the view, or the setting of a refined picture.
 typedef struct {
     char scene[64], hash[FRAMEBUFFER_HASH_SIZE];
     unsigned number, size;

@@ -11,7 +11,8 @@
 #include <cmocka.h>
 // clang-format on
 
-// What the program runs before and after all of its tests, and its tests in the order of the file.
+// Add functions that run before and after all tests, and a test. Tests run in the order of the
+// file.
 void test_set_up(CMFixtureFunction fixture);
 void test_tear_down(CMFixtureFunction fixture);
 void test_add(CMUnitTestFunction test, const char *name);
