@@ -24,6 +24,3 @@ typedef struct {
 // Return the decisions for the sample in that column and row.
 RealDecisions real_decide_64(const RealView *view, uint32_t column, uint32_t row);
 RealDecisions real_decide_113(const RealView *view, uint32_t column, uint32_t row);
-
-// Returns the decisions with the fewest bits that settle all decisions, or with 113 bits.
-RealDecisions real_decide(const RealView *view, uint32_t column, uint32_t row);

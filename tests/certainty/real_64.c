@@ -5,9 +5,3 @@
 #define TOLERANCE 0x1p-54L
 #define DECIDE    real_decide_64
 #include "certainty/real_text.h"
-
-RealDecisions real_decide(const RealView *view, uint32_t column, uint32_t row)
-{
-    const RealDecisions decisions = real_decide_64(view, column, row);
-    return decisions.settled ? decisions : real_decide_113(view, column, row);
-}

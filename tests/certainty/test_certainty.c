@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
-// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels, and tier 1
-// all of more than ten million.
+// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels of small
+// pictures, and tier 1 all of more than ten million.
+#include "base/processors.h"
+#include "base/thread_pool.h"
+#include "certainty/certified.h"
 #include "certainty/extreme_scenes.h"
-#include "certainty/real_draw.h"
+#include "certainty/real.h"
 #include "extremes/support/check.h"
 #include "image/inline_scenes.h"
 #include "scene/scn.h"
+#include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -17,6 +22,69 @@ static Office office;
 typedef struct {
     uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
 } Sum;
+
+typedef struct {
+    uint64_t compared;  // pixels, certified or repaired
+    uint64_t first;     // of those: another first hit, or another light seen there
+    uint64_t deeper;    // of those: any other decision of the ray tree
+    uint64_t unsettled; // of those: not even 113 bits settle the first hit and its lights
+    uint64_t in_113;    // of those: 64 bits did not settle the ray tree
+} Comparison;
+
+typedef struct {
+    const Certified *certified;
+    RealView view;
+    uint32_t step;
+    _Atomic uint64_t compared, first, deeper, unsettled, in_113;
+} Comparing;
+
+static void compare_pixel(Comparing *comparing, uint32_t x, uint32_t y)
+{
+    const CertaintyMap *map = &comparing->certified->map;
+    const CertaintyMark *mark = &map->marks[(size_t)y * map->width + x];
+    if (mark->certainty == CERTAINTY_OPEN)
+        return;
+    RealDecisions real = real_decide_64(&comparing->view, x, y);
+    if (!real.settled) {
+        comparing->in_113++;
+        real = real_decide_113(&comparing->view, x, y);
+    }
+    const bool same = real.first_id == mark->first_id && real.lit == mark->lit;
+    comparing->compared++;
+    comparing->unsettled += !real.first_settled;
+    comparing->first += !same;
+    comparing->deeper += same && real.settled && real.signature != mark->signature;
+}
+
+static void compare_row(void *context, uint32_t row, uint32_t worker)
+{
+    Comparing *comparing = context;
+    (void)worker;
+    for (uint32_t x = 0; x < comparing->view.width; x += comparing->step)
+        compare_pixel(comparing, x, row * comparing->step);
+}
+
+// Compares every step-th pixel of every step-th row.
+static bool real_compare(Comparison *comparison, const Certified *certified, uint32_t step,
+                         Error *error)
+{
+    RealTree tree;
+    const bool ok = real_tree_make(&tree, &certified->flat, error);
+    Comparing comparing = {.certified = certified,
+                           .view = {&certified->flat, &tree, &certified->camera,
+                                    certified->settings.width, certified->settings.height,
+                                    certified->settings.max_level},
+                           .step = step};
+    if (ok) {
+        ThreadPool *pool = thread_pool_open(processors_usable());
+        thread_pool_run(pool, (comparing.view.height + step - 1) / step, compare_row, &comparing);
+        thread_pool_close(pool);
+    }
+    *comparison = (Comparison){comparing.compared, comparing.first, comparing.deeper,
+                               comparing.unsettled, comparing.in_113};
+    real_tree_free(&tree);
+    return ok;
+}
 
 static uint64_t count_changed(const Certified *certified, Certainty certainty)
 {
@@ -68,10 +136,12 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
                        uint32_t floor)
 {
     Error error = {0};
-    Certified certified;
-    Comparison comparison;
-    const CertifiedView wanted = {.view = view, .samples = 1};
-    const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 16 : 8, 1);
+    FREED_BY(certified_free) Certified certified;
+    Comparison comparison = {0};
+    const uint32_t part = (uint32_t)tier_size(2, 1); // of the picture's sides
+    const CertifiedView wanted = {
+        .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};
+    const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 8 : 4, 1);
     require(certified_make(&certified, &office, scene, &wanted, &error) &&
                 real_compare(&comparison, &certified, step, &error),
             &error);
@@ -96,7 +166,6 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     sum->compared += comparison.compared;
     sum->wrong += wrong + changed + unlike;
     sum->poor += counts[CERTAINTY_CERTIFIED] * 1000 < floor * pixels;
-    certified_free(&certified);
 }
 
 static void check_views(Sum *sum, const Scene *scene, const char *name, uint32_t floor)
@@ -109,10 +178,9 @@ static void check_views(Sum *sum, const Scene *scene, const char *name, uint32_t
 static void check_file(Sum *sum, const char *path, uint32_t floor)
 {
     Error error = {0};
-    Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = {0};
     require(scn_load(&scene, path, ply_parse, &error), &error);
     check_views(sum, &scene, strrchr(path, '/') + 1, floor);
-    scene_free(&scene);
 }
 
 static void judge(const Sum *sum)
@@ -123,10 +191,9 @@ static void judge(const Sum *sum)
     assert_int_equal(sum->poor, 0);
 }
 
-static void certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", 990);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/matte.scn", 990);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", 990);
@@ -136,10 +203,9 @@ static void certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic(voi
     judge(&sum);
 }
 
-static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -151,10 +217,9 @@ static void certain_pixels_of_meshes_are_decided_as_by_real_arithmetic(void **st
     judge(&sum);
 }
 
-static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    (void)state;
     for (size_t i = 0; i < extreme_scene_count; i++) {
         Scene scene = extreme_scenes[i].make();
         check_views(&sum, &scene, extreme_scenes[i].name, 0);
@@ -163,58 +228,37 @@ static void certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic(voi
     judge(&sum);
 }
 
-static void certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic(void **state)
+TEST(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic)
 {
-    InlineScenes scenes;
-    Error error = {0};
     Sum sum = {0};
-    (void)state;
-    require(inline_scenes_write(&scenes, &error), &error);
     for (int scene = 0; scene < INLINE_COUNT; scene++) {
         char path[INLINE_PATH_SIZE];
-        inline_scenes_path(&scenes, (InlineScene)scene, path);
+        inline_scenes_path((InlineScene)scene, path);
         check_file(&sum, path, 0);
     }
-    inline_scenes_remove(&scenes);
     judge(&sum);
 }
 
 // A tie between coincident triangles is as certain as a hit of either alone.
-static void coincident_triangles_are_certified(void **state)
+TEST(coincident_triangles_are_certified)
 {
     Sum sum = {0};
-    (void)state;
-    Scene scene = extreme_coincident();
+    FREED_BY(scene_free) Scene scene = extreme_coincident();
     check_views(&sum, &scene, "coincident", 980);
-    scene_free(&scene);
     judge(&sum);
 }
 
-static int open_office(void **state)
+SET_UP(open_office)
 {
     Error error = {0};
-    (void)state;
     if (office_open(&office, &error))
         return 0;
     print_message("%s\n", error.text);
     return -1;
 }
 
-static int close_office(void **state)
+TEAR_DOWN(close_office)
 {
-    (void)state;
     office_close(&office);
     return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic),
-        cmocka_unit_test(coincident_triangles_are_certified),
-        cmocka_unit_test(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic),
-    };
-    return cmocka_run_group_tests(tests, open_office, close_office);
 }

@@ -2,28 +2,31 @@
 # SPDX-License-Identifier: MIT
 # clrt check and --bad-geometry: findings as text and JSON, exit statuses, and what pictures leave out.
 # Usage: test_check.py CLRT
-from models import ply
+from models import knot, ply
 from work import NO_OPENCL, ROOT, SharedWork, main
 
 CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 CLOSED = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 STEP = 16777216  # floats are 2 apart here
-MESHES = {
-    "closed": (CORNERS, CLOSED),
-    "open": (CORNERS, CLOSED[:3]),
-    "turned": (CORNERS, [*CLOSED[:3], (1, 3, 2)]),
-    "equal": (CORNERS, [*CLOSED[:2], (0, 0, 2), *CLOSED[2:], (1, 1, 1)]),
-    "line": ([*CORNERS, (2, 0, 0)], [*CLOSED[:2], (0, 1, 4)]),
-    "nan": ([*CORNERS[:2], (0, float("nan"), 0), (0, 0, 1), (1, 1, 1)], [*CLOSED[:3], (1, 4, 3)]),
-    "twice": (CORNERS, [*CLOSED, (2, 3, 1)]),
-    "far": ([(STEP, 0, 0), (STEP + 2, 0, 0), (STEP, 2, 0), (STEP, 0, 2)], CLOSED),
-    "inside": (CORNERS, [(a, c, b) for a, b, c in CLOSED]),
-}
-SCENES = {
-    "scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
-    "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
-    "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n",
-}
+MESHES = {"closed": (CORNERS, CLOSED), "open": (CORNERS, CLOSED[:3]), "turned": (CORNERS, [*CLOSED[:3], (1, 3, 2)]),
+          "equal": (CORNERS, [*CLOSED[:2], (0, 0, 2), *CLOSED[2:], (1, 1, 1)]),
+          "line": ([*CORNERS, (2, 0, 0)], [*CLOSED[:2], (0, 1, 4)]),
+          "nan": ([*CORNERS[:2], (0, float("nan"), 0), (0, 0, 1), (1, 1, 1)], [*CLOSED[:3], (1, 4, 3)]),
+          "twice": (CORNERS, [*CLOSED, (2, 3, 1)]),
+          "far": ([(STEP, 0, 0), (STEP + 2, 0, 0), (STEP, 2, 0), (STEP, 0, 2)], CLOSED),
+          "inside": (CORNERS, [(a, c, b) for a, b, c in CLOSED])}
+KNOT, TUBE = knot()  # a closed tube, whose parts hide behind others
+A, B, C = TUBE[200]
+# Off the middle of an edge of one of two triangles, by a fiftieth of its height.
+CRACK = tuple(0.49 * a + 0.49 * b + 0.02 * c for a, b, c in zip(KNOT[A], KNOT[B], KNOT[C]))
+MESHES |= {"knot": (KNOT, TUBE), "gap": (KNOT, TUBE[:-1]),
+           "crack": ([*KNOT, CRACK], [*TUBE[:200], (A, len(KNOT), C), (len(KNOT), B, C), *TUBE[201:]]),
+           "away": ([(x + 1024, y - 2048, z + 4096) for x, y, z in KNOT], [(a, c, b) for a, b, c in TUBE])}
+FORMS = ["--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet", "--precision fp64",
+         "--bvh midpoint", "--no-bvh"]
+SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
+          "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
+          "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each file with its exit status and parts of its report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed",
@@ -80,11 +83,20 @@ class Check(Meshes):
         self.write(check=SCENES["mixed"])
         self.clrt("./check", "-s", "4x4", "-o", "a.pfm", "-q")
 
-    def test_no_form_of_the_kernels_leaks(self):
-        for form in ("--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet",
-                     "--precision fp64", "--bvh midpoint", "--no-bvh"):
-            mesh = self.mesh("closed.ply", *form.split())[1]
-            self.expect(mesh, leak_test__leaks__count=0, leak_test__aimed_at=10)
+    def test_every_form_finds_holes_and_no_others(self):
+        for form in FORMS:
+            found = self.mesh("knot.ply", *form.split())[1]
+            self.expect(found, closed=True, leak_test__leaks__count=0, leak_test__aimed_at=720 + 240,
+                        leak_test__hidden=0)
+            self.assertGreater(found["leak_test"]["rays"], 960)  # hidden edges and points needed more
+            for name in "gap", "crack":
+                found = self.mesh(f"{name}.ply", *form.split())[1]
+                self.expect(found, closed=False, faults__open_edges__count=3)
+                self.assertTrue(3 <= found["leak_test"]["leaks"]["count"] <= 10, (name, form))
+
+    def test_a_mesh_far_away_and_turned_inside_out_leaks_nothing(self):
+        found = self.mesh("away.ply")[1]
+        self.expect(found, closed=True, leak_test__leaks__count=0, leak_test__aimed_at=960)
 
     def test_models_are_closed_and_leak_nothing(self):
         for name in "creature", "figure", "coral":

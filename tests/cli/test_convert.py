@@ -130,10 +130,8 @@ class Models(Convert):
 
     def test_materials_are_kept_in_scenes_and_told_to_be_lost_in_ply(self):
         groups = [("usemtl red", 0), ("usemtl dull blue", 200)]
-        self.write(
-            a_obj=models.obj(models.coarse(POINTS), TRIANGLES, "mtllib a.mtl", groups),
-            a_mtl="newmtl red\nKd 0.7 0.1 0.3\nKs .3 .3 .3\nNs 33.3\nnewmtl dull blue\nKd 0 0 .7\n",
-        )
+        self.write(a_obj=models.obj(models.coarse(POINTS), TRIANGLES, "mtllib a.mtl", groups),
+                   a_mtl="newmtl red\nKd 0.7 0.1 0.3\nKs .3 .3 .3\nNs 33.3\nnewmtl dull blue\nKd 0 0 .7\n")
         self.converts("a.obj", "b.scn")
         self.expect_same_pictures("a.obj", "b.scn", 2)
         losses = "materials are left out, which PLY has no place for"
@@ -142,12 +140,10 @@ class Models(Convert):
     def test_changed_files_are_converted_or_refused_in_one_sentence(self):
         points, triangles = models.knot(6, 4)
         coarse = models.coarse(points)
-        whole = {
-            "obj": models.obj(coarse, triangles, "mtllib a.mtl", [("usemtl red", 0)]),
-            "stl": models.stl(points, triangles),
-            "glb": models.glb(points, triangles, models.normals_of(points)),
-            "off": models.off(coarse, triangles),
-        }
+        whole = {"obj": models.obj(coarse, triangles, "mtllib a.mtl", [("usemtl red", 0)]),
+                 "stl": models.stl(points, triangles),
+                 "glb": models.glb(points, triangles, models.normals_of(points)),
+                 "off": models.off(coarse, triangles)}
         chance = random.Random(1)
         inserts = [b"-1", b"99999999999", b"nan", b"\xff" * 4, b"{", b"f 1 2 3\n", b"1e39"]
         outcomes = set()

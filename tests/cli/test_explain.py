@@ -6,20 +6,89 @@ from models import ply
 from pictures import read_pfm
 from work import EVERY_FEATURE, ROOT, SharedWork, main
 
-# Worked out by hand in tests/image/test_explain_by_hand.c.
-MIRRORS = """size 5 5
-ambient 0.1
-background 0 0 1
-light 0 0 2 1
-define mirror matte diffuse 1 1 1 kd 0.5 reflectivity 0.5
-material mirror
-sphere 0 3 0 1
-sphere 0 -3 0 1
-camera 0 0 0 0 1 0 90
-"""
-# The first light is behind the face alone, the second behind the normal too, as worked out there.
+HEAD = ("size 5 5\nambient 0.1\nbackground 0 0 1\ndefine plain matte diffuse 0.8 0.8 0.8 kd 0.5\n"
+        "define mirror matte diffuse 1 1 1 kd 0.5 reflectivity 0.5\n")
+MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0 1\n"
+           "camera 0 0 0 0 1 0 90\n")
+BALL = "light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 90\n"
+LAMP = "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
+# The first light is behind the face alone, the second behind the normal too.
 LEANING = "size 5 5\nlight 11 -2 -5 1\nlight -9 -2 -5 1\nmaterial 1\nply_file leaning.ply\nup 0 1 0\n" \
           "camera 1 -2 4 1 -2 0 90\n"
+
+
+def sphere(number, distance, *lights, **more):
+    return {"primitive": {"kind": "sphere", "number": number}, "distance": distance, "lights": [*lights], **more}
+
+
+def floor(distance, *lights, **more):
+    """The triangle below the floor's diagonal from (-10, -10) to (10, 10)."""
+    return {"primitive": {"kind": "triangle", "number": 0}, "distance": distance, "lights": [*lights], **more}
+
+
+def light(state, distance=None, cosine=None, **more):
+    found = {"state": state, "distance": distance, "cosine": cosine, **more}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def mirror_ball(level, number, distance):
+    """The light is at (0, -+2, 2) from every hit, so each ball adds 0.1 + 0.5 * 0.707107."""
+    return {"weight": 0.5**level, "hit": sphere(number, distance, light("reaches", cosine=0.707107),
+                                                share=0.5 ** (level + 1), color=[0.453553] * 3)}
+
+
+# Pictures have 5 x 5 pixels and a field of view of 90 degrees. The ray through pixel (2, 2) points at
+# the camera's target. Each case has the scene, the pixel, the rays and parts of the report.
+BY_HAND = [
+    # The eye is 5 from a sphere's center. The hit faces the light at the eye: 0.1 + 0.5 * 0.5, times 0.8.
+    (BALL, "2,2", [{"hit": sphere(1, 4, light("reaches", 4, 1, diffuse=0.25), point=[0, -1, 0],
+                                  normal=[0, -1, 0])}], {"color": [0.28] * 3}),
+    # The direction (-0.8, 1, 0.8) misses the sphere.
+    (BALL, "0,0", [{"hit": None, "direction": [-0.529813, 0.662266, 0.529813]}], {"color": [0, 0, 1]}),
+    # Between the point and the light 4 above it is a ball, whose lowest point is 0.5 away. The eye is
+    # sqrt(16 + 0.16) away.
+    (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
+     [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
+                                    blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
+    # The cone from the light that touches the ball has the sine 0.5 / 3. It intersects the floor at a
+    # radius of 4 * 0.169031 = 0.676123. At 0.65, the light is sqrt(0.65^2 + 16) away. The ball's center is
+    # 1.091310 along this line and 0.481182 off it; the hit is sqrt(0.25 - 0.481182^2) before the center.
+    (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
+     [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
+                                    blocker_distance=0.955450))}], {}),
+    # At 0.7, the light is sqrt(0.49 + 16) away, its cosine is 4 / 4.060788, and nothing occludes it.
+    (LAMP + "camera 0.7 -4 0.4 0.7 0 0 90\n", "2,2",
+     [{"hit": floor(4.019950, light("reaches", 4.060788, 0.985030))}], {"color": [0.474012] * 3}),
+    # Each mirror ball halves the weight, and rays of level 3 see the background. The balls add 0.453553
+    # with weights 1/2, 1/4 and 1/8, and the background 1/8 of blue.
+    (MIRRORS, "2,2", [mirror_ball(0, 1, 2), {**mirror_ball(1, 2, 4), "direction": [0, -1, 0]},
+                      mirror_ball(2, 1, 4)], {"color": [0.396859, 0.396859, 0.521859]}),
+    # The line x = 0 is 0.999 from the ball's center. Half its chord is sqrt(1 - 0.999^2), so the ray from
+    # y = -5 hits after 4.955290. The light is 4 to the left at the height of the hit.
+    ("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\ncamera 0 -5 0 0 0 0 90\n", "2,2",
+     [{"hit": sphere(1, 4.955290, light("reaches", 4, 0.999), normal=[-0.999, -0.0447102, 0])}], {}),
+    # From 0.001 above the floor to a point 4 away.
+    ("light 1 0 4 1\nmaterial plain\nply_file floor.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
+     [{"hit": floor(4, light("reaches", 4, 1), point=[1, 0, 0])}], {}),
+    # From the center of a mirror ball, whose normal points away from the light inside.
+    ("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\ncamera 0 0 0 0 1 0 90\n", "2,2",
+     [{"hit": sphere(1, 1, light("behind"), normal=[0, 1, 0])},
+      {"hit": sphere(1, 2, light("behind"), point=[0, -1, 0])}, {"hit": sphere(1, 2, light("behind"))}],
+     {"color": [0.0875, 0.0875, 0.2125]}),
+    # From below, the one-sided floor is invisible. The two-sided floor a unit higher is visible, with its
+    # normal turned down. The one-sided floor occludes the light a unit below it, because the shadow ray
+    # meets its front.
+    ("light 1 -2 -1 1\nmaterial plain\nply_file floor.ply\nsides two\nmesh floor.ply translate 0 0 1\n"
+     "up 0 1 0\ncamera 1 -2 -2 1 -2 0 90\n", "2,2",
+     [{"hit": floor(3, light("blocked", 2, blocker={"kind": "triangle", "id": 0}, blocker_distance=1),
+                    primitive={"kind": "triangle", "id": 2, "number": 0}, point=[1, -2, 1],
+                    normal=[0, 0, -1])}], {"color": [0.08] * 3}),
+    # The light is 10 beside and 5 below the point. The normal faces it at the cosine (0.6 * 10 - 0.8 * 5) /
+    # sqrt(125). The face points up, away from the light.
+    ("light 11 -2 -5 1\nmaterial plain\nply_file leaning.ply\nup 0 1 0\ncamera 1 -2 4 1 -2 0 90\n", "2,2",
+     [{"hit": floor(4, light("behind_face", 11.180340, 0.178885), normal=[0.6, 0, 0.8])}],
+     {"color": [0.08] * 3}),
+]
 PIXEL = ["mirrors.scn", "--explain-pixel", "2,2"]
 FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet --lanes 4",
          "--precision fp64", "--precision fp64 --aa", "--no-bvh", "--max-level 1", "--max-level 0", "-j 1"]
@@ -27,12 +96,11 @@ FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide",
 
 class Explain(SharedWork):
     def prepare(self):
-        corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0)]
-        self.write(
-            mirrors_scn=MIRRORS, leaning_scn=LEANING, leaning_ply=ply(corners, [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
-            ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
-            flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n",
-        )
+        corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
+        self.write(mirrors_scn=MIRRORS, leaning_scn=LEANING, floor_ply=ply(corners, [(0, 1, 2), (0, 2, 3)]),
+                   leaning_ply=ply(corners[:3], [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
+                   ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
+                   flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n")
 
 
 class Pixels(Explain):
@@ -47,12 +115,31 @@ class Pixels(Explain):
     def test_a_corner_meets_nothing(self):
         self.assertIn("meets      nothing", self.clrt("mirrors.scn", "--explain-pixel", "0,4"))
 
-    def test_json_has_each_ray(self):
-        found = self.report(*PIXEL, "--json")
-        self.expect(found, schema=1, pixel=[2, 2], size=[5, 5])
-        (sample,) = found["samples"]
-        rays = [(ray["hit"]["primitive"]["number"], ray["weight"], ray["kind"]) for ray in sample["rays"]]
-        self.assertEqual(rays, [(1, 1, "camera"), (2, 0.5, "reflected"), (1, 0.25, "reflected")])
+    def expect_near(self, found, expected, place=""):
+        """Compares parts of a report. Numbers are rounded to six digits."""
+        if isinstance(expected, dict):
+            for name, part in expected.items():
+                self.expect_near(found[name], part, f"{place}.{name}")
+        elif isinstance(expected, list):
+            self.assertEqual(len(found), len(expected), place)
+            for number, part in enumerate(expected):
+                self.expect_near(found[number], part, f"{place}[{number}]")
+        elif isinstance(expected, (int, float)):
+            self.assertAlmostEqual(found, expected, delta=2e-6 * max(1, abs(expected)), msg=place)
+        else:
+            self.assertEqual(found, expected, place)
+
+    def test_pixels_are_those_worked_out_by_hand(self):
+        for text, pixel, rays, parts in BY_HAND:
+            self.write(hand_scn=text if text.startswith(HEAD) else HEAD + text)
+            found = self.report("hand.scn", "--explain-pixel", pixel, "--json")
+            weight = 0.5 ** len(rays) if "mirror" in text else float(not rays[0]["hit"])
+            self.expect_near(found, {"schema": 1, "pixel": list(map(int, pixel.split(","))), "size": [5, 5],
+                                     "samples": [{"rays": rays, "background_weight": weight}], **parts}, text)
+            for ray in found["samples"][0]["rays"]:
+                self.assertTrue(not ray["hit"] or 0 <= ray["hit"]["distance_error"] < 1e-4, text)
+        self.assertEqual([ray["kind"] for ray in self.report(*PIXEL, "--json")["samples"][0]["rays"]],
+                         ["camera", "reflected", "reflected"])
 
     def test_lights_behind_a_face_and_behind_a_normal_differ(self):
         words = ["leaning.scn", "--explain-pixel", "2,2"]
@@ -108,11 +195,9 @@ class Scenes(Explain):
             self.assertIn(part, told)
 
     def test_special_kernels_have_what_the_scene_has(self):
-        found = self.expect_parts(
-            ["ball.scn", "--specialize", "always"],
-            spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
-            mirrors=(False, False, "no material in use reflects: no ray is followed on"),
-        )
+        found = self.expect_parts(["ball.scn", "--specialize", "always"],
+                                  spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
+                                  mirrors=(False, False, "no material in use reflects: no ray is followed on"))
         self.assertEqual(found["program"], {"special": True, "reason": "--specialize always"})
 
     def test_general_kernels_have_all_but_counters_that_nobody_requests(self):

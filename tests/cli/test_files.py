@@ -124,19 +124,9 @@ class Channels(SharedWork):
         for name in "N.X N.Y N.Z P.X P.Y P.Z shadow bounces".split():
             self.assertEqual(first[name], 0, name)
 
-    def test_colors_beside_them_are_the_same(self):
-        plain = self.draw("--aa", "--bvh", "sah")
-        self.assertTrue(all(plain[name] == self.all[name] for name in "RGB"))
-
     def test_they_are_those_of_one_sample_whatever_aa(self):
         single = self.draw("--aov", "depth,primitive,normal")
         self.assertTrue(all(single[name] == self.all[name] for name in ("Z", "primitive", "N.X")))
-
-    def test_they_are_the_same_in_every_form_of_the_kernels(self):
-        words = ["--aa", "--nodes", "wide", "--aov", "normal,position,bounces,tritests"]
-        expected = self.draw(*words)
-        for form in "-j 1", "--tile 16x8", "--kernel packet", "--kernel ray --nodes wide":
-            self.assertTrue(self.draw(*words, *form.split()) == expected, form)
 
     def test_adaptive_samples_are_counted_pixel_by_pixel(self):
         samples = self.draw("--aa-adaptive", "--aov", "samples", "--stats=a.json")["samples"]

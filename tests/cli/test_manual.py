@@ -2,16 +2,22 @@
 # SPDX-License-Identifier: MIT
 # Compares man pages and completions with --help and the grammar of scenes. Usage: test_manual.py
 # CLRT FOLDER_OF_THE_MANUAL
+import fcntl
 import os
 import pathlib
+import pty
 import re
+import select
 import shutil
+import signal
+import struct
 import subprocess
 import sys
+import termios
+import time
 import unittest
 
 import grammar
-import shells
 from work import CLRT, ROOT, Work, main
 
 MANUAL = pathlib.Path(sys.argv[2])
@@ -104,13 +110,99 @@ class Pages(Work):
         self.assertEqual((done.stderr, done.returncode), ("", 0))
 
 
+# Each shell runs in its own terminal, whose completions are read after the tab key.
+SETUP = {
+    "bash": (
+        ["bash", "--norc", "--noprofile", "-i"],
+        "bind 'set show-all-if-ambiguous on'; bind 'set completion-query-items 0';"
+        "bind 'set page-completions off'; bind 'set bell-style none'; source '{folder}/clrt'",
+    ),
+    "zsh": (
+        ["zsh", "-f", "-i"],
+        "LISTMAX=0; unsetopt beep list_ambiguous; fpath=('{folder}' $fpath);"
+        "autoload -U compinit; compinit -u -D",
+    ),
+}
+ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>])")
+READY = "ready to go"
+
+
+def is_here(shell):
+    return shutil.which(shell) is not None
+
+
+class Terminal:
+    """A shell in a terminal of 400 lines."""
+
+    def __init__(self, words, work):
+        self.pid, self.file = pty.fork()
+        if self.pid == 0:
+            os.chdir(work)
+            os.environ.update(TERM="vt100", PS1="", INPUTRC="/dev/null", LC_ALL="C.UTF-8")
+            os.execvp(words[0], words)
+        fcntl.ioctl(self.file, termios.TIOCSWINSZ, struct.pack("HHHH", 400, 160, 0, 0))
+
+    def type(self, text):
+        os.write(self.file, text.encode())
+
+    def read(self, until, seconds=20):
+        """Reads output until until(output) is true or the time is over. Returns the output."""
+        text, end = "", time.monotonic() + seconds
+        while time.monotonic() < end and not until(text):
+            if select.select([self.file], [], [], 0.2)[0]:
+                try:
+                    text += os.read(self.file, 65536).decode(errors="replace")
+                except OSError:
+                    break
+        return ESCAPES.sub("", text)
+
+    def close(self):
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self.file)
+
+
+def ask_terminal(shell, folder, line, work):
+    words, setup = SETUP[shell]
+    terminal = Terminal(words, work)
+    try:
+        terminal.type(setup.format(folder=folder) + "; echo ready to' 'go\n")
+        terminal.read(lambda text: READY in text)
+        terminal.type(line + "\t")
+        # If the shell echoes the next line, the list is complete.
+        quiet = [time.monotonic(), 0]
+
+        def is_quiet(text):
+            if len(text) != quiet[1]:
+                quiet[:] = [time.monotonic(), len(text)]
+            return len(text) > len(line) + 2 and time.monotonic() - quiet[0] > 0.5
+
+        return terminal.read(is_quiet)
+    finally:
+        terminal.close()
+
+
+def ask_fish(folder, line, work):
+    command = f"source '{folder}/clrt.fish'; complete -C '{line}'"
+    return subprocess.run(
+        ["fish", "--no-config", "-c", command], cwd=work, capture_output=True, text=True, check=True
+    ).stdout
+
+
+def complete(shell, folder, line, work):
+    """Returns the completions at the end of the line, with their descriptions."""
+    if shell == "fish":
+        return ask_fish(folder, line, work)
+    return ask_terminal(shell, folder, line, work)
+
+
 class Completions(Work):
     def setUp(self):
         super().setUp()
         self.write(room_scn="", bunny_ply="", notes_txt="")
 
     def offered(self, shell, line):
-        return shells.complete(shell, MANUAL, line, self.work)
+        return complete(shell, MANUAL, line, self.work)
 
     def check_options(self, shell):
         text = "".join(self.offered(shell, f"clrt {word} --") for word in ("a.scn", *COMMANDS))
@@ -154,7 +246,7 @@ def add_tests():
             def test(self, shell=shell, what=what):
                 getattr(self, f"check_{what}")(shell)
 
-            here = unittest.skipUnless(shells.is_here(shell), f"{shell} is not installed")
+            here = unittest.skipUnless(is_here(shell), f"{shell} is not installed")
             setattr(Completions, f"test_{shell}_completes_{what}", here(test))
 
 

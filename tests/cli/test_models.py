@@ -47,28 +47,19 @@ class Formats(Work):
             self.assertEqual(self.picture(name), expected, name)
 
     def test_formats_that_keep_floats_give_the_picture_of_ply(self):
-        self.write(
-            a_ply=models.ply(POINTS, TRIANGLES),
-            a_stl=models.stl(POINTS, TRIANGLES),
-            a_glb=models.glb(POINTS, TRIANGLES),
-        )
+        self.write(a_ply=models.ply(POINTS, TRIANGLES), a_stl=models.stl(POINTS, TRIANGLES),
+                   a_glb=models.glb(POINTS, TRIANGLES))
         self.expect_pictures_of_ply("a.stl", "a.glb")
 
     def test_formats_in_decimals_give_it_where_those_are_short(self):
-        self.write(
-            a_ply=models.ply(COARSE, TRIANGLES),
-            a_obj=models.obj(COARSE, TRIANGLES),
-            a_OFF=models.off(COARSE, TRIANGLES),
-        )
+        self.write(a_ply=models.ply(COARSE, TRIANGLES), a_obj=models.obj(COARSE, TRIANGLES),
+                   a_OFF=models.off(COARSE, TRIANGLES))
         self.expect_pictures_of_ply("a.obj", "a.OFF")
 
     def test_normals_are_those_of_the_file(self):
         normals = models.normals_of(POINTS)
-        self.write(
-            a_ply=models.ply(POINTS, TRIANGLES, normals),
-            a_glb=models.glb(POINTS, TRIANGLES, normals),
-            flat_glb=models.glb(POINTS, TRIANGLES),
-        )
+        self.write(a_ply=models.ply(POINTS, TRIANGLES, normals), a_glb=models.glb(POINTS, TRIANGLES, normals),
+                   flat_glb=models.glb(POINTS, TRIANGLES))
         self.expect_same("a.glb", "a.ply")
         self.assertNotEqual(self.picture("a.glb"), self.picture("flat.glb"))
 
@@ -79,25 +70,17 @@ class Formats(Work):
 
     def test_a_statement_moves_every_part(self):
         moves = "scale 0.5 rotate 0 1 0 30 translate 0.25 0 0\n"
-        self.write(
-            a_ply=models.ply(COARSE, TRIANGLES),
-            colors_obj=COLORED,
-            colors_mtl=LIBRARY,
-            a_scn=CAMERA + "material 2\nmesh colors.obj " + moves,
-            b_scn=CAMERA + "material 2\nmesh a.ply " + moves,
-        )
+        self.write(a_ply=models.ply(COARSE, TRIANGLES), colors_obj=COLORED, colors_mtl=LIBRARY,
+                   a_scn=CAMERA + "material 2\nmesh colors.obj " + moves,
+                   b_scn=CAMERA + "material 2\nmesh a.ply " + moves)
         self.expect_same("a.scn", "b.scn")
 
     def test_a_node_places_and_a_mirroring_one_keeps_fronts_in_front(self):
         turn = {"translation": [1, 2, 3], "scale": [-2, 1, 1]}
         moved = [(1 - 2 * x, 2 + y, 3 + z) for x, y, z in COARSE]
         turned = [(a, c, b) for a, b, c in TRIANGLES]
-        self.write(
-            a_glb=models.glb(COARSE, TRIANGLES, node=turn),
-            a_ply=models.ply(moved, turned),
-            a_scn=CAMERA + "material 2\nmesh a.glb\n",
-            b_scn=CAMERA + "material 2\nmesh a.ply\n",
-        )
+        self.write(a_glb=models.glb(COARSE, TRIANGLES, node=turn), a_ply=models.ply(moved, turned),
+                   a_scn=CAMERA + "material 2\nmesh a.glb\n", b_scn=CAMERA + "material 2\nmesh a.ply\n")
         self.expect_same("a.scn", "b.scn")
 
     def test_lines_and_points_are_left_out_and_told(self):
@@ -157,14 +140,9 @@ class Exported(Work):
 class Materials(Work):
     def setUp(self):
         super().setUp()
-        self.write(
-            colors_obj=COLORED,
-            colors_mtl=LIBRARY,
-            red_ply=models.ply(COARSE, TRIANGLES[:HALF]),
-            shiny_ply=models.ply(COARSE, TRIANGLES[HALF:]),
-            whole_ply=models.ply(COARSE, TRIANGLES),
-            own_scn=CAMERA + "mesh colors.obj\n",
-        )
+        self.write(colors_obj=COLORED, colors_mtl=LIBRARY, red_ply=models.ply(COARSE, TRIANGLES[:HALF]),
+                   shiny_ply=models.ply(COARSE, TRIANGLES[HALF:]), whole_ply=models.ply(COARSE, TRIANGLES),
+                   own_scn=CAMERA + "mesh colors.obj\n")
 
     def test_those_of_the_file_are_used_before_a_material_is_selected(self):
         self.write(defined_scn=CAMERA + DEFINES + "material red\nmesh red.ply\nmaterial shiny\nmesh shiny.ply\n")
@@ -206,10 +184,7 @@ class Materials(Work):
 @unittest.skipUnless(ASSIMP, "this build is without Assimp")
 class Hostile(Work):
     def test_a_crash_is_one_sentence_that_names_the_line(self):
-        self.write(
-            a_off="OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n3 0 1 2\n",
-            a_scn="light 0 0 1 1\n\nmesh a.off\n",
-        )
+        self.write(a_off="OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n3 0 1 2\n", a_scn="light 0 0 1 1\n\nmesh a.off\n")
         self.assertRegex(self.clrt("a.scn", "-o", "a.pfm", code=3), r"^clrt: a\.scn:3:6: a\.off: Assimp .*\n$")
 
     def test_a_tree_of_endless_depth_is_one_sentence(self):
@@ -241,11 +216,8 @@ class Hostile(Work):
         def enlarge(document):
             document["accessors"][1]["count"] = 4000000000
 
-        self.write(
-            a_off="OFF\n4000000000 1 0\n0 0 0\n",
-            a_glb=models.glb(POINTS, TRIANGLES, change=enlarge),
-            a_stl=b"\0" * 80 + b"\xff\xff\xff\x7f" + b"\0" * 50,
-        )
+        self.write(a_off="OFF\n4000000000 1 0\n0 0 0\n", a_glb=models.glb(POINTS, TRIANGLES, change=enlarge),
+                   a_stl=b"\0" * 80 + b"\xff\xff\xff\x7f" + b"\0" * 50)
         for name in ("a.off", "a.glb", "a.stl"):
             start = time.monotonic()
             self.assertRegex(self.clrt(name, "-o", "a.pfm", code=3), rf"^clrt: {name}: .*\n$")
@@ -269,10 +241,8 @@ class Hostile(Work):
         expected = self.picture("inner/none.obj", "-q")
         for name in ("inner/a.obj", "inner/b.obj"):
             self.assertEqual(self.picture(name, "-q"), expected)
-        self.assertIn(
-            "it names files outside of its folder, which are not read",
-            self.run_clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr,
-        )
+        self.assertIn("it names files outside of its folder, which are not read",
+                      self.run_clrt("inner/a.obj", "-s", "8x8", "-o", "a.pfm").stderr)
 
     def test_links_lead_no_further_than_the_folder(self):
         note = "it names files outside of its folder, which are not read"

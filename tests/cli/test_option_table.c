@@ -20,18 +20,16 @@ static void copy_words(char words[128], const Option *option)
     snprintf(words, 128, "%.*s", (int)strcspn(list, "]"), list);
 }
 
-static void groups_are_in_their_order(void **state)
+TEST(groups_are_in_their_order)
 {
-    (void)state;
     for (size_t i = 1; i < option_count; i++)
         assert_true(option_table[i - 1].group <= option_table[i].group);
     for (size_t group = 0; group < OPTION_GROUPS; group++)
         assert_non_null(option_group_names[group]);
 }
 
-static void names_and_letters_are_unique(void **state)
+TEST(names_and_letters_are_unique)
 {
-    (void)state;
     for (size_t i = 0; i < option_count; i++)
         for (size_t j = 0; j < i; j++) {
             assert_string_not_equal(option_table[i].name, option_table[j].name);
@@ -40,9 +38,8 @@ static void names_and_letters_are_unique(void **state)
         }
 }
 
-static void settings_that_cost_or_buy_speed_are_classed(void **state)
+TEST(settings_that_cost_or_buy_speed_are_classed)
 {
-    (void)state;
     for (size_t i = 0; i < option_count; i++) {
         const Option *option = &option_table[i];
         if (option->group == GROUP_SPEED)
@@ -53,9 +50,8 @@ static void settings_that_cost_or_buy_speed_are_classed(void **state)
 }
 
 // The help of options of class bounded must contain the bound.
-static void bounded_settings_tell_their_bound(void **state)
+TEST(bounded_settings_tell_their_bound)
 {
-    (void)state;
     for (size_t i = 0; i < option_count; i++)
         if (option_table[i].class == CLASS_BOUNDED)
             assert_non_null(strstr(option_table[i].help, "the error is at most"));
@@ -67,9 +63,8 @@ static bool is_name(const char *word)
     return isupper((unsigned char)word[0]);
 }
 
-static void every_listed_word_is_understood(void **state)
+TEST(every_listed_word_is_understood)
 {
-    (void)state;
     for (size_t i = 0; i < option_count; i++) {
         if (!is_choice(&option_table[i]))
             continue;
@@ -83,9 +78,8 @@ static void every_listed_word_is_understood(void **state)
     }
 }
 
-static void every_understood_word_is_listed(void **state)
+TEST(every_understood_word_is_listed)
 {
-    (void)state;
     for (size_t i = 0; i < option_count; i++) {
         if (!is_choice(&option_table[i]) || is_name(option_table[i].argument))
             continue;
@@ -132,9 +126,8 @@ static const char *find_entry(const char *help, const Option *option, const char
     return entry + strlen(start);
 }
 
-static void help_names_every_option_with_its_class(void **state)
+TEST(help_names_every_option_with_its_class)
 {
-    (void)state;
     const char *help = help_text();
     for (size_t i = 0; i < option_count; i++) {
         const char *end, *entry = find_entry(help, &option_table[i], &end);
@@ -147,24 +140,8 @@ static void help_names_every_option_with_its_class(void **state)
     }
 }
 
-static void help_fits_a_wide_terminal(void **state)
+TEST(help_fits_a_wide_terminal)
 {
-    (void)state;
     for (const char *line = help_text(); *line != '\0'; line += strcspn(line, "\n") + 1)
         assert_true(strcspn(line, "\n") <= 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groups_are_in_their_order),
-        cmocka_unit_test(names_and_letters_are_unique),
-        cmocka_unit_test(settings_that_cost_or_buy_speed_are_classed),
-        cmocka_unit_test(bounded_settings_tell_their_bound),
-        cmocka_unit_test(every_listed_word_is_understood),
-        cmocka_unit_test(every_understood_word_is_listed),
-        cmocka_unit_test(help_names_every_option_with_its_class),
-        cmocka_unit_test(help_fits_a_wide_terminal),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,29 +25,12 @@ static void tell(char *text, size_t size, double seconds, const RenderProgress *
     fclose(log);
 }
 
-static void the_time_left_follows_from_the_tiles_that_are_done(void **state)
+TEST(the_time_left_follows_from_the_tiles_that_this_run_has_done)
 {
-    (void)state;
     char text[128];
-    const RenderProgress render = {.tiles_done = 25, .tiles = 100};
-    tell(text, sizeof text, 10.2, &render);
+    tell(text, sizeof text, 10.2, &(RenderProgress){.tiles_done = 25, .tiles = 100});
     assert_string_equal(text, "tracing 25 %, 31 s left\n");
-}
-
-static void tiles_of_an_earlier_run_took_this_one_no_time(void **state)
-{
-    (void)state;
-    char text[128];
-    const RenderProgress render = {.tiles_done = 60, .tiles = 100, .tiles_ready = 50};
-    tell(text, sizeof text, 10.1, &render);
+    tell(text, sizeof text, 10.1,
+         &(RenderProgress){.tiles_done = 60, .tiles = 100, .tiles_ready = 50});
     assert_string_equal(text, "tracing 60 %, 40 s left\n");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_time_left_follows_from_the_tiles_that_are_done),
-        cmocka_unit_test(tiles_of_an_earlier_run_took_this_one_no_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

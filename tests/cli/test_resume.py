@@ -34,14 +34,14 @@ class Resume(Work):
         self.clrt(*words, "-o", f"whole-{NAME}")
         return self.bytes_of(f"whole-{NAME}")
 
-    def kill_in_the_middle(self, *words, tiles=40):
-        """Kills a run when its journal has at least that many tiles."""
+    def stop(self, *words, number=signal.SIGINT):
+        """Sends a signal to a run once its journal has 40 tiles."""
         process = self.start(*words, "-o", NAME, "--resume")
-        size = tiles * TILE * TILE * 12
-        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > size)
+        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 40 * TILE * TILE * 12)
                       or process.poll() is not None)
-        process.kill()
-        self.assertEqual(process.wait(), -signal.SIGKILL)
+        process.send_signal(number)
+        process.communicate(timeout=600)
+        self.assertEqual(process.returncode, -number if number == signal.SIGKILL else 128 + number)
 
     def resumed_tiles(self, *words):
         """Continues to the end and returns the number of tiles found."""
@@ -77,14 +77,14 @@ class Kills(Resume):
 
     def test_what_was_done_is_not_done_again(self):
         whole = self.whole(*LONG)
-        self.kill_in_the_middle(*LONG)
+        self.stop(*LONG, number=signal.SIGKILL)
         self.assertGreaterEqual(self.resumed_tiles(*LONG), 40)
         self.assertTrue(self.bytes_of(NAME) == whole)
         self.assertFalse(self.journal.exists())
 
     def test_a_torn_or_damaged_journal_costs_the_tiles_from_there_on(self):
         whole = self.whole(*LONG)
-        self.kill_in_the_middle(*LONG)
+        self.stop(*LONG, number=signal.SIGKILL)
         journal, chance = self.journal.read_bytes(), random.Random(2)
         record = 24 + TILE * TILE * 12
         for _ in range(4):
@@ -107,7 +107,7 @@ class Kills(Resume):
                      ["--crop", "30,20,390,290"], ["--precision", "fp64"]):
             more += ["--aa=4"]
             whole = self.whole(*LONG, *more)
-            self.kill_in_the_middle(*LONG, *more)
+            self.stop(*LONG, *more, number=signal.SIGKILL)
             self.assertGreaterEqual(self.resumed_tiles(*LONG, *more), 30)
             self.assertTrue(self.bytes_of(NAME) == whole, more)
             (self.work / NAME).unlink()
@@ -115,7 +115,7 @@ class Kills(Resume):
     def test_statistics_count_what_this_run_draws(self):
         whole = self.statistics(*LONG, "-o", f"whole-{NAME}")
         self.assertEqual(whole["tiles"], {"total": TILES, "found": 0, "drawn": TILES})
-        self.kill_in_the_middle(*LONG)
+        self.stop(*LONG, number=signal.SIGKILL)
         rest = self.statistics(*LONG, "-o", NAME, "--resume")
         self.assert_same_bytes(NAME, f"whole-{NAME}")
         drawn = rest["tiles"]["drawn"]
@@ -144,15 +144,6 @@ class Kills(Resume):
 
 
 class Stops(Resume):
-    def stop(self, *words, number=signal.SIGINT):
-        """Sends a signal to a run once its journal contains tiles."""
-        process = self.start(*words, "-o", NAME, "--resume")
-        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 100000)
-                      or process.poll() is not None)
-        process.send_signal(number)
-        process.communicate(timeout=600)
-        self.assertEqual(process.returncode, 128 + number)
-
     @needs_exr
     def test_the_first_signal_writes_whole_tiles_marked_incomplete(self):
         self.whole(*LONG)
@@ -209,7 +200,7 @@ class Stops(Resume):
 
 class Refusals(Resume):
     def test_what_was_drawn_otherwise_is_refused_and_left_as_it_is(self):
-        self.kill_in_the_middle(*LONG)
+        self.stop(*LONG, number=signal.SIGKILL)
         journal = self.journal.read_bytes()
         (self.work / "own.scn").write_text("light 0 0 5 1\nsphere 0 0 0 1\n")
         for words in (LONG + ["--aa=11"], LONG + ["--view", "2"], LONG + ["--tile", "40x20"],

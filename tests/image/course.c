@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-void course_path(char path[COURSE_PATH_SIZE], const char *kind, const char *name)
+void course_path(char path[COURSE_PATH_SIZE], const char *name)
 {
     const char *folder = getenv("CLRT_COURSE");
-    snprintf(path, COURSE_PATH_SIZE, "%s/%s/%s", folder != NULL ? folder : CLRT_COURSE, kind, name);
+    snprintf(path, COURSE_PATH_SIZE, "%s/scenes/%s", folder != NULL ? folder : CLRT_COURSE, name);
 }
 
 bool course_has(const char *path)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the course's scenes and reference pictures lie. They are no part of clrt; the environment
+// Where the course's scenes are. They are no part of clrt; the environment
 // variable CLRT_COURSE names their folder, beside the sources where it is unset.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 #define COURSE_PATH_SIZE 4096
 
-// Writes the path of scenes/NAME or references/NAME.
-void course_path(char path[COURSE_PATH_SIZE], const char *kind, const char *name);
+// Writes the path of scenes/NAME.
+void course_path(char path[COURSE_PATH_SIZE], const char *name);
 
 // Returns whether the file exists. If not, prints that the test skips it.
 bool course_has(const char *path);

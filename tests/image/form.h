@@ -6,6 +6,11 @@
 
 #include "device/kernel_choice.h"
 
+// All forms: five that draw the same bits, and fp64 last.
+#define FORMS      6
+#define FORMS_FP32 (FORMS - 1)
+extern const KernelChoice form_all[FORMS];
+
 // Ends the process where there is no form of that name.
 KernelChoice form_choice(void);
 

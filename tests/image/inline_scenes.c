@@ -3,6 +3,8 @@
 // missing.
 #include "image/inline_scenes.h"
 
+#include "unit/cmocka_all.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +12,8 @@
 
 #define SHEET_NAME "sheet.ply"
 #define SIDE       10 // vertices along each side of the sheet
+
+static char folder[] = "/tmp/clrt-scenes-XXXXXX";
 
 static const struct {
     const char *name, *text;
@@ -119,73 +123,47 @@ static void sheet_write(FILE *stream)
         }
 }
 
-static void make_path(const InlineScenes *scenes, const char *name, char path[INLINE_PATH_SIZE])
+static void make_path(const char *name, char path[INLINE_PATH_SIZE])
 {
-    snprintf(path, INLINE_PATH_SIZE, "%.200s/%s", scenes->folder, name);
+    snprintf(path, INLINE_PATH_SIZE, "%s/%s", folder, name);
 }
 
-void inline_scenes_path(const InlineScenes *scenes, InlineScene scene, char path[INLINE_PATH_SIZE])
+void inline_scenes_path(InlineScene scene, char path[INLINE_PATH_SIZE])
 {
-    make_path(scenes, scenes_written[scene].name, path);
+    make_path(scenes_written[scene].name, path);
 }
 
-// Writes text, or the sheet if text is NULL.
-static bool write_file(const InlineScenes *scenes, const char *name, const char *text, Error *error)
+// Opens a file for writing, or returns NULL.
+static FILE *open_file(const char *name)
 {
     char path[INLINE_PATH_SIZE];
-    make_path(scenes, name, path);
-    FILE *stream = fopen(path, "w");
-    if (stream == NULL)
-        return error_set(error, "cannot write %s", path);
-    if (text != NULL)
-        fputs(text, stream);
-    else
-        sheet_write(stream);
-    return fclose(stream) == 0 || error_set(error, "cannot write %s", path);
+    make_path(name, path);
+    return fopen(path, "w");
 }
 
-bool inline_scenes_write(InlineScenes *scenes, Error *error)
+SET_UP(write_scenes)
 {
-    const char *base = getenv("TMPDIR");
-    snprintf(scenes->folder, sizeof scenes->folder, "%.180s/clrt-scenes-XXXXXX",
-             base != NULL ? base : "/tmp");
-    if (mkdtemp(scenes->folder) == NULL)
-        return error_set(error, "cannot make a folder %s", scenes->folder);
-    bool ok = write_file(scenes, SHEET_NAME, NULL, error);
-    for (int scene = 0; scene < INLINE_COUNT; scene++)
-        ok =
-            ok && write_file(scenes, scenes_written[scene].name, scenes_written[scene].text, error);
-    return ok;
-}
-
-void inline_scenes_remove(InlineScenes *scenes)
-{
-    char path[INLINE_PATH_SIZE];
-    make_path(scenes, SHEET_NAME, path);
-    unlink(path);
-    for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        inline_scenes_path(scenes, (InlineScene)scene, path);
-        unlink(path);
+    FILE *stream;
+    if (mkdtemp(folder) == NULL || (stream = open_file(SHEET_NAME)) == NULL)
+        return -1;
+    sheet_write(stream);
+    int failures = fclose(stream);
+    for (int scene = 0; failures == 0 && scene < INLINE_COUNT; scene++) {
+        if ((stream = open_file(scenes_written[scene].name)) == NULL)
+            return -1;
+        failures = fputs(scenes_written[scene].text, stream) < 0 || fclose(stream) != 0;
     }
-    rmdir(scenes->folder);
-    *scenes = (InlineScenes){0};
+    return failures;
 }
 
-InlineScenes inline_scenes;
-
-int inline_scenes_set_up(void **state)
+TEAR_DOWN(remove_scenes)
 {
-    Error error = {0};
-    (void)state;
-    if (inline_scenes_write(&inline_scenes, &error))
-        return 0;
-    fprintf(stderr, "%s\n", error.text);
-    return -1;
-}
-
-int inline_scenes_tear_down(void **state)
-{
-    (void)state;
-    inline_scenes_remove(&inline_scenes);
-    return 0;
+    char path[INLINE_PATH_SIZE];
+    make_path(SHEET_NAME, path);
+    int failures = unlink(path);
+    for (int scene = 0; scene < INLINE_COUNT; scene++) {
+        inline_scenes_path((InlineScene)scene, path);
+        failures |= unlink(path);
+    }
+    return failures | rmdir(folder);
 }

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Scenes with features that no scene of the course has. They are written to files in a temporary
-// folder.
+// Scenes with features that no scene of the course has. Programs that contain inline_scenes.c have
+// them as files in a temporary folder while their tests run.
 #pragma once
 
-#include "base/error.h"
-
 #define INLINE_PATH_SIZE 256
-
-typedef struct {
-    char folder[INLINE_PATH_SIZE];
-} InlineScenes;
 
 typedef enum {
     INLINE_OPEN_SHEET,
@@ -19,15 +13,4 @@ typedef enum {
     INLINE_COUNT
 } InlineScene;
 
-// Creates the folder and its files.
-bool inline_scenes_write(InlineScenes *scenes, Error *error);
-
-// Removes the folder and its files.
-void inline_scenes_remove(InlineScenes *scenes);
-
-// The scenes of a test program, with the setup and teardown of its group of tests.
-extern InlineScenes inline_scenes;
-int inline_scenes_set_up(void **state);
-int inline_scenes_tear_down(void **state);
-
-void inline_scenes_path(const InlineScenes *scenes, InlineScene scene, char path[INLINE_PATH_SIZE]);
+void inline_scenes_path(InlineScene scene, char path[INLINE_PATH_SIZE]);

@@ -3,9 +3,12 @@
 #include "image/rendered.h"
 
 #include "image/form.h"
+#include "mesh/ply.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 Framebuffer rendered(const PictureRequest *request)
 {
@@ -16,37 +19,57 @@ Framebuffer rendered(const PictureRequest *request)
     return picture;
 }
 
+Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *layers)
+{
+    Error error = {0};
+    request.aovs = 0;
+    request.layers = layers;
+    if (!aov_read_list(channels, &request.aovs, &error))
+        fail_msg("%s", error.text);
+    return rendered(&request);
+}
+
+PictureRequest rendered_in_form(PictureRequest request, const KernelChoice *form)
+{
+    request.choice = *form;
+    request.group_width = request.group_height = form_group(form);
+    return request;
+}
+
+double layer_float(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+Vec3 layer_vector(const uint32_t bits[3])
+{
+    return vec3(layer_float(bits[0]), layer_float(bits[1]), layer_float(bits[2]));
+}
+
 void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
                           size_t count)
 {
-    Framebuffer first = rendered(expected);
+    FREED_BY(framebuffer_free) Framebuffer first = rendered(expected);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
     for (size_t i = 0; i < count; i++) {
         Framebuffer other = rendered(&others[i]);
         assert_memory_equal(first.pixels, other.pixels, size);
         framebuffer_free(&other);
     }
-    framebuffer_free(&first);
 }
 
 void rendered_expect_same_in_every_form(const PictureRequest *usual)
 {
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}};
-    enum { COUNT = sizeof choices / sizeof choices[0] };
-    PictureRequest others[COUNT];
-    for (uint32_t i = 0; i < COUNT; i++) {
-        others[i] = *usual;
-        others[i].choice = choices[i];
-        others[i].group_width = others[i].group_height = form_group(&choices[i]);
+    PictureRequest others[FORMS_FP32];
+    for (uint32_t i = 0; i < FORMS_FP32; i++) {
+        others[i] = rendered_in_form(*usual, &form_all[i]);
         others[i].threads = i;
         others[i].builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
-        others[i].specialization = i == COUNT - 1 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+        others[i].specialization = i == 2 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
     }
-    rendered_expect_same(usual, others, COUNT);
+    rendered_expect_same(usual, others, FORMS_FP32);
 }
 
 double rendered_error(const Framebuffer *one, const Framebuffer *other)
@@ -57,4 +80,26 @@ double rendered_error(const Framebuffer *one, const Framebuffer *other)
     for (size_t i = 0; i < values; i++)
         sum += pow((double)first[i] - (double)second[i], 2);
     return sqrt(sum / (double)values);
+}
+
+FILE *temporary_open(char path[TEMPORARY_PATH])
+{
+    snprintf(path, TEMPORARY_PATH, "%s", "/tmp/clrt-scene-XXXXXX");
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    return stream;
+}
+
+void temporary_close(FILE *stream)
+{
+    assert_int_equal(fclose(stream), 0);
+}
+
+void temporary_mesh(char path[TEMPORARY_PATH], const Mesh *mesh)
+{
+    FILE *stream = temporary_open(path);
+    assert_true(ply_write(mesh, stream));
+    temporary_close(stream);
 }

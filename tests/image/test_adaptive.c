@@ -2,7 +2,6 @@
 // Tests the error and the cost of adaptive anti-aliasing, and that every device draws the same
 // picture.
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
@@ -28,9 +27,8 @@ static const char *const scenes[] = {SCENES "simple.scn", SCENES "reflections.sc
                                      CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
-static void every_form_threads_and_tree_refine_the_same(void **state)
+TEST(every_form_threads_and_tree_refine_the_same)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         PictureRequest usual = adaptive(square(scenes[scene], 97), 0.02f);
         usual.height = 61;
@@ -39,9 +37,8 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
 }
 
 // The second step knows more samples around a cell, but it reuses all existing samples.
-static void refining_in_steps_takes_as_many_samples_as_at_once(void **state)
+TEST(refining_in_steps_takes_as_many_samples_as_at_once)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         uint64_t samples[2];
         PictureRequest once = adaptive(square(scenes[scene], 120), 0.01f);
@@ -79,6 +76,7 @@ static void expect_error_of_uniform(const char *scene, const Saving *saving)
     few.sample_count = &samples;
     many.samples = 32;
     uniform.samples = side;
+    FREED_BY(framebuffer_free)
     Framebuffer reference = rendered(&many), plain = rendered(&uniform), refined = rendered(&few);
     const double allowed = rendered_error(&plain, &reference);
     const double reached = rendered_error(&refined, &reference);
@@ -86,65 +84,54 @@ static void expect_error_of_uniform(const char *scene, const Saving *saving)
         fail_msg("%s: error %g, of %ux%u samples %g", scene, reached, side, side, allowed);
     if (saving->times * samples > (uint64_t)SIDE * SIDE * side * side)
         fail_msg("%s: %llu samples", scene, (unsigned long long)samples);
-    framebuffer_free(&reference);
-    framebuffer_free(&plain);
-    framebuffer_free(&refined);
 }
 
-static void a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them(void **state)
+TEST(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them)
 {
-    (void)state;
     static const Saving saving = {0.1f, 4, 8};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         expect_error_of_uniform(scenes[scene], &saving);
 }
 
-static void a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them(void **state)
+TEST(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them)
 {
-    (void)state;
     static const Saving saving = {0.03f, 8, 25};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         expect_error_of_uniform(scenes[scene], &saving);
 }
 
-static void a_picture_of_one_color_takes_a_sample_a_pixel(void **state)
+TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
 {
-    (void)state;
     uint64_t samples;
     PictureRequest request = adaptive(square(scenes[0], 30), 0.001f);
     request.max_level = 0;
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     assert_int_equal(samples, 900);
-    framebuffer_free(&picture);
 }
 
 #define SPHERES 60 // spheres along a side of the wall
 
-// Writes a wall of bright spheres on black. The radii, in pixels, alternate among the given radii.
-static const char *write_spheres(const double radii[], int count)
+// Bright spheres on black. Neighbors are three pixels apart.
+TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
 {
-    static char path[TEMPORARY_PATH];
+    static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
+    char path[TEMPORARY_PATH];
     FILE *stream = temporary_open(path);
     fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 1 1 1\nmaterial it\n"
                     "camera 0 -100 0 0 0 0 60\n");
     const double pixel = 2 * 100 * tan(acos(-1) / 6) / 181;
-    for (int y = 0; y < SPHERES; y++)
-        for (int x = 0; x < SPHERES; x++)
-            fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
-                    (2.971 * (y - 30) + 1.5) * pixel, radii[(y * 7 + x) % count] * pixel);
-    temporary_close(stream);
-    return path;
-}
-
-// Neighboring spheres are three pixels apart.
-static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
-{
-    (void)state;
-    static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};
     double expected = 0, sum = 0;
-    PictureRequest request = adaptive(square(write_spheres(radii, 6), 181), 1);
-    Framebuffer picture = rendered(&request);
+    for (int y = 0; y < SPHERES; y++)
+        for (int x = 0; x < SPHERES; x++) {
+            const double radius = radii[(y * 7 + x) % 6];
+            expected += acos(-1) * pow(radius, 2);
+            fprintf(stream, "sphere %.9g 0 %.9g %.9g\n", (3.013 * (x - 30) + 0.5) * pixel,
+                    (2.971 * (y - 30) + 1.5) * pixel, radius * pixel);
+        }
+    temporary_close(stream);
+    const PictureRequest request = adaptive(square(path, 181), 1);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     int seen = 0;
     for (int y = 0; y < SPHERES; y++)
         for (int x = 0; x < SPHERES; x++) {
@@ -156,53 +143,28 @@ static void thousands_of_spheres_smaller_than_pixels_are_all_seen(void **state)
                     light += (double)picture.pixels[((int)row + dy) * 181 + (int)column + dx][0];
             seen += light > 0;
             sum += light;
-            expected += acos(-1) * pow(radii[(y * 7 + x) % 6], 2);
         }
     assert_int_equal(seen, SPHERES * SPHERES);
     assert_true(fabs(sum / expected - 1) < 0.1);
-    framebuffer_free(&picture);
-    remove(request.scene_path);
+    remove(path);
 }
 
-// Writes a sphere, 80 pixels wide, that has little contrast with the background.
-static const char *write_faint_sphere(void)
+TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)
 {
-    static char path[TEMPORARY_PATH];
-    FILE *stream = temporary_open(path);
+    uint64_t samples;
+    char path[TEMPORARY_PATH];
+    FILE *stream = temporary_open(path); // a sphere, 80 pixels wide, of little contrast
     fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
                     "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
     temporary_close(stream);
-    return path;
-}
-
-static void a_faint_outline_is_placed_with_two_samples_a_pixel(void **state)
-{
-    (void)state;
-    uint64_t samples;
-    PictureRequest plain = square(write_faint_sphere(), 100), many = plain;
+    PictureRequest plain = square(path, 100), many = plain;
     many.samples = 32;
     PictureRequest request = adaptive(plain, 0.08f);
     request.sample_count = &samples;
+    FREED_BY(framebuffer_free)
     Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
     const double left = rendered_error(&picture, &exact) / rendered_error(&first, &exact);
     if (samples < 10100 || samples > 11300 || left > 0.45)
         fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
-    framebuffer_free(&picture);
-    framebuffer_free(&first);
-    framebuffer_free(&exact);
     remove(request.scene_path);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
-        cmocka_unit_test(refining_in_steps_takes_as_many_samples_as_at_once),
-        cmocka_unit_test(a_contrast_of_10_percent_reaches_16_samples_with_an_eighth_of_them),
-        cmocka_unit_test(a_contrast_of_3_percent_reaches_64_samples_with_a_25th_of_them),
-        cmocka_unit_test(a_picture_of_one_color_takes_a_sample_a_pixel),
-        cmocka_unit_test(a_faint_outline_is_placed_with_two_samples_a_pixel),
-        cmocka_unit_test(thousands_of_spheres_smaller_than_pixels_are_all_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 // counters. They must be equal in every form of the kernels and for all tile sizes.
 #include "image/form.h"
 #include "image/inline_scenes.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "oracle/oracle.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
@@ -16,34 +16,6 @@
 // The number of pixels in 10,000 that may differ in a decision, because rays along an edge may fall
 // on either side.
 #define LIMIT 2
-
-static AovSet set_of(const char *list)
-{
-    AovSet set = 0;
-    Error error = {0};
-    if (!aov_read_list(list, &set, &error))
-        fail_msg("%s", error.text);
-    return set;
-}
-
-static void draw(const PictureRequest *request, Framebuffer *picture)
-{
-    Error error = {0};
-    if (!picture_render(picture, request, &error))
-        fail_msg("%s", error.text);
-}
-
-static double float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
-static Vec3 vector_at(const uint32_t *values)
-{
-    return vec3(float_of(values[0]), float_of(values[1]), float_of(values[2]));
-}
 
 // The values of a pixel, in the order of aov_table.
 typedef struct {
@@ -58,8 +30,8 @@ typedef struct {
 static Values values_at(const Layers *layers, uint32_t x, uint32_t y)
 {
     const uint32_t *v = layers_at(layers, x, y);
-    return (Values){float_of(v[0]), vector_at(v + 1), vector_at(v + 4), v[7],
-                    v[8],           float_of(v[9]),   float_of(v[10])};
+    return (Values){layer_float(v[0]), layer_vector(v + 1), layer_vector(v + 4), v[7], v[8],
+                    layer_float(v[9]), layer_float(v[10])};
 }
 
 static double apart(Vec3 a, Vec3 b)
@@ -105,7 +77,7 @@ static void judge_pixel(Judgment *judgment, const Values *values, const OraclePa
 static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
 {
     Judgment judgment = {0};
-    Oracle oracle = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
     if (!oracle_make(&oracle, scene, &error))
         fail_msg("%s", error.text);
@@ -117,7 +89,6 @@ static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
             const OraclePath path = oracle_path(&view, x + 0.5, y + 0.5);
             judge_pixel(&judgment, &values, &path, (double)scene->lights.count);
         }
-    oracle_free(&oracle);
     return judgment;
 }
 
@@ -130,17 +101,14 @@ static double size_of(const Scene *scene)
 // ignore.
 static void check(const char *path, uint32_t step)
 {
-    Scene scene = {0};
-    Layers layers;
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(layers_free) Layers layers;
     Error error = {0};
-    Framebuffer picture = {0};
     PictureRequest request = picture_request(path, 1);
     request.samples = 2;
-    request.aovs = set_of(JUDGED);
-    request.layers = &layers;
     if (!scn_load(&scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
-    draw(&request, &picture);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, JUDGED, &layers);
     const Judgment judgment = judge(&scene, &layers, step);
     print_message("%s: %u of %u pixels show another primitive, %u other shadows, %u other bounces; "
                   "depth off by %.2g, normal by %.2g, position by %.2g\n",
@@ -151,22 +119,17 @@ static void check(const char *path, uint32_t step)
     assert_true(judgment.bounces <= allowed);
     assert_true(judgment.depth < 2e-5 && judgment.normal < 1e-3);
     assert_true(judgment.position < 1e-5 * size_of(&scene));
-    framebuffer_free(&picture);
-    layers_free(&layers);
-    scene_free(&scene);
 }
 
-static void channels_of_small_scenes_are_what_the_oracle_sees(void **state)
+TEST(channels_of_small_scenes_are_what_the_oracle_sees)
 {
-    (void)state;
     check(SOURCE_SCENE("scenes/reflections.scn"), 2);
     check(SOURCE_SCENE("scenes/silhouette.scn"), 4);
     check(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
 }
 
-static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
+TEST(channels_of_a_mesh_are_what_the_oracle_sees)
 {
-    (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -174,20 +137,11 @@ static void channels_of_a_mesh_are_what_the_oracle_sees(void **state)
     check(SOURCE_SCENE("scenes/creature.scn"), 8);
 }
 
-static void channels_are_in_the_coordinates_of_a_scene_far_away(void **state)
+TEST(channels_are_in_the_coordinates_of_a_scene_far_away)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
     check(path, 2);
-}
-
-static void take_values(PictureRequest *request, const char *list, Layers *layers,
-                        Framebuffer *picture)
-{
-    request->aovs = set_of(list);
-    request->layers = layers;
-    draw(request, picture);
 }
 
 static bool layers_equal(const Layers *a, const Layers *b)
@@ -201,59 +155,41 @@ static bool pictures_equal(const Framebuffer *a, const Framebuffer *b)
     return memcmp(a->pixels, b->pixels, (size_t)a->width * a->height * sizeof *a->pixels) == 0;
 }
 
+static PictureRequest every_feature(void)
+{
+    return picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
+}
+
 // Checks that the request gives the same bits as the defaults.
-static void check_same(const PictureRequest *other, const char *list)
+static void check_same(PictureRequest other, const char *list)
 {
-    Layers layers, changed_layers;
-    Framebuffer picture = {0}, changed = {0};
-    PictureRequest request = picture_request(other->scene_path, other->view);
-    PictureRequest change = *other;
-    take_values(&request, list, &layers, &picture);
-    take_values(&change, list, &changed_layers, &changed);
+    FREED_BY(layers_free) Layers layers, other_layers;
+    FREED_BY(framebuffer_free)
+    Framebuffer picture = rendered_with(every_feature(), list, &layers),
+                changed = rendered_with(other, list, &other_layers);
     assert_true(pictures_equal(&picture, &changed));
-    assert_true(layers_equal(&layers, &changed_layers));
-    framebuffer_free(&picture);
-    framebuffer_free(&changed);
-    layers_free(&layers);
-    layers_free(&changed_layers);
+    assert_true(layers_equal(&layers, &other_layers));
 }
 
-static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                       {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-                                       {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}};
-#define CHOICES (sizeof choices / sizeof *choices)
-
-static void every_form_of_the_kernels_gives_the_same_channels(void **state)
+TEST(every_form_of_the_kernels_gives_the_same_channels)
 {
-    (void)state;
-    for (size_t i = 0; i < CHOICES; i++) {
-        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-        request.choice = choices[i];
-        check_same(&request, JUDGED ",samples");
-    }
+    for (size_t i = 0; i < FORMS_FP32; i++)
+        check_same(rendered_in_form(every_feature(), &form_all[i]), JUDGED ",samples");
 }
 
-static void every_form_over_one_kind_of_nodes_counts_the_same_tests(void **state)
+TEST(every_form_over_one_kind_of_nodes_counts_the_same_tests)
 {
-    const KernelChoice own = form_choice();
-    (void)state;
-    for (size_t i = 0; i < CHOICES; i++) {
-        PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-        request.choice = choices[i];
-        if (choices[i].nodes == own.nodes)
-            check_same(&request, "boxtests,tritests");
-    }
+    for (size_t i = 0; i < FORMS_FP32; i++)
+        if (form_all[i].nodes == form_choice().nodes)
+            check_same(rendered_in_form(every_feature(), &form_all[i]), "boxtests,tritests");
 }
 
-static void tiles_change_no_channel(void **state)
+TEST(tiles_change_no_channel)
 {
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
+    PictureRequest request = every_feature();
     request.tile_width = 13;
     request.tile_height = 7;
-    check_same(&request, JUDGED ",samples,boxtests,tritests");
+    check_same(request, JUDGED ",samples,boxtests,tritests");
 }
 
 static double sum_of(const Layers *layers, uint32_t channel)
@@ -261,85 +197,58 @@ static double sum_of(const Layers *layers, uint32_t channel)
     double sum = 0;
     const size_t count = (size_t)layers->width * layers->height;
     for (size_t pixel = 0; pixel < count; pixel++)
-        sum += float_of(layers->values[pixel * layers->count + channel]);
+        sum += layer_float(layers->values[pixel * layers->count + channel]);
     return sum;
 }
 
-static void tests_and_bounces_of_pixels_add_up_to_those_of_the_picture(void **state)
+// Compares the sums of channels with the picture's counts of rays of that kind and of tests.
+static void check_sums(const char *channels, uint32_t samples, int kind)
 {
-    Layers layers;
+    FREED_BY(layers_free) Layers layers;
     uint64_t tallies[TALLY_KINDS];
-    Framebuffer picture = {0};
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
-    request.choice = choices[0];
+    PictureRequest request = rendered_in_form(every_feature(), &form_all[0]);
     request.tallies = tallies;
-    take_values(&request, "bounces,boxtests,tritests", &layers, &picture);
-    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_REFLECTED_RAYS]);
+    request.samples = samples;
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, channels, &layers);
+    assert_true(sum_of(&layers, 0) == (double)tallies[kind]);
     assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
     assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
-    layers_free(&layers);
-    framebuffer_free(&picture);
-    request.samples = 3;
-    take_values(&request, "samples,boxtests,tritests", &layers, &picture);
-    assert_true(sum_of(&layers, 0) == (double)tallies[TALLY_CAMERA_RAYS]);
-    assert_true(sum_of(&layers, 1) == (double)tallies[TALLY_BOX_TESTS]);
-    assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
-    layers_free(&layers);
-    framebuffer_free(&picture);
 }
 
-static void the_picture_keeps_its_bits_with_channels(void **state)
+TEST(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture)
 {
-    Layers layers;
-    Framebuffer picture = {0}, plain = {0};
-    PictureRequest request = picture_request(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
-    (void)state;
-    draw(&request, &plain);
-    take_values(&request, JUDGED ",boxtests", &layers, &picture);
-    assert_true(pictures_equal(&picture, &plain));
-    layers_free(&layers);
-    framebuffer_free(&picture);
-    framebuffer_free(&plain);
+    check_sums("bounces,boxtests,tritests", 1, TALLY_REFLECTED_RAYS);
+    check_sums("samples,boxtests,tritests", 3, TALLY_CAMERA_RAYS);
 }
 
-static void a_name_that_is_no_channel_is_refused_with_the_nearest(void **state)
+TEST(the_picture_keeps_its_bits_with_channels)
+{
+    FREED_BY(layers_free) Layers layers;
+    const PictureRequest request = every_feature();
+    FREED_BY(framebuffer_free)
+    Framebuffer plain = rendered(&request),
+                picture = rendered_with(request, JUDGED ",boxtests", &layers);
+    assert_true(pictures_equal(&picture, &plain));
+}
+
+TEST(a_name_that_is_no_channel_is_refused_with_the_nearest)
 {
     AovSet set = 0;
     Error error = {0}, other = {0};
-    (void)state;
     assert_false(aov_read_list("depth,normals", &set, &error));
     assert_string_equal(error.text, "--aov knows no channel 'normals', perhaps normal");
     assert_false(aov_read_list("depth,", &set, &other));
     assert_non_null(strstr(other.text, "--aov wants names among depth, normal, position"));
 }
 
-static void all_stands_for_the_channels_without_a_reference(void **state)
+TEST(all_stands_for_the_channels_without_a_reference)
 {
     AovSet set = 0, every = 0;
     Error error = {0};
-    (void)state;
     for (size_t i = 0; i < aov_count; i++)
         assert_true(aov_read_list(aov_table[i].name, &every, &error));
     assert_true(aov_read_list("all", &set, &error));
     assert_false(aov_needs(set, AOV_NEEDS_REFERENCE));
     assert_true(aov_read_list("all,error", &set, &error));
     assert_int_equal(set, every);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_stands_for_the_channels_without_a_reference),
-        cmocka_unit_test(channels_of_small_scenes_are_what_the_oracle_sees),
-        cmocka_unit_test(channels_of_a_mesh_are_what_the_oracle_sees),
-        cmocka_unit_test(channels_are_in_the_coordinates_of_a_scene_far_away),
-        cmocka_unit_test(every_form_of_the_kernels_gives_the_same_channels),
-        cmocka_unit_test(every_form_over_one_kind_of_nodes_counts_the_same_tests),
-        cmocka_unit_test(tiles_change_no_channel),
-        cmocka_unit_test(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture),
-        cmocka_unit_test(the_picture_keeps_its_bits_with_channels),
-        cmocka_unit_test(a_name_that_is_no_channel_is_refused_with_the_nearest),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

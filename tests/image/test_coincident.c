@@ -4,21 +4,15 @@
 // not change a bit.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
+#include <string.h>
 #include <unistd.h>
 
 #define ORDERS 6
 #define PAIRS  (ORDERS * ORDERS)
 #define SIDE   181
-
-static const KernelChoice forms[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
-#define FORMS (sizeof forms / sizeof *forms)
 
 // The first three orders keep the front side, and the others reverse it.
 static const int orders[ORDERS][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
@@ -35,35 +29,10 @@ static double random_between(uint32_t *state, double low, double high)
     return low + (high - low) * (*state >> 8) / 0x1p24;
 }
 
-static void write_head(FILE *stream, int vertices, int faces, bool has_normals)
+static void set_triangle(uint32_t triangle[3], const uint32_t corners[3], int order)
 {
-    fprintf(stream,
-            "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
-            "property double z\n%selement face %d\nproperty list uchar int vertex_indices\n"
-            "end_header\n",
-            vertices,
-            has_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", faces);
-}
-
-// Writes a triangle for each pair, in the cells of a grid. All fronts face up.
-static void write_corners(FILE *stream)
-{
-    uint32_t state = 4;
-    for (int cell = 0; cell < PAIRS; cell++) {
-        const double x = cell % ORDERS - 2.5, y = cell / ORDERS - 2.5;
-        static const double corners[3][2] = {{-0.4, -0.4}, {0.4, -0.35}, {-0.1, 0.4}};
-        for (int corner = 0; corner < 3; corner++)
-            fprintf(stream, "%.17g %.17g %.17g\n",
-                    x + corners[corner][0] + random_between(&state, -0.09, 0.09),
-                    y + corners[corner][1] + random_between(&state, -0.09, 0.09),
-                    random_between(&state, -0.3, 0.3));
-    }
-}
-
-static void write_triangle(FILE *stream, const int corners[3], int order)
-{
-    fprintf(stream, "3 %d %d %d\n", corners[orders[order][0]], corners[orders[order][1]],
-            corners[orders[order][2]]);
+    for (int i = 0; i < 3; i++)
+        triangle[i] = corners[orders[order][i]];
 }
 
 // Returns the order of the pair's first or second triangle.
@@ -72,15 +41,29 @@ static int order_of(int pair, bool second)
     return second ? pair % ORDERS : pair / ORDERS;
 }
 
+// Writes a triangle for each pair, in the cells of a grid. All fronts face up.
 static void write_pairs(char path[TEMPORARY_PATH], bool second)
 {
-    FILE *stream = temporary_open(path);
-    write_head(stream, 3 * PAIRS, PAIRS, false);
-    write_corners(stream);
-    for (int pair = 0; pair < PAIRS; pair++)
-        write_triangle(stream, (int[]){3 * pair, 3 * pair + 1, 3 * pair + 2},
-                       order_of(pair, second));
-    temporary_close(stream);
+    static const double corners[3][2] = {{-0.4, -0.4}, {0.4, -0.35}, {-0.1, 0.4}};
+    double positions[3 * PAIRS][3];
+    uint32_t triangles[PAIRS][3], state = 4;
+    for (int cell = 0; cell < PAIRS; cell++) {
+        const uint32_t first = 3 * (uint32_t)cell;
+        for (int corner = 0; corner < 3; corner++) {
+            double *position = positions[3 * cell + corner];
+            position[0] = cell % ORDERS - 2.5 + corners[corner][0];
+            position[1] = cell / ORDERS - 2.5 + corners[corner][1];
+            position[0] += random_between(&state, -0.09, 0.09);
+            position[1] += random_between(&state, -0.09, 0.09);
+            position[2] = random_between(&state, -0.3, 0.3);
+        }
+        set_triangle(triangles[cell], (uint32_t[]){first, first + 1, first + 2},
+                     order_of(cell, second));
+    }
+    temporary_mesh(path, &(Mesh){.positions = positions,
+                                 .triangles = triangles,
+                                 .vertex_count = 3 * PAIRS,
+                                 .triangle_count = PAIRS});
 }
 
 // Whether the first and the second mesh are two-sided.
@@ -103,23 +86,15 @@ static void write_scene(char path[TEMPORARY_PATH], const char *first, const char
 // Writes the id that each pixel hits.
 static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE * SIDE])
 {
-    Layers layers = {0};
-    Error error = {0};
-    PictureRequest request = picture_request(scene, 1);
+    FREED_BY(layers_free) Layers layers;
+    PictureRequest request = rendered_in_form(picture_request(scene, 1), form);
     request.width = request.height = SIDE;
-    request.choice = *form;
-    request.group_width = request.group_height = form_group(form);
-    request.layers = &layers;
-    if (!aov_read_list("primitive", &request.aovs, &error))
-        fail_msg("%s", error.text);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, "primitive", &layers);
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         ids[i] = *layers_at(&layers, i % SIDE, i / SIDE);
         assert_int_equal(picture.pixels[i][0] > 0, ids[i] < PAIRS);
         assert_int_equal(picture.pixels[i][1] > 0, ids[i] >= PAIRS && ids[i] != NOTHING);
     }
-    framebuffer_free(&picture);
-    layers_free(&layers);
 }
 
 // Returns the id that must win. The eye is above the triangles, so it sees the front of triangles
@@ -133,10 +108,9 @@ static uint32_t expected_id(uint32_t pair, Sides sides)
     return NOTHING;
 }
 
-static void the_lowest_id_that_may_be_met_is_seen_at_every_pixel(void **state)
+TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
 {
     char first[TEMPORARY_PATH], second[TEMPORARY_PATH], scene[TEMPORARY_PATH];
-    (void)state;
     write_pairs(first, false);
     write_pairs(second, true);
     for (size_t form = 0; form < FORMS; form++) {
@@ -144,7 +118,7 @@ static void the_lowest_id_that_may_be_met_is_seen_at_every_pixel(void **state)
         for (int sides = 3; sides >= 0; sides--) {
             const Sides which = {(sides & 1) != 0, (sides & 2) != 0};
             write_scene(scene, first, second, which);
-            see(scene, &forms[form], sides == 3 ? covered : seen);
+            see(scene, &form_all[form], sides == 3 ? covered : seen);
             unlink(scene);
             for (uint32_t i = 0; sides == 3 && i < SIDE * SIDE; i++)
                 if (covered[i] != NOTHING) {
@@ -164,31 +138,33 @@ static void the_lowest_id_that_may_be_met_is_seen_at_every_pixel(void **state)
 
 #define WAVES 9 // vertices along a side of the sheet
 
-static double wave(double x, double y)
-{
-    return 0.25 * sin(3 * x) * cos(2.5 * y);
-}
-
 // Writes a wavy sheet with smooth normals and all corners in this order. A reversed sheet has
 // reversed normals.
 static void write_sheet(char path[TEMPORARY_PATH], int order)
 {
-    FILE *stream = temporary_open(path);
+    double positions[WAVES * WAVES][3];
+    float normals[WAVES * WAVES][3];
+    uint32_t triangles[2 * WAVES * WAVES][3], count = 0;
     const double sign = is_reversed(order) ? -1 : 1;
-    write_head(stream, WAVES * WAVES, 2 * (WAVES - 1) * (WAVES - 1), true);
-    for (int vertex = 0; vertex < WAVES * WAVES; vertex++) {
+    for (uint32_t vertex = 0; vertex < WAVES * WAVES; vertex++) {
         const double x = vertex % WAVES * 0.31 - 1.21, y = vertex / WAVES * 0.29 - 1.13;
-        fprintf(stream, "%.17g %.17g %.17g %.9g %.9g %.9g\n", x, y, wave(x, y),
-                sign * -0.75 * cos(3 * x) * cos(2.5 * y), sign * 0.625 * sin(3 * x) * sin(2.5 * y),
-                sign);
+        const double point[3] = {x, y, 0.25 * sin(3 * x) * cos(2.5 * y)};
+        memcpy(positions[vertex], point, sizeof point);
+        normals[vertex][0] = (float)(sign * -0.75 * cos(3 * x) * cos(2.5 * y));
+        normals[vertex][1] = (float)(sign * 0.625 * sin(3 * x) * sin(2.5 * y));
+        normals[vertex][2] = (float)sign;
     }
-    for (int row = 0; row + 1 < WAVES; row++)
-        for (int column = 0; column + 1 < WAVES; column++) {
-            const int at = row * WAVES + column;
-            write_triangle(stream, (int[]){at, at + 1, at + WAVES + 1}, order);
-            write_triangle(stream, (int[]){at, at + WAVES + 1, at + WAVES}, order);
+    for (uint32_t at = 0; at < WAVES * (WAVES - 1); at++)
+        if (at % WAVES + 1 < WAVES) {
+            const uint32_t above = at + WAVES;
+            set_triangle(triangles[count++], (uint32_t[]){at, at + 1, above + 1}, order);
+            set_triangle(triangles[count++], (uint32_t[]){at, above + 1, above}, order);
         }
-    temporary_close(stream);
+    temporary_mesh(path, &(Mesh){.positions = positions,
+                                 .normals = normals,
+                                 .triangles = triangles,
+                                 .vertex_count = WAVES * WAVES,
+                                 .triangle_count = count});
 }
 
 // Renders the sheet with mirrors and with lights on both sides. The copy has another color. With
@@ -209,10 +185,8 @@ static Framebuffer draw_sheet(int first_order, int copy_order, const char *sides
     if (copy_order >= 0)
         fprintf(stream, "material dark\nply_file %s\n", copy);
     temporary_close(stream);
-    PictureRequest request = picture_request(scene, 1);
+    PictureRequest request = rendered_in_form(picture_request(scene, 1), form);
     request.width = request.height = SIDE;
-    request.choice = *form;
-    request.group_width = request.group_height = form_group(form);
     const Framebuffer picture = rendered(&request);
     unlink(sheet);
     unlink(copy);
@@ -226,40 +200,28 @@ static void assert_same(const Framebuffer *one, Framebuffer *other)
     framebuffer_free(other);
 }
 
-static void a_copy_of_a_mesh_changes_no_bit_of_its_picture(void **state)
+TEST(a_copy_of_a_mesh_changes_no_bit_of_its_picture)
 {
-    (void)state;
     for (size_t form = 0; form < FORMS; form++)
         for (int two_sided = 0; two_sided < 2; two_sided++) {
             const char *sides = two_sided == 1 ? "two" : "one";
-            Framebuffer alone = draw_sheet(0, -1, sides, &forms[form]);
+            Framebuffer alone = draw_sheet(0, -1, sides, &form_all[form]);
             for (int order = 0; order < (two_sided == 1 ? ORDERS : 3); order++) {
-                Framebuffer doubled = draw_sheet(0, order, sides, &forms[form]);
+                Framebuffer doubled = draw_sheet(0, order, sides, &form_all[form]);
                 assert_same(&alone, &doubled);
             }
             framebuffer_free(&alone);
         }
 }
 
-static void turning_the_corners_of_all_triangles_changes_no_bit(void **state)
+TEST(turning_the_corners_of_all_triangles_changes_no_bit)
 {
-    (void)state;
     for (size_t form = 0; form < FORMS; form++) {
-        Framebuffer usual = draw_sheet(0, -1, "one", &forms[form]);
+        Framebuffer usual = draw_sheet(0, -1, "one", &form_all[form]);
         for (int order = 1; order < 3; order++) {
-            Framebuffer turned = draw_sheet(order, -1, "one", &forms[form]);
+            Framebuffer turned = draw_sheet(order, -1, "one", &form_all[form]);
             assert_same(&usual, &turned);
         }
         framebuffer_free(&usual);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_lowest_id_that_may_be_met_is_seen_at_every_pixel),
-        cmocka_unit_test(a_copy_of_a_mesh_changes_no_bit_of_its_picture),
-        cmocka_unit_test(turning_the_corners_of_all_triangles_changes_no_bit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 // Their error bounds must hold for the oracle's results on the same stored numbers.
 #include "image/form.h"
 #include "image/inline_scenes.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "oracle/stored.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
@@ -12,20 +12,6 @@
 #include <unistd.h>
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
-
-static const KernelChoice choices[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
-
-static void draw(const PictureRequest *request)
-{
-    Error error = {0};
-    Framebuffer picture = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
-    framebuffer_free(&picture);
-}
 
 static uint32_t random_below(uint32_t *state, uint32_t bound)
 {
@@ -115,38 +101,33 @@ static void check_pixels(Explainer *explainer, const Framebuffer *picture, void 
 
 static void check_scene(const char *path, uint32_t samples)
 {
-    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
-        PictureRequest request = picture_request(path, 1);
-        request.choice = choices[i];
-        request.group_width = request.group_height = form_group(&choices[i]);
+    for (size_t i = 0; i < FORMS; i++) {
+        PictureRequest request = rendered_in_form(picture_request(path, 1), &form_all[i]);
         request.samples = samples;
         request.visit = check_pixels;
-        draw(&request);
+        FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     }
 }
 
-static void what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form(void **state)
+TEST(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
-    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
+    inline_scenes_path(INLINE_MIRRORS, path);
     check_scene(path, 1);
 }
 
-static void the_same_of_several_samples(void **state)
+TEST(the_same_of_several_samples)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     check_scene(SOURCE_SCENE("scenes/reflections.scn"), 3);
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
     check_scene(path, 2);
 }
 
-static void the_same_of_a_large_mesh(void **state)
+TEST(the_same_of_a_large_mesh)
 {
-    (void)state;
     if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
@@ -180,8 +161,8 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
 static void check_bounds(Explainer *explainer, const Framebuffer *picture, void *context)
 {
     Bounds *bounds = context;
-    Scene scene = {0};
-    Oracle oracle = {0};
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
     if (!scn_load(&scene, bounds->path, ply_parse, &error) ||
         !stored_round(&scene, explainer->normalization, &error) ||
@@ -197,46 +178,30 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
             const OraclePath path = oracle_follow(&view, sample.rays[0].direction);
             judge_distance(bounds, explainer, &sample.rays[0], &path);
         }
-    oracle_free(&oracle);
-    scene_free(&scene);
 }
 
 static void check_bounds_of(const char *path, const KernelChoice *choice)
 {
     Bounds bounds = {.path = path};
-    PictureRequest request = picture_request(path, 1);
-    request.choice = *choice;
-    request.group_width = request.group_height = form_group(choice);
+    PictureRequest request = rendered_in_form(picture_request(path, 1), choice);
     request.width = 150;
     request.height = 110;
     request.visit = check_bounds;
     request.visit_context = &bounds;
-    draw(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     print_message("%s: %u distances, errors take up to %.2g of their bounds\n",
                   strrchr(path, '/') + 1, bounds.compared, bounds.largest);
     assert_true(bounds.compared > 200);
     assert_true(bounds.largest <= 1 && bounds.largest > 1e-3);
 }
 
-static void distances_are_off_by_less_than_is_told(void **state)
+TEST(distances_are_off_by_less_than_is_told)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
-    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[0]);
-    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &choices[2]);
-    inline_scenes_path(&inline_scenes, INLINE_FAR_AWAY, path);
-    check_bounds_of(path, &choices[1]);
-    inline_scenes_path(&inline_scenes, INLINE_MIRRORS, path);
-    check_bounds_of(path, &choices[0]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form),
-        cmocka_unit_test(the_same_of_several_samples),
-        cmocka_unit_test(the_same_of_a_large_mesh),
-        cmocka_unit_test(distances_are_off_by_less_than_is_told),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[0]);
+    check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[2]);
+    inline_scenes_path(INLINE_FAR_AWAY, path);
+    check_bounds_of(path, &form_all[1]);
+    inline_scenes_path(INLINE_MIRRORS, path);
+    check_bounds_of(path, &form_all[0]);
 }

@@ -2,7 +2,6 @@
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
 // the smallest and largest goals. tests/goals measures whether clrt meets the goals.
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <string.h>
@@ -19,9 +18,8 @@ static PictureRequest request_for(const char *scene, double goal)
     return request;
 }
 
-static void every_form_threads_and_tree_refine_the_same(void **state)
+TEST(every_form_threads_and_tree_refine_the_same)
 {
-    (void)state;
     static const char *const scenes[] = {SCENES "reflections.scn", SCENES "blinn_phong.scn",
                                          CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn"};
     for (size_t scene = 0; scene < sizeof scenes / sizeof scenes[0]; scene++) {
@@ -32,15 +30,14 @@ static void every_form_threads_and_tree_refine_the_same(void **state)
 
 // Random pixels are refined to check that their centers are representative. They are 24 pixels, or
 // all if there are fewer, of each of the twelve first strata.
-static void all_but_some_controls_keep_their_center_where_any_error_will_do(void **state)
+TEST(all_but_some_controls_keep_their_center_where_any_error_will_do)
 {
-    (void)state;
     uint64_t samples;
     PictureRequest request = request_for(SCENES "reflections.scn", 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     request.error_goal = 0;
-    Framebuffer centers = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer centers = rendered(&request);
     const size_t pixels = (size_t)picture.width * picture.height;
     size_t changed = 0;
     for (size_t i = 0; i < pixels; i++)
@@ -48,45 +45,18 @@ static void all_but_some_controls_keep_their_center_where_any_error_will_do(void
     assert_true(changed > 0);
     assert_true(samples > pixels && samples < 2 * pixels);
     assert_true(changed <= (samples - pixels) / ladder_samples[1]);
-    framebuffer_free(&picture);
-    framebuffer_free(&centers);
 }
 
-static void a_picture_of_one_color_keeps_it(void **state)
+TEST(a_picture_of_one_color_keeps_it)
 {
-    (void)state;
     char path[TEMPORARY_PATH];
     FILE *scene = temporary_open(path);
     fprintf(scene, "up 0 1 0\ncamera 0 0 0 0 0 1 60\nbackground 0.1 0.3 0.7\nsphere 0 0 -5 1\n");
     temporary_close(scene);
     const PictureRequest request = request_for(path, 0.001);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     const size_t pixels = (size_t)picture.width * picture.height;
     for (size_t i = 0; i < pixels; i++)
         assert_memory_equal(picture.pixels[i], ((float[3]){0.1f, 0.3f, 0.7f}), 3 * sizeof(float));
-    framebuffer_free(&picture);
     unlink(path);
-}
-
-static void an_error_below_that_of_1024_samples_is_not_held(void **state)
-{
-    (void)state;
-    Error error = {0};
-    Framebuffer picture;
-    PictureRequest request = request_for(SCENES "reflections.scn", 1e-7);
-    request.width = request.height = 8;
-    assert_false(picture_render(&picture, &request, &error));
-    assert_string_equal(error.text, "the goal is missed");
-    framebuffer_free(&picture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_form_threads_and_tree_refine_the_same),
-        cmocka_unit_test(all_but_some_controls_keep_their_center_where_any_error_will_do),
-        cmocka_unit_test(a_picture_of_one_color_keeps_it),
-        cmocka_unit_test(an_error_below_that_of_1024_samples_is_not_held),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,120 +1,139 @@
 // SPDX-License-Identifier: MIT
 // Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
 // Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of that size and of views up to
-// VIEWS. CLRT_TEST_SCENES limits it to the listed scenes. `test_hashes list SIZE` prints the lines
-// to record. CLRT_TEST_OPTIONS contains options for the compiler of kernels.
+// VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive and
+// --error. With `list` before these words, it prints the records with the rendered hashes. A new
+// record begins with 0 for its hash. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define RECORD CLRT_SOURCE_FOLDER "/tests/image/hashes.txt"
+#define RECORDS      CLRT_SOURCE_FOLDER "/tests/image/"
+#define REFINED_SIZE 64
 
-static unsigned wanted_size, most_views = 99;
+static bool is_refined, is_list;
+static unsigned wanted_size = 128, most_views = 99;
 
-static const char *const own_scenes[] = {"silhouette", "matte",    "blinn_phong", "reflections",
-                                         "simple",     "creature", "figure",      "coral",
-                                         "showcase",   "lamps"};
-static const char *const course_scenes[] = {"silhouette", "matte", "blinn_phong", "reflections",
-                                            "simple",     "cow",   "buddha"};
+static const struct {
+    const char *name;
+    float contrast; // of --aa-adaptive; 0 for none
+    double error;   // of --error
+} settings[] = {{"adaptive-0.1", 0.1f, 0},
+                {"adaptive-0.02", 0.02f, 0},
+                {"error-0.05", 0, 0.05},
+                {"error-0.01", 0, 0.01}};
+#define SETTINGS (sizeof settings / sizeof settings[0])
 
-// "course/cow" is in the course's folder, "cow" in scenes/.
+// `number` is the view, or the setting of a refined picture.
+typedef struct {
+    char scene[64], hash[FRAMEBUFFER_HASH_SIZE];
+    unsigned number, size;
+} Record;
+
+static bool is_course(const char *scene)
+{
+    return strncmp(scene, "course/", 7) == 0;
+}
+
+// "course/cow" is in the course's folder, "cow" in scenes/, and other paths are in the sources.
 static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
 {
     char file[128];
-    const bool is_course = strncmp(scene, "course/", 7) == 0;
-    snprintf(file, sizeof file, "%s.scn", is_course ? scene + 7 : scene);
-    if (is_course)
-        course_path(path, "scenes", file);
+    snprintf(file, sizeof file, "%s.scn", is_course(scene) ? scene + 7 : scene);
+    if (is_course(scene))
+        course_path(path, file);
     else
-        snprintf(path, COURSE_PATH_SIZE, "%s/scenes/%s", CLRT_SOURCE_FOLDER, file);
+        snprintf(path, COURSE_PATH_SIZE, "%s/%s%s", CLRT_SOURCE_FOLDER,
+                 strchr(scene, '/') == NULL ? "scenes/" : "", file);
 }
 
-static bool picture_hash(const char *scene, unsigned view, unsigned size,
-                         char hash[FRAMEBUFFER_HASH_SIZE], Error *error)
+static void picture_hash(const Record *record, char hash[FRAMEBUFFER_HASH_SIZE])
 {
     char path[COURSE_PATH_SIZE];
-    Framebuffer picture;
-    scene_path(path, scene);
-    PictureRequest request = picture_request(path, view);
-    request.width = request.height = size;
+    scene_path(path, record->scene);
+    PictureRequest request = picture_request(path, is_refined ? 1 : record->number);
+    request.width = request.height = record->size;
     request.extra_options = getenv("CLRT_TEST_OPTIONS");
-    if (!picture_render(&picture, &request, error))
-        return false;
+    request.threads = 2;
+    if (is_refined) {
+        request.contrasts[0] = settings[record->number].contrast;
+        request.error_goal = settings[record->number].error;
+    }
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     framebuffer_hash(&picture, hash);
-    framebuffer_free(&picture);
-    return true;
 }
 
-static bool is_wanted(const char *scene, unsigned view, unsigned size)
+static bool is_wanted(const Record *record)
 {
     char path[COURSE_PATH_SIZE];
     const char *only = getenv("CLRT_TEST_SCENES");
-    if (size != wanted_size || view > most_views)
+    if (!is_refined && (record->size != wanted_size || record->number > most_views))
         return false;
-    if (only != NULL && strstr(only, scene) == NULL)
+    if (only != NULL &&
+        strstr(only, is_refined ? strrchr(record->scene, '/') + 1 : record->scene) == NULL)
         return false;
-    scene_path(path, scene);
-    return strncmp(scene, "course/", 7) != 0 || course_has(path);
+    scene_path(path, record->scene);
+    return !is_course(record->scene) || course_has(path);
 }
 
-static void pictures_have_the_hashes_on_record(void **state)
+static bool read_record(FILE *file, Record *record)
 {
-    (void)state;
-    char scene[64], expected[64], hash[FRAMEBUFFER_HASH_SIZE];
-    unsigned view, size, checked = 0, wrong = 0;
-    FILE *record = fopen(RECORD, "r");
-    assert_non_null(record);
-    while (fscanf(record, "%63s %u %u %63s", scene, &view, &size, expected) == 4) {
-        Error error = {0};
-        if (!is_wanted(scene, view, size))
+    char name[64];
+    if (!is_refined)
+        return fscanf(file, "%63s %u %u %32s", record->scene, &record->number, &record->size,
+                      record->hash) == 4;
+    if (fscanf(file, "%63s %63s %32s", record->scene, name, record->hash) != 3)
+        return false;
+    record->size = REFINED_SIZE;
+    for (record->number = 0; strcmp(settings[record->number].name, name) != 0; record->number++)
+        assert_true(record->number + 1 < SETTINGS);
+    return true;
+}
+
+static void print_record(const Record *record, const char *hash)
+{
+    if (is_refined)
+        printf("%s %s %s\n", record->scene, settings[record->number].name, hash);
+    else
+        printf("%s %u %u %s\n", record->scene, record->number, record->size, hash);
+}
+
+TEST(pictures_have_the_hashes_on_record)
+{
+    Record record;
+    unsigned checked = 0, wrong = 0;
+    FILE *file = fopen(is_refined ? RECORDS "refined_hashes.txt" : RECORDS "hashes.txt", "r");
+    assert_non_null(file);
+    while (read_record(file, &record)) {
+        char hash[FRAMEBUFFER_HASH_SIZE];
+        if (!is_wanted(&record))
             continue;
-        if (!picture_hash(scene, view, size, hash, &error))
-            fail_msg("%s", error.text);
+        picture_hash(&record, hash);
         checked++;
-        if (strcmp(hash, expected) == 0)
-            continue;
-        wrong++;
-        print_error("%s view %u: %s recorded, %s rendered\n", scene, view, expected, hash);
+        wrong += strcmp(hash, record.hash) != 0;
+        if (is_list || strcmp(hash, record.hash) != 0)
+            print_record(&record, hash);
     }
-    fclose(record);
-    print_message("%u pictures of %ux%u checked\n", checked, wanted_size, wanted_size);
+    fclose(file);
+    print_message("%u pictures checked, %u have another hash\n", checked, wrong);
     assert_in_range(checked, 1, 1000);
-    assert_int_equal(wrong, 0);
-}
-
-static void list_scene(const char *scene, unsigned size)
-{
-    char hash[FRAMEBUFFER_HASH_SIZE];
-    for (unsigned view = 1;; view++) {
-        Error error = {0};
-        if (!picture_hash(scene, view, size, hash, &error))
-            return;
-        printf("%s %u %u %s\n", scene, view, size, hash);
-    }
-}
-
-static int list(unsigned size)
-{
-    char course[64];
-    for (size_t i = 0; i < sizeof own_scenes / sizeof own_scenes[0]; i++)
-        list_scene(own_scenes[i], size);
-    for (size_t i = 0; i < sizeof course_scenes / sizeof course_scenes[0]; i++) {
-        snprintf(course, sizeof course, "course/%s", course_scenes[i]);
-        list_scene(course, size);
-    }
-    return 0;
+    assert_true(is_list || wrong == 0);
 }
 
 int main(int count, char **words)
 {
-    if (count == 3 && strcmp(words[1], "list") == 0)
-        return list((unsigned)atoi(words[2]));
-    wanted_size = count > 1 ? (unsigned)atoi(words[1]) : 128;
-    most_views = count > 2 ? (unsigned)atoi(words[2]) : 99;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_have_the_hashes_on_record)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    is_list = count > 1 && strcmp(words[1], "list") == 0;
+    words += is_list;
+    count -= is_list;
+    is_refined = count > 1 && strcmp(words[1], "refined") == 0;
+    if (count > 1 && !is_refined)
+        wanted_size = (unsigned)atoi(words[1]);
+    if (count > 2)
+        most_views = (unsigned)atoi(words[2]);
+    return tests_run();
 }

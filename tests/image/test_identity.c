@@ -3,7 +3,6 @@
 // program.
 #include "image/form.h"
 #include "image/rendered.h"
-#include "image/temporary.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
@@ -16,23 +15,6 @@ static const char *const scenes[] = {
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
-static const KernelChoice choices[] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 4, PRECISION_FP32},
-    {FAMILY_RAY, NODES_WIDE, 8, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 16, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
-};
-#define CHOICE_COUNT (sizeof choices / sizeof choices[0])
-
-static const KernelChoice fp64 = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
-
-static PictureRequest in_form(PictureRequest request, const KernelChoice *choice)
-{
-    request.choice = *choice;
-    request.group_width = request.group_height = form_group(choice);
-    return request;
-}
-
 // Neither side of the picture is a multiple of a tile's or work-group's side.
 static PictureRequest small_request(size_t scene)
 {
@@ -43,85 +25,56 @@ static PictureRequest small_request(size_t scene)
     return request;
 }
 
-static void every_way_to_find_triangles_draws_the_same(void **state)
+TEST(every_form_and_tree_draws_the_same)
 {
-    (void)state;
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest sah = small_request(scene);
-        PictureRequest others[] = {sah, sah};
-        others[0].builder = BVH_MIDPOINT;
-        others[1].uses_bvh = false;
-        rendered_expect_same(&sah, others, 2);
-    }
-}
-
-static void every_form_of_the_kernels_draws_the_same(void **state)
-{
-    (void)state;
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        PictureRequest usual = in_form(small_request(scene), &choices[0]), others[CHOICE_COUNT * 4];
+        PictureRequest usual = rendered_in_form(small_request(scene), &form_all[0]),
+                       others[FORMS_FP32][3];
         usual.samples = 1;
-        for (size_t i = 0; i < CHOICE_COUNT; i++) {
-            PictureRequest *form = &others[i * 4];
-            form[0] = form[1] = form[2] = form[3] = in_form(usual, &choices[i]);
+        for (size_t i = 0; i < FORMS_FP32; i++) {
+            PictureRequest *form = others[i];
+            form[0] = form[1] = form[2] = rendered_in_form(usual, &form_all[i]);
             form[1].builder = BVH_MIDPOINT;
+            form[1].tile_width = 13;
+            form[1].tile_height = 7;
             form[2].uses_bvh = false;
-            form[3].tile_width = 13;
-            form[3].tile_height = 7;
         }
-        rendered_expect_same(&usual, others, CHOICE_COUNT * 4);
+        rendered_expect_same(&usual, others[0], FORMS_FP32 * 3);
     }
 }
 
-static void every_form_draws_pictures_of_a_few_pixels(void **state)
+TEST(every_form_draws_pictures_of_a_few_pixels)
 {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
     for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
-        PictureRequest usual = small_request(SCENE_COUNT - 1), others[CHOICE_COUNT - 1];
+        PictureRequest usual = small_request(SCENE_COUNT - 1), others[FORMS_FP32];
         usual.width = sizes[size][0];
         usual.height = sizes[size][1];
-        for (size_t i = 1; i < CHOICE_COUNT; i++)
-            others[i - 1] = in_form(usual, &choices[i]);
-        usual = in_form(usual, &choices[0]);
-        rendered_expect_same(&usual, others, CHOICE_COUNT - 1);
+        for (size_t i = 0; i < FORMS_FP32; i++)
+            others[i] = rendered_in_form(usual, &form_all[i]);
+        rendered_expect_same(&others[0], &others[1], FORMS_FP32 - 1);
     }
 }
 
-static void every_size_of_tiles_and_work_groups_draws_the_same(void **state)
+// Each size of work-groups is compiled, so one scene suffices.
+TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
-    (void)state;
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
     static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
     enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest usual = small_request(scene);
-        PictureRequest others[TILES + GROUPS];
-        for (size_t i = 0; i < TILES + GROUPS; i++) {
-            others[i] = usual;
-            if (i < TILES) {
-                others[i].tile_width = tiles[i][0];
-                others[i].tile_height = tiles[i][1];
-            } else {
-                others[i].group_width = groups[i - TILES][0];
-                others[i].group_height = groups[i - TILES][1];
-            }
+    const PictureRequest usual = small_request(SCENE_COUNT - 1);
+    PictureRequest others[TILES + GROUPS];
+    for (size_t i = 0; i < TILES + GROUPS; i++) {
+        others[i] = usual;
+        if (i < TILES) {
+            others[i].tile_width = tiles[i][0];
+            others[i].tile_height = tiles[i][1];
+        } else {
+            others[i].group_width = groups[i - TILES][0];
+            others[i].group_height = groups[i - TILES][1];
         }
-        rendered_expect_same(&usual, others, TILES + GROUPS);
     }
-}
-
-static void counting_changes_no_pixel(void **state)
-{
-    (void)state;
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        uint64_t tallies[TALLY_KINDS];
-        const PictureRequest usual = small_request(scene);
-        PictureRequest counted = usual;
-        counted.tallies = tallies;
-        rendered_expect_same(&usual, &counted, 1);
-        assert_int_equal(tallies[TALLY_CAMERA_RAYS], 131 * 97 * 4);
-    }
+    rendered_expect_same(&usual, others, TILES + GROUPS);
 }
 
 // Writes a scene with exactly the features of the mask, and returns its path.
@@ -144,7 +97,7 @@ static const char *write_scene(unsigned mask)
 static void expect_special_same(unsigned mask, const KernelChoice *choice)
 {
     uint64_t tallies[TALLY_KINDS];
-    PictureRequest general = in_form(picture_request(write_scene(mask & 15), 1), choice);
+    PictureRequest general = rendered_in_form(picture_request(write_scene(mask & 15), 1), choice);
     general.width = general.height = 40;
     general.uses_bvh = (mask & 16) != 0;
     PictureRequest special = general;
@@ -155,78 +108,49 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     remove(general.scene_path);
 }
 
-// Tests all switches on, all off, and each switch alone on or off. Compiling all 64 programs would
-// take a minute.
-static void expect_specials_same(const KernelChoice *choice)
+// Tests all switches on, and all off.
+static void expect_extreme_specials_same(const KernelChoice *choice)
 {
     expect_special_same(0, choice);
     expect_special_same(63, choice);
+}
+
+// The families share the sources that the switches are in, so each switch is tested alone only with
+// rays, which compile soonest.
+TEST(specialized_rays_draw_what_general_ones_do)
+{
+    expect_extreme_specials_same(&form_all[0]);
     for (unsigned place = 0; place < 6; place++) {
-        expect_special_same(1u << place, choice);
-        expect_special_same(63u & ~(1u << place), choice);
+        expect_special_same(1u << place, &form_all[0]);
+        expect_special_same(63u & ~(1u << place), &form_all[0]);
     }
 }
 
-static void specialized_rays_draw_what_general_ones_do(void **state)
+// Packets have their own code for spheres, triangles and trees.
+TEST(specialized_packets_draw_what_general_ones_do)
 {
-    (void)state;
-    expect_specials_same(&choices[0]);
-}
-
-static void specialized_packets_draw_what_general_ones_do(void **state)
-{
-    (void)state;
     const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
-    expect_specials_same(&packet);
+    expect_extreme_specials_same(&packet);
+    expect_special_same(63u & ~1u, &packet);
+    expect_special_same(63u & ~2u, &packet);
+    expect_special_same(63u & ~16u, &packet);
 }
 
-static void fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups(void **state)
+TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
 {
-    (void)state;
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        const PictureRequest sah = in_form(small_request(scene), &fp64);
-        PictureRequest others[] = {sah, sah, sah};
-        others[0].builder = BVH_MIDPOINT;
-        others[0].tile_width = 13;
-        others[1].uses_bvh = false;
-        others[1].group_width = others[1].group_height = 1;
-        others[2].group_width = 3;
-        others[2].group_height = 5;
-        rendered_expect_same(&sah, others, 3);
-    }
+    const PictureRequest sah =
+        rendered_in_form(small_request(SCENE_COUNT - 1), &form_all[FORMS_FP32]);
+    PictureRequest others[] = {sah, sah, sah};
+    others[0].builder = BVH_MIDPOINT;
+    others[0].tile_width = 13;
+    others[1].uses_bvh = false;
+    others[1].group_width = others[1].group_height = 1;
+    others[2].group_width = 3;
+    others[2].group_height = 5;
+    rendered_expect_same(&sah, others, 3);
 }
 
-static void specialized_fp64_draws_what_the_general_program_does(void **state)
+TEST(specialized_fp64_draws_what_the_general_program_does)
 {
-    (void)state;
-    expect_specials_same(&fp64);
-}
-
-static void fp64_draws_another_picture_than_fp32(void **state)
-{
-    (void)state;
-    const PictureRequest reference = in_form(small_request(0), &fp64);
-    const PictureRequest usual = in_form(reference, &choices[0]);
-    Framebuffer first = rendered(&reference), second = rendered(&usual);
-    const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
-    assert_memory_not_equal(first.pixels, second.pixels, size);
-    framebuffer_free(&first);
-    framebuffer_free(&second);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_way_to_find_triangles_draws_the_same),
-        cmocka_unit_test(every_form_of_the_kernels_draws_the_same),
-        cmocka_unit_test(every_form_draws_pictures_of_a_few_pixels),
-        cmocka_unit_test(every_size_of_tiles_and_work_groups_draws_the_same),
-        cmocka_unit_test(counting_changes_no_pixel),
-        cmocka_unit_test(specialized_rays_draw_what_general_ones_do),
-        cmocka_unit_test(specialized_packets_draw_what_general_ones_do),
-        cmocka_unit_test(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups),
-        cmocka_unit_test(specialized_fp64_draws_what_the_general_program_does),
-        cmocka_unit_test(fp64_draws_another_picture_than_fp32),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    expect_extreme_specials_same(&form_all[FORMS_FP32]);
 }

@@ -71,25 +71,15 @@ cl_int clReleaseMemObject(cl_mem memory)
 }
 
 // The launch writes to host memory, which is freed next.
-static void after_a_refused_launch_the_one_before_it_is_awaited(void **state)
+TEST(after_a_refused_launch_the_one_before_it_is_awaited)
 {
-    (void)state;
     PictureRequest request = picture_request(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", 1);
     request.width = request.height = 1024;
     request.contrasts[0] = 0.1f;
-    Framebuffer picture;
+    FREED_BY(framebuffer_free) Framebuffer picture;
     Error error = {0};
     assert_false(picture_render(&picture, &request, &error));
     assert_non_null(strstr(error.text, "run the kernel trace_samples"));
     assert_true(is_released);
     assert_int_equal(status_at_release, CL_COMPLETE);
-    framebuffer_free(&picture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(after_a_refused_launch_the_one_before_it_is_awaited),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

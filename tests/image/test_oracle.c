@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares the renderer with the fp64 oracle, in all views of the course's, the project's and some
-// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. In
-// large meshes, some pixels are compared; CLRT_FULL=1 in the environment compares all pixels.
+// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. Every
+// STEP-th pixel of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/inline_scenes.h"
@@ -17,7 +17,8 @@
 // The number of pixels of a 512 x 512 picture that may differ.
 #define LIMIT 30
 
-// Compares every STEP-th pixel of every STEP-th row of meshes. All pixels would take minutes.
+// All pixels would take minutes.
+#define STEP              2
 #define COURSE_MESH_STEP  4
 #define PROJECT_MESH_STEP 8
 
@@ -26,7 +27,7 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     char name[64];
     const Scene *scene = oracle->scene;
     Error error = {0};
-    Framebuffer picture = {0}, expected = {0};
+    FREED_BY(framebuffer_free) Framebuffer picture = {0}, expected = {0};
     const PictureRequest request = picture_request(path, view);
     const OracleView rays = oracle_view(oracle, &scene->viewpoints.data[view - 1], scene->width,
                                         scene->height, scene->max_level);
@@ -36,8 +37,6 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     const Comparison comparison = comparison_make(&rays, &picture, &expected, step);
     snprintf(name, sizeof name, "%s view %u", strrchr(path, '/') + 1, view);
     comparison_print(&comparison, name);
-    framebuffer_free(&expected);
-    framebuffer_free(&picture);
     return comparison.unexplained == 0 &&
            comparison.differing <= comparison_allowance(&comparison, LIMIT);
 }
@@ -46,8 +45,8 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
 static void check(const char *path, uint32_t step)
 {
     Error error = {0};
-    Scene scene = {0};
-    Oracle oracle = {0};
+    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(oracle_free) Oracle oracle = {0};
     bool agrees = true;
     if (getenv("CLRT_FULL") != NULL)
         step = 1;
@@ -55,104 +54,54 @@ static void check(const char *path, uint32_t step)
         fail_msg("%s", error.text);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++)
         agrees = view_agrees(&oracle, path, view, step) && agrees;
-    oracle_free(&oracle);
-    scene_free(&scene);
     assert_true(agrees);
 }
 
 static void check_course(const char *name, uint32_t step)
 {
     char path[COURSE_PATH_SIZE];
-    course_path(path, "scenes", name);
+    course_path(path, name);
     if (course_has(path))
         check(path, step);
 }
 
-static void the_courses_small_scenes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_courses_scenes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = 1;
-    (void)state;
-    check_course("silhouette.scn", step);
-    check_course("matte.scn", step);
-    check_course("blinn_phong.scn", step);
-    check_course("reflections.scn", step);
-    check_course("simple.scn", step);
+    check_course("silhouette.scn", STEP);
+    check_course("matte.scn", STEP);
+    check_course("blinn_phong.scn", STEP);
+    check_course("reflections.scn", STEP);
+    check_course("simple.scn", STEP);
+    check_course("cow.scn", COURSE_MESH_STEP);
+    check_course("buddha.scn", COURSE_MESH_STEP);
 }
 
-static void the_courses_meshes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_projects_small_scenes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = COURSE_MESH_STEP;
-    (void)state;
-    check_course("cow.scn", step);
-    check_course("buddha.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", STEP);
+    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
 }
 
-static void the_projects_small_scenes_are_drawn_as_the_oracle_does(void **state)
+TEST(the_projects_meshes_are_drawn_as_the_oracle_does)
 {
-    const uint32_t step = 1;
-    (void)state;
-    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", step);
-    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", step);
-}
-
-static void the_projects_meshes_are_drawn_as_the_oracle_does(void **state)
-{
-    const uint32_t step = PROJECT_MESH_STEP;
-    (void)state;
     if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
         print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
         return;
     }
-    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", step);
-    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", step);
+    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", PROJECT_MESH_STEP);
+    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", PROJECT_MESH_STEP);
 }
 
-static void check_inline(InlineScene scene)
+// Open two-sided meshes, facets and mirrors, a huge sphere far away, and distant lights.
+TEST(unusual_scenes_are_drawn_as_the_oracle_does)
 {
     char path[INLINE_PATH_SIZE];
-    inline_scenes_path(&inline_scenes, scene, path);
-    check(path, 1);
-}
-
-static void two_sided_open_meshes_are_drawn_as_the_oracle_does(void **state)
-{
-    (void)state;
-    check_inline(INLINE_OPEN_SHEET);
-}
-
-static void facets_and_mirrors_are_drawn_as_the_oracle_does(void **state)
-{
-    (void)state;
-    check_inline(INLINE_MIRRORS);
-}
-
-static void a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does(void **state)
-{
-    (void)state;
-    check_inline(INLINE_FAR_AWAY);
-}
-
-static void creases_under_distant_lights_are_drawn_as_the_oracle_does(void **state)
-{
-    (void)state;
-    check_inline(INLINE_DISTANT_LIGHTS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_courses_small_scenes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_courses_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_projects_small_scenes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(the_projects_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(two_sided_open_meshes_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(facets_and_mirrors_are_drawn_as_the_oracle_does),
-        cmocka_unit_test(a_scene_far_from_the_origin_on_a_huge_sphere_is_drawn_as_the_oracle_does),
-        cmocka_unit_test(creases_under_distant_lights_are_drawn_as_the_oracle_does),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
+    for (int scene = 0; scene < INLINE_COUNT; scene++) {
+        inline_scenes_path((InlineScene)scene, path);
+        check(path, STEP);
+    }
 }

@@ -2,8 +2,9 @@
 // Compares fp64 pictures with the oracle, which traces the same stored numbers in fp64 by other
 // methods. Compares fp32 pictures with fp64 pictures, which differ by rounding.
 #include "image/course.h"
+#include "image/form.h"
 #include "image/inline_scenes.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "oracle/stored.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
@@ -16,17 +17,32 @@
 // The largest difference of two colors rounded to float, plus a rounding to steps of 2^-32.
 #define ROUNDED 0x1.01p-23f
 
-// The oracle would take minutes for all pixels of a mesh.
-#define MESH_STEP 16
+#define FP32 (&form_all[0])
+#define FP64 (&form_all[FORMS_FP32])
 
-static void rendered(Framebuffer *picture, const char *path, uint32_t view, Precision precision)
+// Pictures have a part of the scene's width and height. Every step-th pixel of every step-th row
+// is compared. The oracle would take minutes for all pixels of a mesh.
+typedef struct {
+    uint32_t part, step;
+} Share;
+
+static const Share small = {3, 1}, meshes = {4, 4}, unusual = {2, 1};
+
+static Scene loaded(const char *path)
 {
+    Scene scene = {0};
     Error error = {0};
-    PictureRequest request = picture_request(path, view);
-    request.choice = (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, precision};
-    request.group_width = request.group_height = 8;
-    if (!picture_render(picture, &request, &error))
+    if (!scn_load(&scene, path, ply_parse, &error))
         fail_msg("%s", error.text);
+    return scene;
+}
+
+static PictureRequest request_of(const char *path, const Scene *scene, uint32_t view, uint32_t part)
+{
+    PictureRequest request = picture_request(path, view);
+    request.width = scene->width / part;
+    request.height = scene->height / part;
+    return request;
 }
 
 static float pixel_difference(const float a[3], const float b[3])
@@ -34,86 +50,57 @@ static float pixel_difference(const float a[3], const float b[3])
     return fmaxf(fabsf(a[0] - b[0]), fmaxf(fabsf(a[1] - b[1]), fabsf(a[2] - b[2])));
 }
 
-typedef struct {
-    uint32_t step; // compares every step-th pixel of every step-th row
-    float tolerance;
-} Comparing;
-
 // Returns the number of pixels that differ by more than the tolerance. expected contains every
 // step-th pixel of every step-th row.
 static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *expected,
-                                const Comparing *comparing)
+                                uint32_t step, float tolerance)
 {
-    const uint32_t step = comparing->step;
     uint32_t differing = 0;
     for (uint32_t y = 0; y < expected->height; y++)
         for (uint32_t x = 0; x < expected->width; x++) {
             const float *one = picture->pixels[(size_t)y * step * picture->width + x * step];
             const float *other = expected->pixels[(size_t)y * expected->width + x];
-            differing += !(pixel_difference(one, other) <= comparing->tolerance);
+            differing += !(pixel_difference(one, other) <= tolerance);
         }
     return differing;
 }
 
-// A scene with its numbers as stored for the device, and its cameras.
-typedef struct {
-    Scene scene;
-    Normalization normalization;
-    Oracle oracle;
-} Stored;
-
-static void stored_open(Stored *stored, const char *path)
+// Returns the number of pixels that differ from the oracle's. `stored` has the scene's numbers as
+// stored for the device.
+static uint32_t view_differences(const Oracle *stored, const Normalization *normalization,
+                                 const PictureRequest *request, uint32_t step)
 {
     Error error = {0};
-    *stored = (Stored){0};
-    if (!scn_load(&stored->scene, path, ply_parse, &error))
-        fail_msg("%s", error.text);
-    stored->normalization = normalization_of(&stored->scene);
-    if (!stored_round(&stored->scene, &stored->normalization, &error) ||
-        !oracle_make(&stored->oracle, &stored->scene, &error))
-        fail_msg("%s", error.text);
-}
-
-static void stored_close(Stored *stored)
-{
-    oracle_free(&stored->oracle);
-    scene_free(&stored->scene);
-}
-
-static uint32_t view_differences(const Stored *stored, const char *path, uint32_t view,
-                                 const Comparing *comparing)
-{
-    Error error = {0};
-    Framebuffer picture, expected;
-    const Scene *scene = &stored->scene;
-    const CameraData camera =
-        camera_make(&scene->viewpoints.data[view - 1], &stored->normalization, scene->height, 1);
-    const OracleView rays = stored_view(&stored->oracle, &camera, scene->width, scene->height);
-    const uint32_t step = comparing->step;
+    const CameraData camera = camera_make(&stored->scene->viewpoints.data[request->view - 1],
+                                          normalization, request->height, 1);
+    const OracleView rays = stored_view(stored, &camera, request->width, request->height);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(request), expected = {0};
     if (!oracle_draw(&rays, 1, step, &expected, &error))
         fail_msg("%s", error.text);
-    rendered(&picture, path, view, PRECISION_FP64);
-    const uint32_t differing = count_differing(&picture, &expected, comparing);
-    print_message("%s view %u: %u of %u pixels differ from the oracle's\n", strrchr(path, '/') + 1,
-                  view, differing, expected.width * expected.height);
-    framebuffer_free(&expected);
-    framebuffer_free(&picture);
+    const uint32_t differing = count_differing(&picture, &expected, step, ROUNDED);
+    print_message("%s view %u: %u of %u pixels differ from the oracle's\n",
+                  strrchr(request->scene_path, '/') + 1, request->view, differing,
+                  expected.width * expected.height);
     return differing;
 }
 
 // Compares all views before it fails, so that it prints the figures of all views.
-static void check_oracle(const char *path, Comparing comparing)
+static void check_oracle(const char *path, Share share)
 {
-    Stored stored;
+    Error error = {0};
     uint32_t differing = 0;
-    stored_open(&stored, path);
-    for (uint32_t view = 1; view <= stored.scene.viewpoints.count; view++)
-        differing += view_differences(&stored, path, view, &comparing);
-    stored_close(&stored);
+    FREED_BY(scene_free) Scene scene = loaded(path);
+    FREED_BY(oracle_free) Oracle stored = {0};
+    const Normalization normalization = normalization_of(&scene);
+    if (!stored_round(&scene, &normalization, &error) || !oracle_make(&stored, &scene, &error))
+        fail_msg("%s", error.text);
+    for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
+        const PictureRequest request =
+            rendered_in_form(request_of(path, &scene, view, share.part), FP64);
+        differing += view_differences(&stored, &normalization, &request, share.step);
+    }
     assert_int_equal(differing, 0);
 }
-
-static const Comparing all = {1, ROUNDED}, meshes = {MESH_STEP, ROUNDED};
 
 static bool has_models(void)
 {
@@ -123,79 +110,67 @@ static bool has_models(void)
     return false;
 }
 
-static void every_pixel_of_small_scenes_is_the_oracles(void **state)
+TEST(every_pixel_of_small_scenes_is_the_oracles)
 {
-    (void)state;
-    check_oracle(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", all);
-    check_oracle(CLRT_SOURCE_FOLDER "/scenes/matte.scn", all);
-    check_oracle(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", all);
-    check_oracle(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", all);
-    check_oracle(CLRT_SOURCE_FOLDER "/scenes/simple.scn", all);
-    check_oracle(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", all);
+    check_oracle(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", small);
+    check_oracle(CLRT_SOURCE_FOLDER "/scenes/matte.scn", small);
+    check_oracle(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", small);
+    check_oracle(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", small);
+    check_oracle(CLRT_SOURCE_FOLDER "/scenes/simple.scn", small);
+    check_oracle(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", (Share){1, 1});
 }
 
-static void every_compared_pixel_of_meshes_is_the_oracles(void **state)
+TEST(every_compared_pixel_of_meshes_is_the_oracles)
 {
-    (void)state;
     if (!has_models())
         return;
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/creature.scn", meshes);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/figure.scn", meshes);
 }
 
-static void every_compared_pixel_of_the_courses_scenes_is_the_oracles(void **state)
+TEST(every_compared_pixel_of_the_courses_scenes_is_the_oracles)
 {
     static const char *const names[] = {"reflections.scn", "cow.scn"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[COURSE_PATH_SIZE];
-        course_path(path, "scenes", names[i]);
+        course_path(path, names[i]);
         if (course_has(path))
             check_oracle(path, meshes);
     }
 }
 
-static void every_pixel_of_unusual_scenes_is_the_oracles(void **state)
+TEST(every_pixel_of_unusual_scenes_is_the_oracles)
 {
     char path[INLINE_PATH_SIZE];
-    (void)state;
     for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        inline_scenes_path(&inline_scenes, (InlineScene)scene, path);
-        check_oracle(path, all);
+        inline_scenes_path((InlineScene)scene, path);
+        check_oracle(path, unusual);
     }
 }
 
-// share is the number of pixels in 100,000 of a view that may differ in fp32 by more than an 8-bit
-// step.
+// share is the number of pixels in 100,000 of all views that may differ in fp32 by more than an
+// 8-bit step.
 static void check_fp32(const char *name, uint64_t share)
 {
     char path[256];
-    Error error = {0};
-    Scene scene = {0};
-    bool holds = true;
+    uint64_t differing = 0, pixels = 0;
     snprintf(path, sizeof path, CLRT_SOURCE_FOLDER "/scenes/%s.scn", name);
-    if (!scn_load(&scene, path, ply_parse, &error))
-        fail_msg("%s", error.text);
+    FREED_BY(scene_free) Scene scene = loaded(path);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
-        Framebuffer one, other;
-        rendered(&one, path, view, PRECISION_FP32);
-        rendered(&other, path, view, PRECISION_FP64);
-        const Comparing comparing = {1, 1.0f / 255};
-        const uint64_t differing = count_differing(&one, &other, &comparing);
-        const uint64_t pixels = (uint64_t)one.width * one.height;
-        print_message("%s view %u: fp32 differs in %llu of %llu pixels\n", name, view,
-                      (unsigned long long)differing, (unsigned long long)pixels);
-        holds = holds && differing * 100000 <= share * pixels;
-        framebuffer_free(&one);
-        framebuffer_free(&other);
+        const PictureRequest request = request_of(path, &scene, view, 2);
+        const PictureRequest one = rendered_in_form(request, FP32),
+                             other = rendered_in_form(request, FP64);
+        FREED_BY(framebuffer_free) Framebuffer first = rendered(&one), second = rendered(&other);
+        differing += count_differing(&first, &second, 1, 1.0f / 255);
+        pixels += (uint64_t)first.width * first.height;
     }
-    scene_free(&scene);
-    assert_true(holds);
+    print_message("%s: fp32 differs in %llu of %llu pixels\n", name, (unsigned long long)differing,
+                  (unsigned long long)pixels);
+    assert_true(differing * 100000 <= share * pixels);
 }
 
-static void fp32_differs_in_few_pixels(void **state)
+TEST(fp32_differs_in_few_pixels)
 {
-    (void)state;
     check_fp32("silhouette", 0);
     check_fp32("matte", 0);
     check_fp32("blinn_phong", 0);
@@ -204,25 +179,11 @@ static void fp32_differs_in_few_pixels(void **state)
 }
 
 // Mirrors that face each other amplify every rounding. Only the showcase has many such mirrors.
-static void fp32_differs_in_few_pixels_of_meshes(void **state)
+TEST(fp32_differs_in_few_pixels_of_meshes)
 {
-    (void)state;
     if (!has_models())
         return;
     check_fp32("creature", 2);
     check_fp32("figure", 5);
     check_fp32("showcase", 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pixel_of_small_scenes_is_the_oracles),
-        cmocka_unit_test(every_compared_pixel_of_meshes_is_the_oracles),
-        cmocka_unit_test(every_compared_pixel_of_the_courses_scenes_is_the_oracles),
-        cmocka_unit_test(every_pixel_of_unusual_scenes_is_the_oracles),
-        cmocka_unit_test(fp32_differs_in_few_pixels),
-        cmocka_unit_test(fp32_differs_in_few_pixels_of_meshes),
-    };
-    return cmocka_run_group_tests(tests, inline_scenes_set_up, inline_scenes_tear_down);
 }

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define SIDE 181
 #define PI   3.14159265358979
@@ -18,69 +17,46 @@ typedef struct {
     double x, y;
 } Corner;
 
+// Triangles that share no vertex, counter-clockwise in front.
 typedef struct {
-    char scene[64], mesh[64];
-    Corner (*triangles)[3]; // counter-clockwise in front
-    int count, capacity;
+    char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
+    Mesh triangles;
+    size_t capacity;
 } Drawing;
 
-static void open_file(char path[64], const char *pattern, int suffix)
-{
-    snprintf(path, 64, "%s", pattern);
-    const int file = mkstemps(path, suffix);
-    assert_true(file >= 0);
-    close(file);
-}
-
-static Drawing drawing_of(int capacity)
+static Drawing drawing_of(size_t capacity)
 {
     Drawing drawing = {.capacity = capacity};
-    drawing.triangles = calloc((size_t)capacity, sizeof *drawing.triangles);
-    assert_non_null(drawing.triangles);
-    open_file(drawing.scene, "/tmp/clrt-thin-XXXXXX.scn", 4);
-    open_file(drawing.mesh, "/tmp/clrt-thin-XXXXXX.ply", 4);
+    drawing.triangles.positions = calloc(3 * capacity, sizeof *drawing.triangles.positions);
+    drawing.triangles.triangles = calloc(capacity, sizeof *drawing.triangles.triangles);
+    assert_true(drawing.triangles.positions != NULL && drawing.triangles.triangles != NULL);
     return drawing;
 }
 
 static void add_triangle(Drawing *drawing, Corner a, Corner b, Corner c)
 {
-    assert_true(drawing->count < drawing->capacity);
-    Corner *corners = drawing->triangles[drawing->count++];
-    corners[0] = a;
-    corners[1] = b;
-    corners[2] = c;
-}
-
-static void write_mesh(const Drawing *drawing)
-{
+    const Corner corners[3] = {a, b, c};
     const double pixel = 2 * 100 * tan(PI / 6) / SIDE;
-    FILE *stream = fopen(drawing->mesh, "w");
-    assert_non_null(stream);
-    fprintf(stream,
-            "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
-            "property double z\nelement face %d\nproperty list uchar int vertex_indices\n"
-            "end_header\n",
-            3 * drawing->count, drawing->count);
-    for (int i = 0; i < 3 * drawing->count; i++) {
-        const Corner *corner = &drawing->triangles[i / 3][i % 3];
-        fprintf(stream, "%.12g 0 %.12g\n", corner->x * pixel, corner->y * pixel);
+    Mesh *mesh = &drawing->triangles;
+    assert_true(mesh->triangle_count < drawing->capacity);
+    for (int i = 0; i < 3; i++) {
+        mesh->positions[mesh->vertex_count][0] = corners[i].x * pixel;
+        mesh->positions[mesh->vertex_count][2] = corners[i].y * pixel;
+        mesh->triangles[mesh->triangle_count][i] = (uint32_t)mesh->vertex_count++;
     }
-    for (int i = 0; i < drawing->count; i++)
-        fprintf(stream, "3 %d %d %d\n", 3 * i, 3 * i + 1, 3 * i + 2);
-    assert_int_equal(fclose(stream), 0);
+    mesh->triangle_count++;
 }
 
 // Returns a request for the drawing with that brightness in front of a black background.
-static PictureRequest request_of(const Drawing *drawing, double light)
+static PictureRequest request_of(Drawing *drawing, double light)
 {
-    write_mesh(drawing);
-    FILE *stream = fopen(drawing->scene, "w");
-    assert_non_null(stream);
+    temporary_mesh(drawing->mesh, &drawing->triangles);
+    FILE *stream = temporary_open(drawing->scene);
     fprintf(stream,
             "background 0 0 0\ndefine it silhouette diffuse %g %g %g\nmaterial it\n"
             "camera 0 -100 0 0 0 0 60\nply_file %s\n",
-            light, light, light, drawing->mesh + sizeof "/tmp");
-    assert_int_equal(fclose(stream), 0);
+            light, light, light, drawing->mesh);
+    temporary_close(stream);
     PictureRequest request = picture_request(drawing->scene, 1);
     request.width = request.height = SIDE;
     request.contrasts[0] = 0.04f;
@@ -91,7 +67,7 @@ static void drawing_free(Drawing *drawing)
 {
     remove(drawing->scene);
     remove(drawing->mesh);
-    free(drawing->triangles);
+    mesh_free(&drawing->triangles);
 }
 
 static Corner turned(Corner center, double radius, double angle)
@@ -136,13 +112,12 @@ static double light_around(const Framebuffer *picture, Corner center)
     return light;
 }
 
-static void thousands_of_triangles_smaller_than_pixels_are_all_seen(void **state)
+TEST(thousands_of_triangles_smaller_than_pixels_are_all_seen)
 {
-    (void)state;
-    Drawing drawing = drawing_of(GRID * GRID);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID);
     const double area = add_grid(&drawing);
     const PictureRequest request = request_of(&drawing, 1);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     double sum = 0;
     int seen = 0;
     for (int row = 0; row < GRID; row++)
@@ -153,8 +128,6 @@ static void thousands_of_triangles_smaller_than_pixels_are_all_seen(void **state
         }
     assert_int_equal(seen, GRID * GRID);
     assert_true(fabs(sum / area - 1) < 0.05);
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
 // Adds a strip of two triangles across the picture.
@@ -172,11 +145,11 @@ static void add_cable(Drawing *drawing, Corner from, Corner to, double thickness
 
 static void expect_unbroken(double light, double from, double to)
 {
-    Drawing drawing = drawing_of(2);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(2);
     const double length = SIDE + 20, slope = (to - from) / length;
     add_cable(&drawing, (Corner){-length / 2, from}, (Corner){length / 2, to}, 0.1);
     const PictureRequest request = request_of(&drawing, light);
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     const double expected = 0.1 * sqrt(1 + slope * slope) * light;
     for (int x = 0; x < SIDE; x++) {
         double sum = 0;
@@ -185,35 +158,30 @@ static void expect_unbroken(double light, double from, double to)
         if (fabs(sum / expected - 1) > 0.35)
             fail_msg("column %d has %g of the light", x, sum / expected);
     }
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
-static void a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line(void **state)
+TEST(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line)
 {
-    (void)state;
     expect_unbroken(1, -40, 55);
     expect_unbroken(0.02, -40, 55); // too little contrast for refinement by contrast
     expect_unbroken(0.02, 7.3, 7.3);
 }
 
-static void backs_of_one_sided_triangles_take_no_samples(void **state)
+TEST(backs_of_one_sided_triangles_take_no_samples)
 {
-    (void)state;
     uint64_t samples;
-    Drawing drawing = drawing_of(GRID * GRID);
+    FREED_BY(drawing_free) Drawing drawing = drawing_of(GRID * GRID);
     add_grid(&drawing);
-    for (int i = 0; i < drawing.count; i++) {
-        const Corner first = drawing.triangles[i][0];
-        drawing.triangles[i][0] = drawing.triangles[i][1];
-        drawing.triangles[i][1] = first;
+    for (size_t i = 0; i < drawing.triangles.triangle_count; i++) {
+        uint32_t *corners = drawing.triangles.triangles[i];
+        const uint32_t first = corners[0];
+        corners[0] = corners[1];
+        corners[1] = first;
     }
     PictureRequest request = request_of(&drawing, 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     assert_int_equal(samples, SIDE * SIDE);
-    framebuffer_free(&picture);
-    drawing_free(&drawing);
 }
 
 #define FINE 400
@@ -236,54 +204,17 @@ static uint64_t samples_of(Drawing *drawing)
     uint64_t samples;
     PictureRequest request = request_of(drawing, 1);
     request.sample_count = &samples;
-    Framebuffer picture = rendered(&request);
-    framebuffer_free(&picture);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     drawing_free(drawing);
     return samples;
 }
 
-static void a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one(void **state)
+TEST(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one)
 {
-    (void)state;
     const double half = 60.3;
     Drawing fine = drawing_of(2 * FINE * FINE), plain = drawing_of(2);
     add_wall(&fine, 2 * half);
     add_triangle(&plain, (Corner){-half, -half}, (Corner){half, -half}, (Corner){half, half});
     add_triangle(&plain, (Corner){-half, -half}, (Corner){half, half}, (Corner){-half, half});
     assert_int_equal(samples_of(&fine), samples_of(&plain));
-}
-
-static void every_form_and_any_threads_find_the_same(void **state)
-{
-    (void)state;
-    static const KernelChoice choices[] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                           {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}};
-    Drawing drawing = drawing_of(GRID * GRID + 2);
-    add_grid(&drawing);
-    add_cable(&drawing, (Corner){-80, -40.1}, (Corner){80, 33}, 0.06);
-    PictureRequest usual = request_of(&drawing, 0.5);
-    Framebuffer first = rendered(&usual);
-    for (uint32_t i = 0; i < 6; i++) {
-        PictureRequest other = usual;
-        other.threads = i;
-        other.choice = choices[i % 2];
-        other.group_width = other.group_height = form_group(&other.choice);
-        Framebuffer second = rendered(&other);
-        assert_memory_equal(first.pixels, second.pixels, SIDE * SIDE * sizeof *first.pixels);
-        framebuffer_free(&second);
-    }
-    framebuffer_free(&first);
-    drawing_free(&drawing);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thousands_of_triangles_smaller_than_pixels_are_all_seen),
-        cmocka_unit_test(a_cable_a_tenth_of_a_pixel_thick_is_an_unbroken_line),
-        cmocka_unit_test(backs_of_one_sided_triangles_take_no_samples),
-        cmocka_unit_test(a_wide_mesh_of_small_triangles_takes_the_samples_of_a_large_one),
-        cmocka_unit_test(every_form_and_any_threads_find_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

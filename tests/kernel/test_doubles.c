@@ -6,9 +6,8 @@
 // Generated at build time. certify.cl is missing, because it is compiled only with fp64.
 extern const char kernel_source[], rays_source[], samples_source[], aov_source[], explain_source[];
 
-static void every_double_that_is_compiled_without_fp64_is_found(void **state)
+TEST(every_double_that_is_compiled_without_fp64_is_found)
 {
-    (void)state;
     static const struct {
         const char *text;
         size_t count;
@@ -34,20 +33,10 @@ static void every_double_that_is_compiled_without_fp64_is_found(void **state)
             fail_msg("not %zu doubles in '%s'", cases[i].count, cases[i].text);
 }
 
-static void kernels_without_fp64_name_no_double(void **state)
+TEST(kernels_without_fp64_name_no_double)
 {
-    (void)state;
     const char *const sources[] = {kernel_source, rays_source, samples_source, aov_source,
                                    explain_source};
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++)
         assert_int_equal(doubles_without_fp64(sources[i]), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_double_that_is_compiled_without_fp64_is_found),
-        cmocka_unit_test(kernels_without_fp64_name_no_double),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 
 static Probe probe;
 
-static void host_and_device_agree_on_the_layout(void **state)
+TEST(host_and_device_agree_on_the_layout)
 {
-    (void)state;
     uint32_t sizes[19];
     const ProbeInput none[2] = {0};
     assert_true(probe_run(&probe, "probe_layout", none, 1, (ProbeInput){sizes, sizeof sizes}));
@@ -39,9 +38,8 @@ static void host_and_device_agree_on_the_layout(void **state)
 // Each squaring doubles the relative error and adds one rounding, so the error is 2^-24 per unit of
 // the exponent. The other path rounds the argument x of exp(-x) a few times. This changes the
 // result by x exp(-x) times the rounding, which is below 1e-6 for any exponent.
-static void powers_are_close_to_exact_ones(void **state)
+TEST(powers_are_close_to_exact_ones)
 {
-    (void)state;
     static const float exponents[] = {0, 1, 2, 7, 50, 200, 1000, 1024};
     float values[8 * 400][2], results[8 * 400][2];
     for (int i = 0; i < 8 * 400; i++) {
@@ -59,9 +57,8 @@ static void powers_are_close_to_exact_ones(void **state)
     }
 }
 
-static void unit_vectors_survive_every_magnitude(void **state)
+TEST(unit_vectors_survive_every_magnitude)
 {
-    (void)state;
     float vectors[181][3], results[181][3];
     for (int i = 0; i <= 180; i++) {
         vectors[i][0] = ldexpf(1.0f, i - 90);
@@ -139,9 +136,8 @@ static SphereCase sphere_case(double radius, double distance, uint64_t *random)
 
 // Spheres of radius 1 in two floats give correct hits up to a distance of 1e4, and distances within
 // 3e-7. With single floats, a quarter of these rays is wrong at 1e4.
-static void far_spheres_are_hit_and_missed_as_exactly(void **state)
+TEST(far_spheres_are_hit_and_missed_as_exactly)
 {
-    (void)state;
     static SphereData spheres[CASES];
     static float rays[CASES][6], distances[CASES];
     static SphereCase cases[CASES];
@@ -206,9 +202,8 @@ static void check_masks(const Probe *lanes_probe, uint32_t lanes)
     }
 }
 
-static void every_mask_becomes_lanes_and_bits_again(void **state)
+TEST(every_mask_becomes_lanes_and_bits_again)
 {
-    (void)state;
     for (uint32_t lanes = 4; lanes <= 16; lanes *= 2) {
         Probe lanes_probe = open_lanes(lanes);
         check_masks(&lanes_probe, lanes);
@@ -216,9 +211,8 @@ static void every_mask_becomes_lanes_and_bits_again(void **state)
     }
 }
 
-static void every_lane_gathers_its_own_word(void **state)
+TEST(every_lane_gathers_its_own_word)
 {
-    (void)state;
     static uint32_t words[WORDS], places[WORDS], results[WORDS];
     uint64_t random = 11;
     for (uint32_t i = 0; i < WORDS; i++) {
@@ -236,28 +230,13 @@ static void every_lane_gathers_its_own_word(void **state)
     }
 }
 
-static int open_probe(void **state)
+SET_UP(open_probe)
 {
-    (void)state;
     return probe_begin(&probe, PRECISION_FP32);
 }
 
-static int close_probe(void **state)
+TEAR_DOWN(close_probe)
 {
-    (void)state;
     probe_close(&probe);
     return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(host_and_device_agree_on_the_layout),
-        cmocka_unit_test(powers_are_close_to_exact_ones),
-        cmocka_unit_test(unit_vectors_survive_every_magnitude),
-        cmocka_unit_test(far_spheres_are_hit_and_missed_as_exactly),
-        cmocka_unit_test(every_mask_becomes_lanes_and_bits_again),
-        cmocka_unit_test(every_lane_gathers_its_own_word),
-    };
-    return cmocka_run_group_tests(tests, open_probe, close_probe);
 }

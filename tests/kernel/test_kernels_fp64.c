@@ -56,9 +56,8 @@ static SphereCase far_case(double distance, double aside)
     return made;
 }
 
-static void far_spheres_are_met_where_they_are(void **state)
+TEST(far_spheres_are_met_where_they_are)
 {
-    (void)state;
     static SphereCase cases[CASES];
     for (double distance = 0x1p2; distance <= 0x1p22; distance *= 4) {
         for (int i = 0; i < CASES; i++)
@@ -78,9 +77,8 @@ static SphereCase ground_case(double radius, float height, float across)
     return made;
 }
 
-static void ground_spheres_of_any_size_are_met_where_they_are(void **state)
+TEST(ground_spheres_of_any_size_are_met_where_they_are)
 {
-    (void)state;
     static SphereCase cases[CASES];
     for (double radius = 1e3; radius <= 1e9; radius *= 10) {
         for (int i = 0; i < CASES; i++)
@@ -91,9 +89,8 @@ static void ground_spheres_of_any_size_are_met_where_they_are(void **state)
 
 // Rounding the argument x changes exp(-x) by x exp(-x) times the rounding. With squaring, each unit
 // of the exponent costs a rounding.
-static void highlights_of_any_shininess_are_right(void **state)
+TEST(highlights_of_any_shininess_are_right)
 {
-    (void)state;
     static double values[CASES][2], results[CASES][2];
     static const double exponents[] = {1, 3.5, 50, 1000, 1e4, 1e5, 1e6, 1e7};
     for (int i = 0; i < CASES; i++) {
@@ -111,25 +108,13 @@ static void highlights_of_any_shininess_are_right(void **state)
     }
 }
 
-static int open_probe(void **state)
+SET_UP(open_probe)
 {
-    (void)state;
     return probe_begin(&probe, PRECISION_FP64);
 }
 
-static int close_probe(void **state)
+TEAR_DOWN(close_probe)
 {
-    (void)state;
     probe_close(&probe);
     return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(far_spheres_are_met_where_they_are),
-        cmocka_unit_test(ground_spheres_of_any_size_are_met_where_they_are),
-        cmocka_unit_test(highlights_of_any_shininess_are_right),
-    };
-    return cmocka_run_group_tests(tests, open_probe, close_probe);
 }

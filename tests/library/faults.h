@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Calls that must fail, and say why.
+// Calls that must fail with a message.
 #pragma once
 
-#include <clrt.h>
+#include "unit/cmocka_all.h"
 
-// An error that is filled with other bytes, so that what is left of them would show.
-ClrtError faults_blank(void);
+#include <clrt.h>
+#include <string.h>
+
+// Returns an error that is filled with other bytes, so that bytes that a call leaves would show.
+static inline ClrtError faults_blank(void)
+{
+    ClrtError error;
+    memset(&error, 0x55, sizeof error);
+    return error;
+}
 
 // Fails the test unless ok is false and error has that fault and a message that contains words.
-void faults_assert(bool ok, const ClrtError *error, ClrtFault fault, const char *words);
+static inline void faults_assert(bool ok, const ClrtError *error, ClrtFault fault,
+                                 const char *words)
+{
+    assert_false(ok);
+    assert_int_equal(error->fault, fault);
+    assert_non_null(memchr(error->text, '\0', sizeof error->text));
+    if (strstr(error->text, words) == NULL)
+        fail_msg("'%s' does not say '%s'", error->text, words);
+}
 
-// The call, which fills `error`, must find an argument that it cannot work with.
-#define ASSERT_ARGUMENT(call, words)                                                               \
+// The call, which fills `error`, must find an invalid argument.
+#define REFUSES(call, words)                                                                       \
     do {                                                                                           \
         ClrtError error = faults_blank();                                                          \
         const bool done = (call);                                                                  \

@@ -11,25 +11,14 @@
 
 static ClrtRenderer *renderer; // shared by most tests
 
-static ClrtRenderer *open_renderer(uint32_t threads)
+SET_UP(open_all)
 {
-    ClrtError error;
-    ClrtRenderer *opened = clrt_renderer_create(getenv("CLRT_DEVICE"), threads, &error);
-    if (opened == NULL)
-        fail_msg("%s", error.text);
-    return opened;
+    renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 0, NULL);
+    return renderer == NULL;
 }
 
-static int open_all(void **state)
+TEAR_DOWN(close_all)
 {
-    (void)state;
-    renderer = open_renderer(0);
-    return 0;
-}
-
-static int close_all(void **state)
-{
-    (void)state;
     clrt_renderer_free(renderer);
     return 0;
 }
@@ -50,73 +39,54 @@ static float *make_buffer(const ClrtPicture *picture)
     return rgb;
 }
 
-static float *draw(ClrtRenderer *with, const ClrtScene *scene, const ClrtPicture *picture)
+static float *draw(const ClrtScene *scene, const ClrtPicture *picture)
 {
     ClrtError error;
     float *rgb = make_buffer(picture);
-    if (!clrt_render(with, scene, picture, rgb, &error))
+    if (!clrt_render(renderer, scene, picture, rgb, &error))
         fail_msg("%s", error.text);
     return rgb;
 }
 
-static void a_loaded_scene_is_the_programs_picture(void **state)
+// Expects the program's picture of the file with these options. Frees the scene.
+static void expect_program(ClrtScene *scene, const char *file, const char *options,
+                           ClrtPicture picture)
+{
+    picture.size = sizeof picture;
+    float *expected = program_draw(program_file(file), options, picture.width, picture.height);
+    assert_true(program_agrees(renderer, scene, &picture, expected));
+    free(expected);
+    clrt_scene_free(scene);
+}
+
+TEST(a_loaded_scene_or_mesh_is_the_programs_picture)
 {
     static const char *const names[] = {"scenes/reflections.scn", "scenes/simple.scn",
-                                        "scenes/blinn_phong.scn", "tests/image/every_feature.scn"};
-    (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const ClrtPicture picture = {.size = sizeof picture, .width = 150, .height = 131};
-        ClrtScene *scene = load(program_file(names[i]));
-        float *expected = program_draw(program_file(names[i]), "", 150, 131);
-        assert_true(program_agrees(renderer, scene, &picture, expected));
-        free(expected);
-        clrt_scene_free(scene);
-    }
+                                        "scenes/blinn_phong.scn", "tests/image/every_feature.scn",
+                                        "scenes/tetrahedron.ply"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        expect_program(load(program_file(names[i])), names[i], "",
+                       (ClrtPicture){.width = 150, .height = 131});
 }
 
-static void a_lone_mesh_is_framed_as_the_program_frames_it(void **state)
+TEST(views_samples_and_levels_are_the_programs)
 {
-    (void)state;
-    const ClrtPicture picture = {.size = sizeof picture, .width = 64, .height = 64};
-    ClrtScene *scene = load(program_file("scenes/tetrahedron.ply"));
-    float *expected = program_draw(program_file("scenes/tetrahedron.ply"), "", 64, 64);
-    assert_true(program_agrees(renderer, scene, &picture, expected));
-    free(expected);
-    clrt_scene_free(scene);
+    const char *name = "scenes/reflections.scn";
+    expect_program(
+        load(program_file(name)), name, "--view 3 --aa=3 --max-level 1",
+        (ClrtPicture){.width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1});
 }
 
-static void views_samples_and_levels_are_the_programs(void **state)
+TEST(a_filled_scene_is_the_programs_picture_of_the_same_file)
 {
-    (void)state;
-    ClrtScene *scene = load(program_file("scenes/reflections.scn"));
-    const ClrtPicture picture = {
-        .size = sizeof picture, .width = 60, .height = 40, .view = 3, .samples = 3, .max_level = 1};
-    float *expected = program_draw(program_file("scenes/reflections.scn"),
-                                   "--view 3 --aa=3 --max-level 1", 60, 40);
-    assert_true(program_agrees(renderer, scene, &picture, expected));
-    free(expected);
-    clrt_scene_free(scene);
+    for (uint32_t view = 1; view <= 2; view++)
+        expect_program(filled_make(), "tests/library/filled.scn",
+                       view == 1 ? "--view 1" : "--view 2",
+                       (ClrtPicture){.width = 150, .height = 100, .view = view, .max_level = 5});
 }
 
-static void a_filled_scene_is_the_programs_picture_of_the_same_file(void **state)
+TEST(the_info_counts_what_was_filled_in)
 {
-    (void)state;
-    char *path = filled_write();
-    ClrtScene *scene = filled_make();
-    for (uint32_t view = 1; view <= 2; view++) {
-        const ClrtPicture picture = {
-            .size = sizeof picture, .width = 150, .height = 100, .view = view, .max_level = 5};
-        float *expected = program_draw(path, view == 1 ? "--view 1" : "--view 2", 150, 100);
-        assert_true(program_agrees(renderer, scene, &picture, expected));
-        free(expected);
-    }
-    clrt_scene_free(scene);
-    filled_remove(path);
-}
-
-static void the_info_counts_what_was_filled_in(void **state)
-{
-    (void)state;
     ClrtScene *scene = filled_make();
     ClrtSceneInfo info = {.size = sizeof info};
     assert_true(clrt_scene_get_info(scene, &info, NULL));
@@ -132,12 +102,11 @@ static void the_info_counts_what_was_filled_in(void **state)
     clrt_scene_free(scene);
 }
 
-static void a_camera_of_the_pictures_own_takes_the_views_place(void **state)
+TEST(a_camera_of_the_pictures_own_takes_the_views_place)
 {
-    (void)state;
     ClrtScene *scene = filled_make();
     ClrtPicture picture = {.size = sizeof picture, .width = 90, .height = 70, .view = 2};
-    float *by_view = draw(renderer, scene, &picture);
+    float *by_view = draw(scene, &picture);
     picture.view = 1;
     picture.camera = &filled_cameras[1];
     assert_true(program_agrees(renderer, scene, &picture, by_view));
@@ -145,19 +114,18 @@ static void a_camera_of_the_pictures_own_takes_the_views_place(void **state)
     clrt_scene_free(scene);
 }
 
-static void a_scene_that_was_changed_is_drawn_changed(void **state)
+TEST(a_scene_that_was_changed_is_drawn_changed)
 {
-    (void)state;
     const ClrtPicture picture = {.size = sizeof picture, .width = 40, .height = 30};
     const double black[3] = {0, 0, 0}, center[3] = {0, 0, 3};
     const size_t bytes = 3 * 40 * 30 * sizeof(float);
     ClrtScene *scene = filled_make();
     float *pictures[3];
-    pictures[0] = draw(renderer, scene, &picture);
+    pictures[0] = draw(scene, &picture);
     assert_true(clrt_scene_set_background(scene, black, NULL));
-    pictures[1] = draw(renderer, scene, &picture);
+    pictures[1] = draw(scene, &picture);
     assert_true(clrt_scene_add_sphere(scene, center, 0.5, CLRT_MATERIAL_MATTE, NULL));
-    pictures[2] = draw(renderer, scene, &picture);
+    pictures[2] = draw(scene, &picture);
     assert_memory_not_equal(pictures[0], pictures[1], bytes);
     assert_memory_not_equal(pictures[1], pictures[2], bytes);
     for (int i = 0; i < 3; i++)
@@ -173,9 +141,8 @@ static bool count_tiles(void *user, uint64_t tiles_done, uint64_t tiles)
     return true;
 }
 
-static void progress_counts_every_tile(void **state)
+TEST(progress_counts_every_tile)
 {
-    (void)state;
     uint64_t last = 0;
     const ClrtPicture picture = {.size = sizeof picture,
                                  .width = 300,
@@ -183,7 +150,7 @@ static void progress_counts_every_tile(void **state)
                                  .progress = count_tiles,
                                  .user = &last};
     ClrtScene *scene = filled_make();
-    free(draw(renderer, scene, &picture));
+    free(draw(scene, &picture));
     assert_int_equal(last, 6);
     clrt_scene_free(scene);
 }
@@ -210,13 +177,12 @@ static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t t
     return same == count;
 }
 
-static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
+TEST(a_stopped_picture_has_whole_tiles_and_leaves_the_rest)
 {
-    (void)state;
     ClrtError error;
     ClrtPicture picture = {.size = sizeof picture, .width = 600, .height = 200};
     ClrtScene *scene = filled_make();
-    float *whole = draw(renderer, scene, &picture);
+    float *whole = draw(scene, &picture);
     float *rgb = make_buffer(&picture);
     for (size_t i = 0; i < 3 * 600 * 200; i++)
         rgb[i] = -1;
@@ -233,20 +199,4 @@ static void a_stopped_picture_has_whole_tiles_and_leaves_the_rest(void **state)
     free(rgb);
     free(whole);
     clrt_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_loaded_scene_is_the_programs_picture),
-        cmocka_unit_test(a_lone_mesh_is_framed_as_the_program_frames_it),
-        cmocka_unit_test(views_samples_and_levels_are_the_programs),
-        cmocka_unit_test(a_filled_scene_is_the_programs_picture_of_the_same_file),
-        cmocka_unit_test(the_info_counts_what_was_filled_in),
-        cmocka_unit_test(a_camera_of_the_pictures_own_takes_the_views_place),
-        cmocka_unit_test(a_scene_that_was_changed_is_drawn_changed),
-        cmocka_unit_test(progress_counts_every_tile),
-        cmocka_unit_test(a_stopped_picture_has_whole_tiles_and_leaves_the_rest),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
 }

@@ -51,9 +51,8 @@ static void open_driver(void)
         clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 1, &device, NULL);
 }
 
-static int open_stage(void **state)
+SET_UP(open_stage)
 {
-    (void)state;
     open_driver();
     stage.environment = copy_environment();
     stage.scene = filled_make();
@@ -61,27 +60,23 @@ static int open_stage(void **state)
     return stage.renderer == NULL;
 }
 
-static int close_stage(void **state)
+TEAR_DOWN(close_stage)
 {
-    (void)state;
     clrt_renderer_free(stage.renderer);
     clrt_scene_free(stage.scene);
     free(stage.environment);
     return 0;
 }
 
-static void what_is_null_is_named(void **state)
+TEST(what_is_null_is_named)
 {
-    (void)state;
     ClrtScene *scene = stage.scene;
     const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
-    ASSERT_ARGUMENT(clrt_render(NULL, scene, &picture, stage.rgb, &error), "the renderer is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, NULL, &picture, stage.rgb, &error),
-                    "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, NULL, stage.rgb, &error),
-                    "the picture is NULL");
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, NULL, &error),
-                    "the picture's memory is NULL");
+    REFUSES(clrt_render(NULL, scene, &picture, stage.rgb, &error), "the renderer is NULL");
+    REFUSES(clrt_render(stage.renderer, NULL, &picture, stage.rgb, &error), "the scene is NULL");
+    REFUSES(clrt_render(stage.renderer, scene, NULL, stage.rgb, &error), "the picture is NULL");
+    REFUSES(clrt_render(stage.renderer, scene, &picture, NULL, &error),
+            "the picture's memory is NULL");
     assert_false(clrt_render(NULL, NULL, NULL, NULL, NULL));
     clrt_renderer_free(NULL);
 }
@@ -91,9 +86,8 @@ static bool render(ClrtPicture picture, ClrtError *error)
     return clrt_render(stage.renderer, stage.scene, &picture, stage.rgb, error);
 }
 
-static void pictures_out_of_range_are_refused_and_the_next_is_drawn(void **state)
+TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
 {
-    (void)state;
     const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
     ClrtPicture bad[] = {good, good, good, good, good, good};
     static const char *const words[] = {"the width is 0",      "the height is 65537",
@@ -106,37 +100,35 @@ static void pictures_out_of_range_are_refused_and_the_next_is_drawn(void **state
     bad[4].view = 3;
     bad[5].width = UINT32_MAX;
     for (int i = 0; i < 6; i++)
-        ASSERT_ARGUMENT(render(bad[i], &error), words[i]);
+        REFUSES(render(bad[i], &error), words[i]);
     ClrtCamera far = filled_cameras[0];
     far.eye[0] = 1e20;
     bad[0] = good;
     bad[0].camera = &far;
-    ASSERT_ARGUMENT(render(bad[0], &error), "more than 1e12 times");
+    REFUSES(render(bad[0], &error), "more than 1e12 times");
     far.size = 0;
-    ASSERT_ARGUMENT(render(bad[0], &error), "the camera has a size of 0");
+    REFUSES(render(bad[0], &error), "the camera has a size of 0");
     assert_true(render(good, NULL));
 }
 
-static void structs_tell_what_they_know_by_their_size(void **state)
+TEST(structs_tell_what_they_know_by_their_size)
 {
-    (void)state;
     struct {
         ClrtPicture picture;
         uint64_t later;
     } newer = {{.size = sizeof newer, .width = WIDTH, .height = HEIGHT}, 0};
     assert_true(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, NULL));
     newer.later = 1;
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
-                    "asks for what libclrt");
+    REFUSES(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
+            "asks for what libclrt");
     newer.picture.size = sizeof newer.picture.size - 1;
-    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of 7");
+    REFUSES(render(newer.picture, &error), "the picture has a size of 7");
     newer.picture.size = SIZE_MAX;
-    ASSERT_ARGUMENT(render(newer.picture, &error), "the picture has a size of");
+    REFUSES(render(newer.picture, &error), "the picture has a size of");
 }
 
-static void what_an_older_program_does_not_know_is_the_default(void **state)
+TEST(what_an_older_program_does_not_know_is_the_default)
 {
-    (void)state;
     float whole[3 * WIDTH * HEIGHT];
     ClrtPicture older = {.size = sizeof older, .width = WIDTH, .height = HEIGHT};
     assert_true(render(older, NULL));
@@ -151,13 +143,12 @@ static void what_an_older_program_does_not_know_is_the_default(void **state)
     assert_int_equal(info.max_level, 77);
 }
 
-static void a_scene_without_cameras_is_drawn_by_the_pictures_own(void **state)
+TEST(a_scene_without_cameras_is_drawn_by_the_pictures_own)
 {
-    (void)state;
     ClrtScene *scene = clrt_scene_create(NULL);
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
-    ASSERT_ARGUMENT(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
-                    "view 1 is not among the scene's 0");
+    REFUSES(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
+            "view 1 is not among the scene's 0");
     picture.camera = &filled_cameras[0];
     assert_true(clrt_render(stage.renderer, scene, &picture, stage.rgb, NULL));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
@@ -165,9 +156,8 @@ static void a_scene_without_cameras_is_drawn_by_the_pictures_own(void **state)
     clrt_scene_free(scene);
 }
 
-static void what_is_too_far_away_to_be_drawn_is_told(void **state)
+TEST(what_is_too_far_away_to_be_drawn_is_told)
 {
-    (void)state;
     ClrtError error = faults_blank();
     const double far[3] = {1e25, 0, 0}, near[3] = {0, 0, 0};
     const ClrtPicture picture = {
@@ -181,13 +171,9 @@ static void what_is_too_far_away_to_be_drawn_is_told(void **state)
     clrt_scene_free(scene);
 }
 
-static void devices_that_are_not_there_are_told(void **state)
+TEST(devices_that_are_not_there_are_told)
 {
-    (void)state;
     ClrtError error = faults_blank();
-    faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
-                  "/nowhere/at all.scn");
-    error = faults_blank();
     faults_assert(clrt_renderer_create("no such device %s", 0, &error) != NULL, &error, CLRT_DEVICE,
                   "no device matches 'no such device %s'");
     assert_null(clrt_renderer_create("99:99", UINT32_MAX, NULL));
@@ -202,9 +188,8 @@ static bool draw_again(void *user, uint64_t tiles_done, uint64_t tiles)
     return true;
 }
 
-static void a_renderer_that_draws_refuses_another_picture(void **state)
+TEST(a_renderer_that_draws_refuses_another_picture)
 {
-    (void)state;
     ClrtError error = faults_blank();
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
     picture.progress = draw_again;
@@ -224,9 +209,8 @@ static void use_everything(void)
     clrt_scene_free(clrt_scene_load("/nowhere", NULL));
 }
 
-static void nothing_is_printed_and_the_environment_stays(void **state)
+TEST(nothing_is_printed_and_the_environment_stays)
 {
-    (void)state;
     FILE *printed = tmpfile();
     const int own[2] = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
     assert_non_null(printed);
@@ -245,20 +229,4 @@ static void nothing_is_printed_and_the_environment_stays(void **state)
     char *after = copy_environment();
     assert_string_equal(stage.environment, after);
     free(after);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_null_is_named),
-        cmocka_unit_test(pictures_out_of_range_are_refused_and_the_next_is_drawn),
-        cmocka_unit_test(structs_tell_what_they_know_by_their_size),
-        cmocka_unit_test(what_an_older_program_does_not_know_is_the_default),
-        cmocka_unit_test(a_scene_without_cameras_is_drawn_by_the_pictures_own),
-        cmocka_unit_test(what_is_too_far_away_to_be_drawn_is_told),
-        cmocka_unit_test(devices_that_are_not_there_are_told),
-        cmocka_unit_test(a_renderer_that_draws_refuses_another_picture),
-        cmocka_unit_test(nothing_is_printed_and_the_environment_stays),
-    };
-    return cmocka_run_group_tests(tests, open_stage, close_stage);
 }

@@ -14,16 +14,14 @@ static const double bad_numbers[] = {(double)NAN, (double)INFINITY, -(double)INF
                                      -DBL_MAX};
 #define BAD_NUMBERS (sizeof bad_numbers / sizeof *bad_numbers)
 
-static int open_scene(void **state)
+SET_UP(open_scene)
 {
-    (void)state;
     scene = filled_make();
     return 0;
 }
 
-static int close_scene(void **state)
+TEAR_DOWN(close_scene)
 {
-    (void)state;
     clrt_scene_free(scene);
     return 0;
 }
@@ -35,38 +33,36 @@ static ClrtSceneInfo info_of(void)
     return info;
 }
 
-static void what_is_null_is_named(void **state)
+TEST(what_is_null_is_named)
 {
-    (void)state;
     const double three[3] = {0, 0, 0};
     const ClrtMaterial matte = {.size = sizeof matte};
     ClrtSceneInfo info = {.size = sizeof info};
     uint32_t number;
-    ASSERT_ARGUMENT(clrt_scene_load(NULL, &error) != NULL, "the path is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_material(NULL, &matte, &number, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_material(scene, NULL, &number, &error), "the material is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_material(scene, &matte, NULL, &error), "the number is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_sphere(NULL, three, 1, 0, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, NULL, 1, 0, &error), "the center is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(NULL, NULL, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, NULL, &error), "the mesh is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_light(NULL, three, 1, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_colored_light(scene, three, 1, NULL, &error),
-                    "the light's color is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_camera(NULL, &filled_cameras[0], &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, NULL, &error), "the camera is NULL");
-    ASSERT_ARGUMENT(clrt_scene_set_background(NULL, three, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_set_background(scene, NULL, &error), "the background is NULL");
-    ASSERT_ARGUMENT(clrt_scene_set_ambient(NULL, 0, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_get_info(NULL, &info, &error), "the scene is NULL");
-    ASSERT_ARGUMENT(clrt_scene_get_info(scene, NULL, &error), "the info is NULL");
+    REFUSES(clrt_scene_load(NULL, &error) != NULL, "the path is NULL");
+    REFUSES(clrt_scene_add_material(NULL, &matte, &number, &error), "the scene is NULL");
+    REFUSES(clrt_scene_add_material(scene, NULL, &number, &error), "the material is NULL");
+    REFUSES(clrt_scene_add_material(scene, &matte, NULL, &error), "the number is NULL");
+    REFUSES(clrt_scene_add_sphere(NULL, three, 1, 0, &error), "the scene is NULL");
+    REFUSES(clrt_scene_add_sphere(scene, NULL, 1, 0, &error), "the center is NULL");
+    REFUSES(clrt_scene_add_mesh(NULL, NULL, &error), "the scene is NULL");
+    REFUSES(clrt_scene_add_mesh(scene, NULL, &error), "the mesh is NULL");
+    REFUSES(clrt_scene_add_light(NULL, three, 1, &error), "the scene is NULL");
+    REFUSES(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
+    REFUSES(clrt_scene_add_colored_light(scene, three, 1, NULL, &error),
+            "the light's color is NULL");
+    REFUSES(clrt_scene_add_camera(NULL, &filled_cameras[0], &error), "the scene is NULL");
+    REFUSES(clrt_scene_add_camera(scene, NULL, &error), "the camera is NULL");
+    REFUSES(clrt_scene_set_background(NULL, three, &error), "the scene is NULL");
+    REFUSES(clrt_scene_set_background(scene, NULL, &error), "the background is NULL");
+    REFUSES(clrt_scene_set_ambient(NULL, 0, &error), "the scene is NULL");
+    REFUSES(clrt_scene_get_info(NULL, &info, &error), "the scene is NULL");
+    REFUSES(clrt_scene_get_info(scene, NULL, &error), "the info is NULL");
     clrt_scene_free(NULL);
 }
 
-static void numbers_out_of_range_are_refused(void **state)
+TEST(numbers_out_of_range_are_refused)
 {
-    (void)state;
     const double origin[3] = {0, 0, 0};
     const ClrtSceneInfo before = info_of();
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
@@ -74,24 +70,23 @@ static void numbers_out_of_range_are_refused(void **state)
         for (int axis = 0; axis < 3; axis++) {
             double three[3] = {0, 0, 0};
             three[axis] = bad;
-            ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, three, 1, 0, &error), "the center is");
-            ASSERT_ARGUMENT(clrt_scene_add_light(scene, three, 1, &error), "the position is");
-            ASSERT_ARGUMENT(clrt_scene_set_background(scene, three, &error), "the background is");
+            REFUSES(clrt_scene_add_sphere(scene, three, 1, 0, &error), "the center is");
+            REFUSES(clrt_scene_add_light(scene, three, 1, &error), "the position is");
+            REFUSES(clrt_scene_set_background(scene, three, &error), "the background is");
         }
-        ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, bad, 0, &error), "the radius is");
-        ASSERT_ARGUMENT(clrt_scene_add_light(scene, origin, bad, &error), "the intensity is");
-        ASSERT_ARGUMENT(clrt_scene_set_ambient(scene, bad, &error), "the ambient light is");
+        REFUSES(clrt_scene_add_sphere(scene, origin, bad, 0, &error), "the radius is");
+        REFUSES(clrt_scene_add_light(scene, origin, bad, &error), "the intensity is");
+        REFUSES(clrt_scene_set_ambient(scene, bad, &error), "the ambient light is");
     }
-    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, 0, 0, &error), "the radius is 0");
-    ASSERT_ARGUMENT(clrt_scene_add_sphere(scene, origin, 1, 6, &error),
-                    "material 6 is not among the scene's 6");
+    REFUSES(clrt_scene_add_sphere(scene, origin, 0, 0, &error), "the radius is 0");
+    REFUSES(clrt_scene_add_sphere(scene, origin, 1, 6, &error),
+            "material 6 is not among the scene's 6");
     const ClrtSceneInfo after = info_of();
     assert_memory_equal(&before, &after, sizeof before);
 }
 
-static void no_material_of_impossible_numbers_is_added(void **state)
+TEST(no_material_of_impossible_numbers_is_added)
 {
-    (void)state;
     const ClrtMaterial matte = {.size = sizeof matte, .shading = CLRT_SHADING_MATTE};
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         ClrtMaterial bad[6] = {matte, matte, matte, matte, matte, matte};
@@ -101,8 +96,7 @@ static void no_material_of_impossible_numbers_is_added(void **state)
         bad[3].ks = bad[4].shininess = bad[5].reflectivity = bad_numbers[i];
         for (int member = 0; member < 6; member++) {
             uint32_t number = 77;
-            ASSERT_ARGUMENT(clrt_scene_add_material(scene, &bad[member], &number, &error),
-                            words[member]);
+            REFUSES(clrt_scene_add_material(scene, &bad[member], &number, &error), words[member]);
             assert_int_equal(number, 77);
         }
     }
@@ -110,7 +104,7 @@ static void no_material_of_impossible_numbers_is_added(void **state)
         uint32_t number;
         ClrtMaterial bad = matte;
         memcpy(&bad.shading, &shading, sizeof shading);
-        ASSERT_ARGUMENT(clrt_scene_add_material(scene, &bad, &number, &error), "the shading is");
+        REFUSES(clrt_scene_add_material(scene, &bad, &number, &error), "the shading is");
     }
 }
 
@@ -126,38 +120,40 @@ static ClrtMesh good_mesh(void)
                       .triangle_count = 1};
 }
 
-static void meshes_that_point_nowhere_are_refused(void **state)
+static bool add(const ClrtMesh *mesh, ClrtError *error)
 {
-    (void)state;
+    return clrt_scene_add_mesh(scene, mesh, error);
+}
+
+TEST(meshes_that_point_nowhere_are_refused)
+{
     const uint32_t outside[3] = {0, 1, 3}, huge[3] = {UINT32_MAX, 1, 2};
     ClrtMesh mesh = good_mesh();
     mesh.positions = NULL;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "positions are NULL");
+    REFUSES(add(&mesh, &error), "positions are NULL");
     mesh = good_mesh();
     mesh.triangles = NULL;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "triangles are NULL");
+    REFUSES(add(&mesh, &error), "triangles are NULL");
     mesh = good_mesh();
     mesh.triangles = outside;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error),
-                    "triangle 0 has vertex 3, and there are 3");
+    REFUSES(add(&mesh, &error), "triangle 0 has vertex 3, and there are 3");
     mesh.triangles = huge;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "has vertex 4294967295");
+    REFUSES(add(&mesh, &error), "has vertex 4294967295");
     mesh.vertex_count = 0;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "there are 0");
+    REFUSES(add(&mesh, &error), "there are 0");
     mesh = good_mesh();
     mesh.vertex_count = SIZE_MAX;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "positions, more than");
+    REFUSES(add(&mesh, &error), "positions, more than");
     mesh = good_mesh();
     mesh.triangle_count = (size_t)1 << 62;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "triangles, more than");
+    REFUSES(add(&mesh, &error), "triangles, more than");
     mesh = good_mesh();
     mesh.material = UINT32_MAX;
-    ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "material 4294967295");
+    REFUSES(add(&mesh, &error), "material 4294967295");
 }
 
-static void vertices_that_are_no_points_are_refused(void **state)
+TEST(vertices_that_are_no_points_are_refused)
 {
-    (void)state;
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         double positions[3][3];
         float normals[3][3] = {{0}};
@@ -166,57 +162,40 @@ static void vertices_that_are_no_points_are_refused(void **state)
         memcpy(positions, corners, sizeof corners);
         mesh.positions = positions[0];
         normals[2][1] = (float)bad_numbers[i];
-        ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error),
-                        "the normal of vertex 2 is not finite");
+        REFUSES(add(&mesh, &error), "the normal of vertex 2 is not finite");
         positions[1][2] = bad_numbers[i];
-        ASSERT_ARGUMENT(clrt_scene_add_mesh(scene, &mesh, &error), "a coordinate of vertex 1 is");
+        REFUSES(add(&mesh, &error), "a coordinate of vertex 1 is");
     }
 }
 
-static void impossible_cameras_are_refused(void **state)
+TEST(impossible_cameras_are_refused)
 {
-    (void)state;
     const ClrtCamera good = filled_cameras[0];
     ClrtCamera bad = good;
     memcpy(bad.look_at, bad.eye, sizeof bad.eye);
-    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "looks at its own position");
+    REFUSES(clrt_scene_add_camera(scene, &bad, &error), "looks at its own position");
     for (int axis = 0; axis < 3; axis++)
         bad.look_at[axis] = bad.eye[axis] + (axis == 2);
-    ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "along its 'up'");
+    REFUSES(clrt_scene_add_camera(scene, &bad, &error), "along its 'up'");
     const double angles[] = {0, -1, 180, (double)NAN};
     for (int i = 0; i < 4; i++) {
         bad = good;
         bad.fov_degrees = angles[i];
-        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &bad, &error), "the field of view is");
+        REFUSES(clrt_scene_add_camera(scene, &bad, &error), "the field of view is");
     }
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         ClrtCamera cameras[3] = {good, good, good};
         cameras[0].eye[0] = cameras[1].look_at[1] = cameras[2].up[2] = bad_numbers[i];
-        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[0], &error), "the eye is");
-        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[1], &error), "looked at is");
-        ASSERT_ARGUMENT(clrt_scene_add_camera(scene, &cameras[2], &error), "'up' is");
+        REFUSES(clrt_scene_add_camera(scene, &cameras[0], &error), "the eye is");
+        REFUSES(clrt_scene_add_camera(scene, &cameras[1], &error), "looked at is");
+        REFUSES(clrt_scene_add_camera(scene, &cameras[2], &error), "'up' is");
     }
 }
 
-static void files_that_are_not_there_are_told(void **state)
+TEST(files_that_are_not_there_are_told)
 {
-    (void)state;
     ClrtError error = faults_blank();
     faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
                   "/nowhere/at all.scn");
     assert_null(clrt_scene_load("", NULL));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_null_is_named),
-        cmocka_unit_test(numbers_out_of_range_are_refused),
-        cmocka_unit_test(no_material_of_impossible_numbers_is_added),
-        cmocka_unit_test(meshes_that_point_nowhere_are_refused),
-        cmocka_unit_test(vertices_that_are_no_points_are_refused),
-        cmocka_unit_test(impossible_cameras_are_refused),
-        cmocka_unit_test(files_that_are_not_there_are_told),
-    };
-    return cmocka_run_group_tests(tests, open_scene, close_scene);
 }

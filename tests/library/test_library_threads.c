@@ -53,28 +53,18 @@ static void draw_at_once(ClrtScene *scenes[2], float *expected[2])
     pthread_barrier_destroy(&start);
 }
 
-static void renderers_are_made_and_draw_at_once_in_threads_of_their_own(void **state)
+TEST(renderers_are_made_and_draw_at_once_in_threads_of_their_own)
 {
-    (void)state;
-    char *path = filled_write();
-    const char *loaded = program_file("scenes/reflections.scn");
     const char *options = "--aa=2 --max-level 5";
-    ClrtScene *scenes[2] = {filled_make(), clrt_scene_load(loaded, NULL)};
-    float *expected[2] = {program_draw(path, options, WIDTH, HEIGHT),
-                          program_draw(loaded, options, WIDTH, HEIGHT)};
+    ClrtScene *scenes[2] = {filled_make(),
+                            clrt_scene_load(program_file("scenes/reflections.scn"), NULL)};
+    float *expected[2] = {
+        program_draw(program_file("tests/library/filled.scn"), options, WIDTH, HEIGHT),
+        program_draw(program_file("scenes/reflections.scn"), options, WIDTH, HEIGHT)};
     assert_non_null(scenes[1]);
     draw_at_once(scenes, expected);
     for (int i = 0; i < 2; i++) {
         free(expected[i]);
         clrt_scene_free(scenes[i]);
     }
-    filled_remove(path);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(renderers_are_made_and_draw_at_once_in_threads_of_their_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Draws a picture with the oracle on all processors. Each thread repeatedly takes the next row, and
-// pixels are independent.
+// Draws a picture with the oracle on all processors, row by row.
 #include "oracle/oracle.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
-#include <unistd.h>
-
-#define THREADS_MAX 64
+#include "base/processors.h"
+#include "base/thread_pool.h"
 
 typedef struct {
     const OracleView *view;
     uint32_t samples, step;
     Framebuffer *framebuffer;
-    atomic_uint next_row;
 } Drawing;
 
 static void draw_pixel(const Drawing *drawing, uint32_t column, uint32_t row, float pixel[3])
@@ -31,18 +26,14 @@ static void draw_pixel(const Drawing *drawing, uint32_t column, uint32_t row, fl
     pixel[2] = (float)(sum.z / count);
 }
 
-static void *draw_rows(void *context)
+static void draw_row(void *context, uint32_t row, uint32_t worker)
 {
-    Drawing *drawing = context;
-    const uint32_t width = drawing->framebuffer->width, height = drawing->framebuffer->height;
-    for (;;) {
-        const uint32_t row = atomic_fetch_add(&drawing->next_row, 1);
-        if (row >= height)
-            return NULL;
-        for (uint32_t column = 0; column < width; column++)
-            draw_pixel(drawing, column, row,
-                       drawing->framebuffer->pixels[(size_t)row * width + column]);
-    }
+    const Drawing *drawing = context;
+    const uint32_t width = drawing->framebuffer->width;
+    (void)worker;
+    for (uint32_t column = 0; column < width; column++)
+        draw_pixel(drawing, column, row,
+                   drawing->framebuffer->pixels[(size_t)row * width + column]);
 }
 
 bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Framebuffer *framebuffer,
@@ -53,14 +44,8 @@ bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Frameb
     if (!framebuffer_make(framebuffer, width, height, error))
         return false;
     Drawing drawing = {.view = view, .samples = samples, .step = step, .framebuffer = framebuffer};
-    pthread_t threads[THREADS_MAX];
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int started = 0;
-    while (started < processors - 1 && started < THREADS_MAX &&
-           pthread_create(&threads[started], NULL, draw_rows, &drawing) == 0)
-        started++;
-    draw_rows(&drawing);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
+    ThreadPool *pool = thread_pool_open(processors_usable());
+    thread_pool_run(pool, height, draw_row, &drawing);
+    thread_pool_close(pool);
     return true;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// cmocka.h and the headers it wants before it.
+// cmocka.h, the headers it wants before it, and tests that register themselves. A program that
+// defines its tests by TEST() gets its main() from unit/tests.c, or calls tests_run().
 #pragma once
 
 // clang-format off
@@ -9,3 +10,36 @@
 #include <stdint.h>
 #include <cmocka.h>
 // clang-format on
+
+// Add functions that run before and after all tests, and a test. Tests run in the order of the
+// file.
+void test_set_up(CMFixtureFunction fixture);
+void test_tear_down(CMFixtureFunction fixture);
+void test_add(CMUnitTestFunction test, const char *name);
+
+// Returns the number of failures.
+int tests_run(void);
+
+#define AT_START(name) __attribute__((constructor)) static void at_start_##name(void)
+
+#define TEST(name)                                                                                 \
+    static void name(void **);                                                                     \
+    AT_START(name)                                                                                 \
+    {                                                                                              \
+        test_add(name, #name);                                                                     \
+    }                                                                                              \
+    static void name(__attribute__((unused)) void **state)
+
+// SET_UP(name) and TEAR_DOWN(name) return 0 or fail all tests.
+#define FIXTURE(name, add)                                                                         \
+    static int name(void **);                                                                      \
+    AT_START(name)                                                                                 \
+    {                                                                                              \
+        add(name);                                                                                 \
+    }                                                                                              \
+    static int name(__attribute__((unused)) void **state)
+#define SET_UP(name)    FIXTURE(name, test_set_up)
+#define TEAR_DOWN(name) FIXTURE(name, test_tear_down)
+
+// Frees a local variable at the end of its block.
+#define FREED_BY(function) __attribute__((cleanup(function)))

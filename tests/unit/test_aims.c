@@ -20,7 +20,7 @@ typedef struct {
     uint32_t targets[64];
 } Fixture;
 
-static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
+static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most, bool is_inside_out)
 {
     Fixture all = {.mesh = {.positions = corners,
                             .triangles = triangles,
@@ -40,11 +40,6 @@ static Fixture aimed_as(uint32_t (*triangles)[3], size_t count, size_t most, boo
     return all;
 }
 
-static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most)
-{
-    return aimed_as(triangles, count, most, false);
-}
-
 static void release(Fixture *all)
 {
     aims_free(&all->aims);
@@ -53,33 +48,28 @@ static void release(Fixture *all)
     weld_free(&all->weld);
 }
 
-static void every_edge_and_point_is_aimed_at_once(void **state)
+TEST(every_edge_and_point_is_aimed_at_once)
 {
-    (void)state;
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     assert_int_equal(all.aims.total, 6 + 4);
     assert_int_equal(all.aims.count, 6 + 4);
     for (size_t i = 0; i < 4; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 1.7);
     for (size_t i = 4; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
-    release(&all);
 }
 
-static void a_mesh_turned_inside_out_is_aimed_at_from_outside_too(void **state)
+TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
 {
-    (void)state;
     uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    Fixture all = aimed_as(turned, 4, 64, true);
+    FREED_BY(release) Fixture all = aimed(turned, 4, 64, true);
     for (size_t i = 0; i < 10; i++)
         assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
-    release(&all);
 }
 
-static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
+TEST(an_open_edge_is_aimed_at_beyond_it_too)
 {
-    (void)state;
-    Fixture all = aimed(faces, 3, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 3, 64, false);
     assert_int_equal(all.aims.total, 6 + 4 + 3);
     // The missing face is opposite the corner (1, 1, 1).
     const Vec3 outside = vec3(-1, -1, -1);
@@ -87,22 +77,18 @@ static void an_open_edge_is_aimed_at_beyond_it_too(void **state)
     for (size_t i = 4; i < all.aims.count; i++)
         beyond += vec3_dot(all.aims.aims[i].point, outside) > 1 + 1e-6;
     assert_int_equal(beyond, 3);
-    release(&all);
 }
 
-static void no_more_aims_are_kept_than_asked_for(void **state)
+TEST(no_more_aims_are_kept_than_asked_for)
 {
-    (void)state;
-    Fixture all = aimed(faces, 4, 3);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 3, false);
     assert_int_equal(all.aims.total, 10);
     assert_int_equal(all.aims.count, 3);
-    release(&all);
 }
 
-static void rays_from_afar_start_outside_and_end_at_their_aims(void **state)
+TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 {
-    (void)state;
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     assert_true(count >= 6 && count <= 10);
     for (size_t i = 0; i < count; i++) {
@@ -115,13 +101,11 @@ static void rays_from_afar_start_outside_and_end_at_their_aims(void **state)
         assert_true(vec3_dot(direction, aim->outward) < 0);
         assert_true(aim->tolerance > 0 && aim->tolerance < 1e-3f);
     }
-    release(&all);
 }
 
-static void rays_are_judged_by_where_they_end(void **state)
+TEST(rays_are_judged_by_where_they_end)
 {
-    (void)state;
-    Fixture all = aimed(faces, 4, 64);
+    FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     aims_shoot_from_afar(&all.aims, all.rays, all.targets);
     const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
     aims_judge(&all.aims, all.targets, distances, 4);
@@ -139,18 +123,4 @@ static void rays_are_judged_by_where_they_end(void **state)
         assert_int_not_equal(all.targets[i], reached);
     }
     assert_true(again);
-    release(&all);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_edge_and_point_is_aimed_at_once),
-        cmocka_unit_test(a_mesh_turned_inside_out_is_aimed_at_from_outside_too),
-        cmocka_unit_test(an_open_edge_is_aimed_at_beyond_it_too),
-        cmocka_unit_test(no_more_aims_are_kept_than_asked_for),
-        cmocka_unit_test(rays_from_afar_start_outside_and_end_at_their_aims),
-        cmocka_unit_test(rays_are_judged_by_where_they_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

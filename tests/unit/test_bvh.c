@@ -56,7 +56,7 @@ static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t 
 
 static void check_tree(const Triangles *triangles, const BvhSettings *how)
 {
-    Bvh bvh = built(triangles, how, 1);
+    FREED_BY(bvh_free) Bvh bvh = built(triangles, how, 1);
     unsigned *seen = calloc(triangles->count, sizeof *seen);
     assert_non_null(seen);
     assert_int_equal(check_node(&bvh, triangles, 0, seen), bvh.depth);
@@ -65,12 +65,10 @@ static void check_tree(const Triangles *triangles, const BvhSettings *how)
     for (size_t i = 0; i < triangles->count; i++)
         assert_int_equal(seen[i], 1);
     free(seen);
-    bvh_free(&bvh);
 }
 
-static void every_triangle_is_in_one_leaf_inside_nested_boxes(void **state)
+TEST(every_triangle_is_in_one_leaf_inside_nested_boxes)
 {
-    (void)state;
     static const size_t counts[] = {1, 2, 3, 5, 9, 1000, 50000};
     for (int set = 0; set < SET_KINDS; set++)
         for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
@@ -92,9 +90,8 @@ static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
     expect_same(one, two, a->first + 1);
 }
 
-static void any_number_of_threads_builds_the_same_tree(void **state)
+TEST(any_number_of_threads_builds_the_same_tree)
 {
-    (void)state;
     for (int set = 0; set < SET_KINDS; set++) {
         Triangles triangles = triangle_set((TriangleSet)set, 60000);
         for (size_t how = 0; how < SETTINGS; how++) {
@@ -113,19 +110,15 @@ static void any_number_of_threads_builds_the_same_tree(void **state)
     }
 }
 
-static void sah_leaves_stay_small_even_for_equal_triangles(void **state)
+TEST(sah_leaves_stay_small_even_for_equal_triangles)
 {
-    (void)state;
-    Triangles triangles = triangle_set(SET_EQUAL, 10000);
-    Bvh bvh = built(&triangles, &settings[0], 1);
+    FREED_BY(triangles_free) Triangles triangles = triangle_set(SET_EQUAL, 10000);
+    FREED_BY(bvh_free) Bvh bvh = built(&triangles, &settings[0], 1);
     assert_true(bvh.largest_leaf <= 8);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
 }
 
-static void no_triangles_make_no_tree(void **state)
+TEST(no_triangles_make_no_tree)
 {
-    (void)state;
     Triangles none = {0};
     Bvh bvh = built(&none, &settings[0], 1);
     assert_int_equal(bvh.node_count, 0);
@@ -144,11 +137,10 @@ static void count_inner(const Bvh *bvh, uint32_t number, uint32_t depth,
     count_inner(bvh, bvh->nodes[number].first + 1, depth + 1, counts);
 }
 
-static void levels_count_the_inner_nodes_of_every_depth(void **state)
+TEST(levels_count_the_inner_nodes_of_every_depth)
 {
-    (void)state;
-    Triangles triangles = triangle_set((TriangleSet)0, 1000);
-    Bvh bvh = built(&triangles, &settings[0], 1);
+    FREED_BY(triangles_free) Triangles triangles = triangle_set((TriangleSet)0, 1000);
+    FREED_BY(bvh_free) Bvh bvh = built(&triangles, &settings[0], 1);
     uint32_t expected[BVH_MAX_DEPTH] = {0}, counts[BVH_MAX_DEPTH], sum = 0;
     count_inner(&bvh, 0, 0, expected);
     bvh_count_levels(&bvh, counts);
@@ -157,18 +149,4 @@ static void levels_count_the_inner_nodes_of_every_depth(void **state)
         sum += counts[depth];
     assert_int_equal(sum, bvh.node_count - bvh.leaf_count);
     assert_true(counts[bvh.depth - 2] > 0 && counts[bvh.depth - 1] == 0);
-    bvh_free(&bvh);
-    triangles_free(&triangles);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_triangle_is_in_one_leaf_inside_nested_boxes),
-        cmocka_unit_test(any_number_of_threads_builds_the_same_tree),
-        cmocka_unit_test(sah_leaves_stay_small_even_for_equal_triangles),
-        cmocka_unit_test(no_triangles_make_no_tree),
-        cmocka_unit_test(levels_count_the_inner_nodes_of_every_depth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

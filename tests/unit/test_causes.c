@@ -53,9 +53,8 @@ static Causes find(StoredImage images[2])
     return causes;
 }
 
-static void every_pixel_counts_for_its_first_cause(void **state)
+TEST(every_pixel_counts_for_its_first_cause)
 {
-    (void)state;
     StoredImage images[2] = {gray_image("{\"max_level\":2,\"samples\":1,\"view\":1}"),
                              gray_image("{\"max_level\":4,\"samples\":2,\"view\":1}")};
     StoredImage *other = &images[1];
@@ -82,9 +81,8 @@ static void every_pixel_counts_for_its_first_cause(void **state)
     assert_true(fabs(causes.squares[CAUSE_ROUNDING] - (0)) < 1e-12);
 }
 
-static void with_the_same_samples_the_rest_is_rounding(void **state)
+TEST(with_the_same_samples_the_rest_is_rounding)
 {
-    (void)state;
     StoredImage images[2] = {gray_image("{\"max_level\":3,\"samples\":2}"),
                              gray_image("{\"max_level\":3,\"samples\":2}")};
     add(&images[1], 4, RED, 0.25f);
@@ -93,9 +91,8 @@ static void with_the_same_samples_the_rest_is_rounding(void **state)
     assert_int_equal(causes.pixels[CAUSE_COVERAGE], 0);
 }
 
-static void pixels_of_an_adaptive_picture_may_have_other_samples(void **state)
+TEST(pixels_of_an_adaptive_picture_may_have_other_samples)
 {
-    (void)state;
     StoredImage images[2] = {gray_image("{\"samples\":\"adaptive\"}"),
                              gray_image("{\"samples\":\"adaptive\"}")};
     add(&images[1], 4, RED, 0.25f);
@@ -106,31 +103,17 @@ static void pixels_of_an_adaptive_picture_may_have_other_samples(void **state)
     assert_int_equal(causes.pixels[CAUSE_COVERAGE], 1);
 }
 
-static void paths_that_end_before_the_limit_were_not_cut(void **state)
+TEST(paths_that_end_before_the_limit_were_not_cut)
 {
-    (void)state;
     StoredImage images[2] = {gray_image("{\"max_level\":3}"), gray_image("{\"max_level\":4}")};
     add(&images[1], 2, BOUNCES, 1);
     add(&images[1], 2, BLUE, 0.25f);
     assert_int_equal(find(images).pixels[CAUSE_REFLECTION], 1);
 }
 
-static void files_without_the_channels_tell_no_cause(void **state)
+TEST(files_without_the_channels_tell_no_cause)
 {
-    (void)state;
     StoredImage images[2] = {gray_image("{\"samples\":1}"), gray_image("{\"samples\":1}")};
     strcpy(images[1].names[SHADOW], "Z");
     assert_false(find(images).known);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pixel_counts_for_its_first_cause),
-        cmocka_unit_test(with_the_same_samples_the_rest_is_rounding),
-        cmocka_unit_test(pixels_of_an_adaptive_picture_may_have_other_samples),
-        cmocka_unit_test(paths_that_end_before_the_limit_were_not_cut),
-        cmocka_unit_test(files_without_the_channels_tell_no_cause),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,25 +2,19 @@
 // Tests that sets contain exactly the added cells, and that widening matches its definition.
 #include "refine/cell_set.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdlib.h>
 
 #define WIDTH  75
 #define HEIGHT 20
 
-static uint32_t random_below(uint64_t *state, uint32_t end)
+TEST(cells_have_room_in_pixels_with_a_slot)
 {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33) % end;
-}
-
-static void cells_have_room_in_pixels_with_a_slot(void **state)
-{
-    (void)state;
-    Slots slots;
+    FREED_BY(slots_free) Slots slots;
     Error error;
     assert_true(slots_make(&slots, WIDTH, HEIGHT, &error));
-    CellSet set = cell_set_of(&slots, 9);
+    FREED_BY(cell_set_free) CellSet set = cell_set_of(&slots, 9);
     slots_add(&slots, 4, 7);
     assert_true(cell_set_make_room(&set, &error));
     assert_true(cell_set_add(&set, 4 * 9 + 8, 7 * 9));
@@ -39,17 +33,14 @@ static void cells_have_room_in_pixels_with_a_slot(void **state)
     cell_set_clear_pixel(&set, 4, 7);
     assert_false(cell_set_has(&set, 44, 63));
     assert_true(cell_set_has(&set, 45, 63));
-    cell_set_free(&set);
-    slots_free(&slots);
 }
 
-static void ranges_of_pixels_are_added_and_found_as_a_whole(void **state)
+TEST(ranges_of_pixels_are_added_and_found_as_a_whole)
 {
-    (void)state;
-    Slots slots;
+    FREED_BY(slots_free) Slots slots;
     Error error;
     assert_true(slots_make(&slots, WIDTH, HEIGHT, &error));
-    CellSet set = cell_set_of(&slots, 1);
+    FREED_BY(cell_set_free) CellSet set = cell_set_of(&slots, 1);
     assert_true(cell_set_make_room(&set, &error));
     for (uint32_t first = 0; first < WIDTH; first++)
         for (uint32_t end = first + 1; end <= WIDTH; end++) {
@@ -61,8 +52,6 @@ static void ranges_of_pixels_are_added_and_found_as_a_whole(void **state)
             assert_false(first > 0 && pixel_set_has_all(&set, 3, first - 1, end));
             pixel_set_clear_rows(&set, 3, 4);
         }
-    cell_set_free(&set);
-    slots_free(&slots);
 }
 
 static bool holds_corner(const CellSet *set, uint32_t column, uint32_t row)
@@ -80,14 +69,13 @@ static bool is_wide(const CellSet *set, uint32_t column, uint32_t row)
     return wide;
 }
 
-static void pixels_are_wide_beside_a_corner_that_is_all_held(void **state)
+TEST(pixels_are_wide_beside_a_corner_that_is_all_held)
 {
-    (void)state;
-    Slots slots;
+    FREED_BY(slots_free) Slots slots;
     Error error;
     uint64_t random = 1;
     assert_true(slots_make(&slots, WIDTH, HEIGHT, &error));
-    CellSet set = cell_set_of(&slots, 1), wide = cell_set_of(&slots, 1);
+    FREED_BY(cell_set_free) CellSet set = cell_set_of(&slots, 1), wide = cell_set_of(&slots, 1);
     assert_true(cell_set_make_room(&set, &error) && cell_set_make_room(&wide, &error));
     for (int trial = 0; trial < 200; trial++) {
         for (int i = 0; i < 10 + 3 * trial; i++)
@@ -99,17 +87,4 @@ static void pixels_are_wide_beside_a_corner_that_is_all_held(void **state)
                 assert_int_equal(cell_set_has(&wide, column, row), is_wide(&set, column, row));
         pixel_set_clear_rows(&set, 0, HEIGHT);
     }
-    cell_set_free(&set);
-    cell_set_free(&wide);
-    slots_free(&slots);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_have_room_in_pixels_with_a_slot),
-        cmocka_unit_test(ranges_of_pixels_are_added_and_found_as_a_whole),
-        cmocka_unit_test(pixels_are_wide_beside_a_corner_that_is_all_held),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

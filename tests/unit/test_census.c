@@ -2,24 +2,20 @@
 // Tests each count of clrt check on a mesh or scene with the fault, and on one without.
 #include "check/census.h"
 #include "mesh/ply.h"
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char tetrahedron[] = "0 0 0  1 0 0  0 1 0  0 0 1";
-static const char tetrahedron_faces[] = "0 2 1  0 1 3  0 3 2  1 2 3";
+#define TETRAHEDRON "0 0 0  1 0 0  0 1 0  0 0 1"
+#define FACES       "0 2 1  0 1 3  0 3 2  1 2 3"
 
 static size_t count_words(const char *text)
 {
     size_t count = 0;
-    char copy[4096];
-    snprintf(copy, sizeof copy, "%s", text);
-    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " "))
-        count++;
+    for (text += strspn(text, " "); *text != '\0'; text += strspn(text, " "), count++)
+        text += strcspn(text, " ");
     return count;
 }
 
@@ -72,11 +68,8 @@ static Taken census_of_mesh(const char *points, const char *faces)
 
 static Taken census_of_scene(const char *text)
 {
-    Taken taken = {0};
+    Taken taken = {.scene = parsed(text)};
     Error error = {0};
-    if (!scn_parse(&taken.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn",
-                   &error))
-        fail_msg("%s", error.text);
     const Normalization frame = normalization_of(&taken.scene);
     assert_true(census_take(&taken.census, &taken.scene, &frame, &error));
     return taken;
@@ -90,92 +83,65 @@ static void release(Taken *taken)
 
 static MeshCensus mesh_census(const char *points, const char *faces)
 {
-    Taken taken = census_of_mesh(points, faces);
+    FREED_BY(release) Taken taken = census_of_mesh(points, faces);
     const MeshCensus census = taken.census.meshes[0];
-    release(&taken);
     return census;
 }
 
-static Closedness closedness(const char *points, const char *faces)
+// A fault's count and its first triangle.
+typedef struct {
+    size_t count, first;
+} Expected;
+
+static void expect_fault(const MeshFault *found, Expected expected)
 {
-    return mesh_census(points, faces).closedness;
+    assert_int_equal(found->count, expected.count);
+    if (expected.count > 0)
+        assert_int_equal(found->first, expected.first);
 }
 
-static void a_tetrahedron_is_closed(void **state)
-{
-    (void)state;
-    const Closedness found = closedness(tetrahedron, tetrahedron_faces);
-    assert_true(found.is_closed);
-    assert_false(found.is_inside_out);
-    assert_int_equal(found.edge_count, 6);
-    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
-    assert_int_equal(found.pinched.count + found.duplicates.count, 0);
-}
-
-static void a_tetrahedron_turned_over_is_inside_out(void **state)
-{
-    (void)state;
-    const Closedness found = closedness(tetrahedron, "0 1 2  0 3 1  0 2 3  1 3 2");
-    assert_true(found.is_closed);
-    assert_true(found.is_inside_out);
-}
-
-static void a_missing_triangle_leaves_three_open_edges(void **state)
-{
-    (void)state;
-    const Closedness found = closedness(tetrahedron, "0 1 3  0 3 2  1 2 3");
-    assert_int_equal(found.open.count, 3);
-    assert_int_equal(found.open.first, 0);
-    assert_int_equal(found.edge_count, 6);
-    assert_false(found.is_closed);
-}
-
-static void a_vertex_on_a_neighbors_edge_leaves_it_open(void **state)
-{
-    (void)state;
+static const struct {
+    const char *points, *faces;
+    size_t edge_count;
+    Expected open, crowded, turned, pinched, duplicates;
+    bool is_closed, is_inside_out;
+} meshes[] = {
+    {TETRAHEDRON, FACES, 6, .is_closed = true},
+    {TETRAHEDRON, "0 1 2  0 3 1  0 2 3  1 3 2", 6, .is_closed = true, .is_inside_out = true},
+    // A triangle is missing.
+    {TETRAHEDRON, "0 1 3  0 3 2  1 2 3", 6, .open = {3, 0}},
     // On one side of the edge from 1 to 2, vertex 4 is in its middle.
-    const Closedness found =
-        closedness("0 0 0  1 0 0  0 1 0  0 0 1  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3");
-    assert_int_equal(found.open.count, 3);
-    assert_false(found.is_closed);
+    {TETRAHEDRON "  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3", 9, .open = {3, 0}},
+    // A triangle is turned over.
+    {TETRAHEDRON, "0 2 1  0 1 3  0 3 2  1 3 2", 6, .turned = {3, 0}},
+    // An edge has a third triangle.
+    {TETRAHEDRON "  -1 -1 0", FACES "  0 3 4", 8, .crowded = {1, 1}, .open = {2, 4}},
+    // Two solids touch at a point.
+    {TETRAHEDRON "  -1 0 0  0 -1 0  0 0 -1", FACES "  0 4 5  0 6 4  0 5 6  4 6 5", 12,
+     .pinched = {1, 4}},
+    // Triangles have the same corners, by number and by position.
+    {TETRAHEDRON, "0 1 2  0 1 3  1 2 0  2 1 0", 5, .open = {2, 1}, .crowded = {3, 0},
+     .duplicates = {2, 2}},
+    {"0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2", 3, .turned = {3, 0}, .duplicates = {1, 1}},
+};
+
+TEST(edges_points_and_triangles_are_counted_by_fault)
+{
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        const Closedness found = mesh_census(meshes[i].points, meshes[i].faces).closedness;
+        assert_int_equal(found.edge_count, meshes[i].edge_count);
+        expect_fault(&found.open, meshes[i].open);
+        expect_fault(&found.crowded, meshes[i].crowded);
+        expect_fault(&found.turned, meshes[i].turned);
+        expect_fault(&found.pinched, meshes[i].pinched);
+        expect_fault(&found.duplicates, meshes[i].duplicates);
+        assert_int_equal(found.is_closed, meshes[i].is_closed);
+        assert_int_equal(found.is_inside_out, meshes[i].is_inside_out);
+    }
 }
 
-static void a_turned_triangle_is_told_by_its_edges(void **state)
+TEST(vertices_at_one_position_are_one_point)
 {
-    (void)state;
-    const Closedness found = closedness(tetrahedron, "0 2 1  0 1 3  0 3 2  1 3 2");
-    assert_int_equal(found.turned.count, 3);
-    assert_int_equal(found.turned.first, 0);
-    assert_int_equal(found.open.count, 0);
-    assert_false(found.is_closed);
-}
-
-static void a_third_triangle_at_an_edge_crowds_it(void **state)
-{
-    (void)state;
-    const Closedness found =
-        closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 -1 0", "0 2 1  0 1 3  0 3 2  1 2 3  0 3 4");
-    assert_int_equal(found.crowded.count, 1);
-    assert_int_equal(found.crowded.first, 1);
-    assert_int_equal(found.open.count, 2);
-    assert_int_equal(found.pinched.count, 0);
-    assert_false(found.is_closed);
-}
-
-static void solids_that_touch_at_a_point_are_pinched_there(void **state)
-{
-    (void)state;
-    const Closedness found = closedness("0 0 0  1 0 0  0 1 0  0 0 1  -1 0 0  0 -1 0  0 0 -1",
-                                        "0 2 1  0 1 3  0 3 2  1 2 3  0 4 5  0 6 4  0 5 6  4 6 5");
-    assert_int_equal(found.pinched.count, 1);
-    assert_int_equal(found.pinched.first, 4);
-    assert_int_equal(found.open.count + found.crowded.count + found.turned.count, 0);
-    assert_false(found.is_closed);
-}
-
-static void vertices_at_one_position_are_one_point(void **state)
-{
-    (void)state;
     const MeshCensus found = mesh_census("0 0 0  0 1 0  1 0 0  0 0 0  1 0 0  0 0 1 "
                                          " -0 -0 0  0 0 1  0 1 0  1 0 0  0 1 0  0 0 1",
                                          "0 1 2  3 4 5  6 7 8  9 10 11");
@@ -185,82 +151,60 @@ static void vertices_at_one_position_are_one_point(void **state)
     assert_int_equal(found.unused_vertices, 0);
 }
 
-static void vertices_that_nothing_uses_are_counted_apart(void **state)
+TEST(vertices_that_nothing_uses_are_counted_apart)
 {
-    (void)state;
     const MeshCensus found = mesh_census("5 5 5  0 0 0  1 0 0  0 1 0  0 0 0  5 5 5", "1 2 3");
     assert_int_equal(found.unused_vertices, 3);
     assert_int_equal(found.repeated_vertices, 0);
     assert_true(found.features.extent == 1);
 }
 
-static void triangles_with_the_same_corners_are_duplicates(void **state)
+TEST(an_edge_of_many_triangles_is_sorted_too)
 {
-    (void)state;
-    Closedness found = closedness(tetrahedron, "0 1 2  0 1 3  1 2 0  2 1 0");
-    assert_int_equal(found.duplicates.count, 2);
-    assert_int_equal(found.duplicates.first, 2);
-    found = closedness("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2");
-    assert_int_equal(found.duplicates.count, 1);
-    assert_int_equal(found.duplicates.first, 1);
-}
-
-static void an_edge_of_many_triangles_is_sorted_too(void **state)
-{
-    (void)state;
     char points[4096] = "0 0 0  1 0 0", faces[4096] = "";
     for (int i = 0; i < 60; i++) {
         snprintf(points + strlen(points), sizeof points - strlen(points), "  0 1 %d", i % 50);
         snprintf(faces + strlen(faces), sizeof faces - strlen(faces), "  0 1 %d", i + 2);
     }
-    const Closedness found = closedness(points, faces);
-    assert_int_equal(found.crowded.count, 1);
-    assert_int_equal(found.duplicates.count, 10);
-    assert_int_equal(found.duplicates.first, 50);
+    const Closedness found = mesh_census(points, faces).closedness;
+    expect_fault(&found.crowded, (Expected){1, 0});
+    expect_fault(&found.duplicates, (Expected){10, 50});
     assert_int_equal(found.edge_count, 1 + 2 * 50);
 }
 
-static void triangles_of_no_area_are_counted(void **state)
+TEST(triangles_of_no_area_are_counted)
 {
-    (void)state;
     const MeshCensus found =
         mesh_census("0 0 0  0.1 0.1 0.1  0.2 0.2 0.2  1 0 0  0 1 0  0.25 0.25 0.25 0.5 0.5 0.5",
                     "0 3 4  0 1 2  0 5 6");
-    assert_int_equal(found.features.flat.count, 2);
-    assert_int_equal(found.features.flat.first, 1);
+    expect_fault(&found.features.flat, (Expected){2, 1});
 }
 
-static void nothing_of_an_empty_mesh_is_closed(void **state)
+TEST(nothing_of_an_empty_mesh_is_closed)
 {
-    (void)state;
-    Taken taken = census_of_mesh("0 0 0", "");
+    FREED_BY(release) Taken taken = census_of_mesh("0 0 0", "");
     assert_int_equal(taken.census.empty_meshes, 1);
     assert_false(taken.census.meshes[0].closedness.is_closed);
     assert_int_equal(taken.census.meshes[0].unused_vertices, 1);
     assert_true(isinf(taken.census.meshes[0].features.edge.steps));
-    release(&taken);
 }
 
-static void what_is_not_finite_is_counted_and_left_out(void **state)
+TEST(what_is_not_finite_is_counted_and_left_out)
 {
-    (void)state;
+    FREED_BY(mesh_free)
     Mesh mesh = mesh_read("0 0 0  1 nan inf  0 1 0  0 0 1  -inf 0 0  1e300 2 3  1 0 0",
                           "0 2 3  0 1 2  0 2 6  4 5 6  0 0 1");
-    assert_int_equal(mesh.bad_positions.count, 3);
-    assert_int_equal(mesh.bad_positions.first, 1);
-    assert_int_equal(mesh.lost_corners.count, 3);
-    assert_int_equal(mesh.lost_corners.first, 1);
-    assert_int_equal(mesh.equal_corners.count, 0);
+    expect_fault(&mesh.bad_positions, (Expected){3, 1});
+    expect_fault(&mesh.lost_corners, (Expected){3, 1});
+    expect_fault(&mesh.equal_corners, (Expected){0, 0});
     assert_int_equal(mesh.triangle_count, 2);
     assert_int_equal(mesh.dropped_count, 3);
     for (size_t vertex = 0; vertex < mesh.vertex_count; vertex++)
         assert_true(isfinite(mesh.positions[vertex][0] + mesh.positions[vertex][1]));
-    mesh_free(&mesh);
 }
 
-static void what_is_not_finite_is_counted_in_binary_files_too(void **state)
+TEST(what_is_not_finite_is_counted_in_binary_files_too)
 {
-    (void)state;
     static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                                "property float x\nproperty float y\nproperty float z\n"
                                "property float nx\nproperty float ny\nproperty float nz\n"
@@ -273,28 +217,22 @@ static void what_is_not_finite_is_counted_in_binary_files_too(void **state)
     memcpy(bytes + sizeof head - 1, values, sizeof values);
     const size_t size = sizeof head - 1 + sizeof values;
     assert_true(ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error));
-    assert_int_equal(mesh.bad_positions.count, 1);
-    assert_int_equal(mesh.bad_positions.first, 1);
-    assert_int_equal(mesh.bad_normals.count, 2);
-    assert_int_equal(mesh.bad_normals.first, 0);
+    expect_fault(&mesh.bad_positions, (Expected){1, 1});
+    expect_fault(&mesh.bad_normals, (Expected){2, 0});
     assert_true(mesh.normals[2][0] == 0 && mesh.normals[2][2] == 0 && mesh.positions[2][0] == 2);
     mesh_free(&mesh);
     assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
 }
 
-static void two_equal_corners_are_told_by_the_triangles_place_in_the_file(void **state)
+TEST(two_equal_corners_are_told_by_the_triangles_place_in_the_file)
 {
-    (void)state;
-    Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
-    assert_int_equal(mesh.equal_corners.count, 2);
-    assert_int_equal(mesh.equal_corners.first, 1);
-    assert_int_equal(mesh.lost_corners.count, 0);
-    mesh_free(&mesh);
+    FREED_BY(mesh_free) Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
+    expect_fault(&mesh.equal_corners, (Expected){2, 1});
+    expect_fault(&mesh.lost_corners, (Expected){0, 0});
 }
 
-static void edges_and_heights_are_measured_in_steps_of_float(void **state)
+TEST(edges_and_heights_are_measured_in_steps_of_float)
 {
-    (void)state;
     // Near coordinates below 1, the spacing of floats is 2^-24.
     const MeshCensus found = mesh_census(
         "0.5 0 0  0.75 0 0  0.5 0.03125 0  0 0 0  0.875 0 0  0 0.875 0", "3 4 5  0 1 2");
@@ -308,9 +246,8 @@ static void edges_and_heights_are_measured_in_steps_of_float(void **state)
     assert_true(found.features.holds_floats);
 }
 
-static void coordinates_far_from_the_origin_are_written_in_coarser_steps(void **state)
+TEST(coordinates_far_from_the_origin_are_written_in_coarser_steps)
 {
-    (void)state;
     Taken taken = census_of_scene("mesh cube.ply translate 1048576 0 0");
     const Features *features = &taken.census.meshes[0].features;
     assert_true(features->offset >= 0x1p20 - 2 && features->extent <= 4);
@@ -322,9 +259,9 @@ static void coordinates_far_from_the_origin_are_written_in_coarser_steps(void **
     release(&taken);
 }
 
-static void repeated_meshes_spheres_and_lights_are_duplicates(void **state)
+TEST(repeated_meshes_spheres_and_lights_are_duplicates)
 {
-    (void)state;
+    FREED_BY(release)
     Taken taken = census_of_scene("light 1 2 3 1\nlight 1 2 4 1\nlight 1 2 3 0.5\n"
                                   "sphere 0 0 0 1\nsphere 0 -0 0 1\nsphere 0 0 0 2\n"
                                   "ply_file cube.ply\nply_file cone.ply\nply_file cube.ply\n"
@@ -332,42 +269,13 @@ static void repeated_meshes_spheres_and_lights_are_duplicates(void **state)
     assert_int_equal(taken.census.duplicate_lights, 1);
     assert_int_equal(taken.census.duplicate_spheres, 1);
     assert_int_equal(taken.census.duplicate_meshes, 1);
-    release(&taken);
 }
 
-static void defined_materials_that_nothing_has_are_unused(void **state)
+TEST(defined_materials_that_nothing_has_are_unused)
 {
-    (void)state;
+    FREED_BY(release)
     Taken taken = census_of_scene("define red matte\ndefine green matte\ndefine blue matte\n"
                                   "material green\nsphere 0 0 0 1\nmaterial red\n"
                                   "ply_file cube.ply");
     assert_int_equal(taken.census.unused_materials, 1);
-    release(&taken);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tetrahedron_is_closed),
-        cmocka_unit_test(a_tetrahedron_turned_over_is_inside_out),
-        cmocka_unit_test(a_missing_triangle_leaves_three_open_edges),
-        cmocka_unit_test(a_vertex_on_a_neighbors_edge_leaves_it_open),
-        cmocka_unit_test(a_turned_triangle_is_told_by_its_edges),
-        cmocka_unit_test(a_third_triangle_at_an_edge_crowds_it),
-        cmocka_unit_test(solids_that_touch_at_a_point_are_pinched_there),
-        cmocka_unit_test(vertices_at_one_position_are_one_point),
-        cmocka_unit_test(vertices_that_nothing_uses_are_counted_apart),
-        cmocka_unit_test(triangles_with_the_same_corners_are_duplicates),
-        cmocka_unit_test(an_edge_of_many_triangles_is_sorted_too),
-        cmocka_unit_test(triangles_of_no_area_are_counted),
-        cmocka_unit_test(nothing_of_an_empty_mesh_is_closed),
-        cmocka_unit_test(what_is_not_finite_is_counted_and_left_out),
-        cmocka_unit_test(what_is_not_finite_is_counted_in_binary_files_too),
-        cmocka_unit_test(two_equal_corners_are_told_by_the_triangles_place_in_the_file),
-        cmocka_unit_test(edges_and_heights_are_measured_in_steps_of_float),
-        cmocka_unit_test(coordinates_far_from_the_origin_are_written_in_coarser_steps),
-        cmocka_unit_test(repeated_meshes_spheres_and_lights_are_duplicates),
-        cmocka_unit_test(defined_materials_that_nothing_has_are_unused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,126 +8,76 @@
 #include <string.h>
 #include <sys/stat.h>
 
-typedef struct {
-    char root[64];
-    char membership[128];
-} Tree;
+#define FILES 3
 
-static void write_file(const Tree *tree, const char *name, const char *text)
+typedef struct {
+    const char *path, *text; // path below the tree's root
+} File;
+
+static void write_file(const char *root, File file)
 {
     char path[256];
-    snprintf(path, sizeof path, "%s/%s", tree->root, name);
-    for (char *slash = strchr(path + strlen(tree->root) + 1, '/'); slash != NULL;
-         slash = strchr(slash + 1, '/')) {
+    snprintf(path, sizeof path, "%s/%s", root, file.path);
+    for (char *slash = path + strlen(root) + 1; (slash = strchr(slash, '/')) != NULL; slash++) {
         *slash = '\0';
         mkdir(path, 0777);
         *slash = '/';
     }
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(file.text, stream);
+    fclose(stream);
 }
 
-static Tree make_tree(const char *membership)
+static uint32_t processors_of(const char *membership, const File files[FILES])
 {
-    Tree tree = {.root = "/tmp/clrt-cgroup-XXXXXX"};
-    assert_non_null(mkdtemp(tree.root));
-    snprintf(tree.membership, sizeof tree.membership, "%s/membership", tree.root);
-    write_file(&tree, "membership", membership);
-    return tree;
-}
-
-static uint32_t processors_of(const Tree *tree)
-{
-    char command[128];
-    const uint32_t processors = cgroup_processors(tree->membership, tree->root);
-    snprintf(command, sizeof command, "rm -r %s", tree->root);
+    char root[] = "/tmp/clrt-cgroup-XXXXXX", path[64], command[64];
+    assert_non_null(mkdtemp(root));
+    write_file(root, (File){"membership", membership});
+    for (int i = 0; i < FILES && files[i].path != NULL; i++)
+        write_file(root, files[i]);
+    snprintf(path, sizeof path, "%s/membership", root);
+    snprintf(command, sizeof command, "rm -r %s", root);
+    const uint32_t processors = cgroup_processors(path, root);
     assert_int_equal(system(command), 0);
     return processors;
 }
 
-static void a_quota_of_version_2_is_rounded_up(void **state)
-{
-    (void)state;
-    const Tree tree = make_tree("0::/job\n");
-    write_file(&tree, "job/cpu.max", "250000 100000\n");
-    assert_int_equal(processors_of(&tree), 3);
-}
+#define V1(folder, quota)                                                                          \
+    {folder "/cpu.cfs_quota_us", quota "\n"},                                                      \
+    {                                                                                              \
+        folder "/cpu.cfs_period_us", "100000\n"                                                    \
+    }
 
-static void the_least_of_all_groups_above_counts(void **state)
-{
-    (void)state;
-    const Tree tree = make_tree("0::/slice/job\n");
-    write_file(&tree, "slice/job/cpu.max", "max 100000\n");
-    write_file(&tree, "slice/cpu.max", "200000 100000\n");
-    write_file(&tree, "cpu.max", "800000 100000\n");
-    assert_int_equal(processors_of(&tree), 2);
-}
+static const struct {
+    const char *membership;
+    File files[FILES];
+    uint32_t processors;
+} cases[] = {
+    // Version 2: quotas are rounded up, and the least of all groups above counts.
+    {"0::/job\n", {{"job/cpu.max", "250000 100000\n"}}, 3},
+    {"0::/slice/job\n",
+     {{"slice/job/cpu.max", "max 100000\n"},
+      {"slice/cpu.max", "200000 100000\n"},
+      {"cpu.max", "800000 100000\n"}},
+     2},
+    {"0::/job\n", {{"job/cpu.max", "max 100000\n"}}, UINT32_MAX},
+    // The group's path is relative to the host, but the mount starts at the container's group.
+    {"0::/docker/0123456789abcdef\n", {{"cpu.max", "100000 100000\n"}}, 1},
+    // Version 1, where other controllers do not count.
+    {"4:cpu:/job\n", {V1("cpu/job", "-1")}, UINT32_MAX},
+    {"9:memory:/other\n4:cpu:/job\n0::/\n", {V1("cpu/job", "150000")}, 2},
+    {"4:cpu,cpuacct:/job\n", {V1("cpu,cpuacct/job", "50000")}, 1},
+    {"4:cpuset:/job\n", {V1("cpuset/job", "100000")}, UINT32_MAX},
+    // Nonsense is no quota.
+    {"nonsense\n0:\n\n0::/job\n",
+     {{"job/cpu.max", "100000 0\n"}, {"cpu.max", "many\n"}},
+     UINT32_MAX},
+};
 
-static void no_quota_is_no_limit(void **state)
+TEST(quotas_of_both_versions_limit_the_processors)
 {
-    (void)state;
-    Tree tree = make_tree("0::/job\n");
-    write_file(&tree, "job/cpu.max", "max 100000\n");
-    assert_int_equal(processors_of(&tree), UINT32_MAX);
-    tree = make_tree("4:cpu:/job\n");
-    write_file(&tree, "cpu/job/cpu.cfs_quota_us", "-1\n");
-    write_file(&tree, "cpu/job/cpu.cfs_period_us", "100000\n");
-    assert_int_equal(processors_of(&tree), UINT32_MAX);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(processors_of(cases[i].membership, cases[i].files), cases[i].processors);
     assert_int_equal(cgroup_processors("/nowhere", "/nowhere"), UINT32_MAX);
-}
-
-static void a_quota_of_version_1_counts(void **state)
-{
-    (void)state;
-    Tree tree = make_tree("9:memory:/other\n4:cpu:/job\n0::/\n");
-    write_file(&tree, "cpu/job/cpu.cfs_quota_us", "150000\n");
-    write_file(&tree, "cpu/job/cpu.cfs_period_us", "100000\n");
-    assert_int_equal(processors_of(&tree), 2);
-    tree = make_tree("4:cpu,cpuacct:/job\n");
-    write_file(&tree, "cpu,cpuacct/job/cpu.cfs_quota_us", "50000\n");
-    write_file(&tree, "cpu,cpuacct/job/cpu.cfs_period_us", "100000\n");
-    assert_int_equal(processors_of(&tree), 1);
-}
-
-static void quotas_of_other_controllers_do_not_count(void **state)
-{
-    (void)state;
-    const Tree tree = make_tree("4:cpuset:/job\n");
-    write_file(&tree, "cpuset/job/cpu.cfs_quota_us", "100000\n");
-    write_file(&tree, "cpuset/job/cpu.cfs_period_us", "100000\n");
-    assert_int_equal(processors_of(&tree), UINT32_MAX);
-}
-
-// The group's path is relative to the host, but the mount starts at the container's group.
-static void a_container_finds_its_quota_at_the_mount(void **state)
-{
-    (void)state;
-    const Tree tree = make_tree("0::/docker/0123456789abcdef\n");
-    write_file(&tree, "cpu.max", "100000 100000\n");
-    assert_int_equal(processors_of(&tree), 1);
-}
-
-static void what_is_no_quota_is_passed_over(void **state)
-{
-    (void)state;
-    const Tree tree = make_tree("nonsense\n0:\n\n0::/job\n");
-    write_file(&tree, "job/cpu.max", "100000 0\n");
-    write_file(&tree, "cpu.max", "many\n");
-    assert_int_equal(processors_of(&tree), UINT32_MAX);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_quota_of_version_2_is_rounded_up),
-        cmocka_unit_test(the_least_of_all_groups_above_counts),
-        cmocka_unit_test(no_quota_is_no_limit),
-        cmocka_unit_test(a_quota_of_version_1_counts),
-        cmocka_unit_test(quotas_of_other_controllers_do_not_count),
-        cmocka_unit_test(a_container_finds_its_quota_at_the_mount),
-        cmocka_unit_test(what_is_no_quota_is_passed_over),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,10 +27,9 @@ static void double_numbers(int socket, const void *context)
     }
 }
 
-static void a_child_answers_until_it_is_ended(void **state)
+TEST(a_child_answers_until_it_is_ended)
 {
     ChildProcess child;
-    (void)state;
     start(&child, double_numbers, NULL);
     for (int number = 1; number < 1000; number++) {
         int answer = 0;
@@ -50,11 +49,10 @@ static void send_much(int socket, const void *context)
     child_send(socket, bytes, sizeof bytes);
 }
 
-static void a_long_message_arrives_whole(void **state)
+TEST(a_long_message_arrives_whole)
 {
     static char bytes[10000000];
     ChildProcess child;
-    (void)state;
     start(&child, send_much, NULL);
     assert_true(child_receive(child.socket, bytes, sizeof bytes));
     for (size_t i = 0; i < sizeof bytes; i++)
@@ -71,11 +69,10 @@ static void report_streams(int socket, const void *context)
     child_send(socket, &empty, sizeof empty);
 }
 
-static void a_child_has_empty_streams(void **state)
+TEST(a_child_has_empty_streams)
 {
     ChildProcess child;
     int empty = 0;
-    (void)state;
     start(&child, report_streams, NULL);
     assert_true(child_receive(child.socket, &empty, sizeof empty));
     child_end(&child);
@@ -89,21 +86,19 @@ static void die(int socket, const void *context)
 }
 
 // A signal for a broken connection would end this process, too.
-static void messages_to_a_dead_child_fail(void **state)
+TEST(messages_to_a_dead_child_fail)
 {
     ChildProcess child;
     char bytes[100] = "";
-    (void)state;
     start(&child, die, NULL);
     assert_false(child_receive(child.socket, bytes, sizeof bytes));
     assert_false(child_send(child.socket, bytes, sizeof bytes));
     child_end(&child);
 }
 
-static void ending_no_child_is_harmless(void **state)
+TEST(ending_no_child_is_harmless)
 {
     ChildProcess none = {0};
-    (void)state;
     assert_int_equal(child_end(&none), 0);
 }
 
@@ -115,10 +110,9 @@ static void sleep_long(int socket, const void *context)
 }
 
 // The pipe's writing end stays open as long as any of the two processes lives.
-static void a_child_ends_with_its_parent(void **state)
+TEST(a_child_ends_with_its_parent)
 {
     int ends[2];
-    (void)state;
     assert_int_equal(pipe(ends), 0);
     const pid_t parent = fork();
     if (parent == 0) {
@@ -144,30 +138,14 @@ static void sleep_confined(int socket, const void *context)
     sleep_long(socket, context);
 }
 
-static void a_confined_child_ends_after_its_time(void **state)
+TEST(a_confined_child_ends_after_its_time)
 {
     ChildProcess child;
     const ChildLimits limits = {.seconds = 60, .bytes = 10};
-    File output;
+    FREED_BY(file_free) File output;
     Error error = {0};
     int signal;
-    (void)state;
     start(&child, sleep_confined, NULL);
     assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
     assert_int_equal(signal, SIGALRM);
-    file_free(&output);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_child_answers_until_it_is_ended),
-        cmocka_unit_test(a_long_message_arrives_whole),
-        cmocka_unit_test(a_child_has_empty_streams),
-        cmocka_unit_test(messages_to_a_dead_child_fail),
-        cmocka_unit_test(ending_no_child_is_harmless),
-        cmocka_unit_test(a_child_ends_with_its_parent),
-        cmocka_unit_test(a_confined_child_ends_after_its_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,18 +43,16 @@ static Difference measured(const float (*a)[4], const float (*b)[4])
     return difference;
 }
 
-static void equal_pictures_differ_by_nothing(void **state)
+TEST(equal_pictures_differ_by_nothing)
 {
-    (void)state;
     const Difference difference = measured(plain, plain);
     assert_true(difference.rmse == 0 && difference.maximum == 0);
     assert_int_equal(difference.off_by_1 + difference.off_by_4 + difference.wrong_hits, 0);
     assert_true(isinf(difference_psnr(&difference)) && difference_psnr(&difference) > 0);
 }
 
-static void all_three_colors_of_all_pixels_count_alike(void **state)
+TEST(all_three_colors_of_all_pixels_count_alike)
 {
-    (void)state;
     float other[PIXELS][4];
     memcpy(other, plain, sizeof other);
     other[1][0] = 0.5f;   // blue
@@ -72,9 +70,8 @@ static void all_three_colors_of_all_pixels_count_alike(void **state)
     assert_int_equal(difference.off_by_4, 2);
 }
 
-static void a_step_of_8_bits_is_not_more_than_a_step(void **state)
+TEST(a_step_of_8_bits_is_not_more_than_a_step)
 {
-    (void)state;
     for (int step = 1; step <= 5; step++)
         for (int level = 0; level + step <= 255; level++) {
             const unsigned char bytes[2] = {(unsigned char)level, (unsigned char)(level + step)};
@@ -88,9 +85,8 @@ static void a_step_of_8_bits_is_not_more_than_a_step(void **state)
         }
 }
 
-static void first_hits_are_compared_where_both_files_have_them(void **state)
+TEST(first_hits_are_compared_where_both_files_have_them)
 {
-    (void)state;
     float other[PIXELS][4];
     memcpy(other, plain, sizeof other);
     other[0][3] = 7;
@@ -104,50 +100,19 @@ static void first_hits_are_compared_where_both_files_have_them(void **state)
     assert_false(difference.has_hits);
 }
 
-static void what_cannot_be_compared_is_refused_in_a_sentence(void **state)
+// cli/test_compare.py tests other pairs that cannot be compared, and the map of differences.
+TEST(pictures_without_colors_are_refused)
 {
-    (void)state;
     Difference difference;
-    Error sizes = {0}, finite = {0}, colors = {0};
-    StoredImage images[2] = {image_of(plain), image_of(plain)};
-    images[1].height = 1;
-    assert_false(measure(&difference, images, &sizes));
-    assert_string_equal(sizes.text, "a has 2 x 2 pixels and b has 2 x 1");
-    StoredImage holes[2] = {image_of(plain), image_of(plain)};
-    holes[1].values[4 * 3 + 1] = NAN;
-    assert_false(measure(&difference, holes, &finite));
-    assert_string_equal(finite.text, "b: G of pixel 1,1 is not finite");
-    StoredImage nameless[2] = {image_of(plain), image_of(plain)};
-    strcpy(nameless[0].names[2], "red");
-    assert_false(measure(&difference, nameless, &colors));
-    assert_string_equal(colors.text, "a: it has no channels R, G and B");
-}
-
-static void the_map_shows_steps_at_their_fixed_brightness(void **state)
-{
-    (void)state;
-    const float a[PIXELS][4] = {{0}},
-                b[PIXELS][4] = {{0, 0, 1 / 255.0f, 0}, {0, 4 / 255.0f, 0, 0}, {0.5f, 0, 0, 0}};
-    StoredImage images[2] = {image_of(a), image_of(b)};
-    ImagePair pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
-    Framebuffer seen, exact;
     Error error = {0};
-    assert_true(image_pair_check(&pair, &error));
-    assert_true(difference_picture_make(&seen, &pair, true, &error));
-    assert_true(difference_picture_make(&exact, &pair, false, &error));
-    assert_float_equal(seen.pixels[0][0], 0.125, 1e-6);
-    assert_float_equal(seen.pixels[1][1], 0.25, 1e-6);
-    assert_true(seen.pixels[2][2] == 1 && seen.pixels[3][0] == 0);
-    assert_true(exact.pixels[0][0] == 1 / 255.0f && exact.pixels[2][2] == 0.5f);
-    framebuffer_free(&seen);
-    framebuffer_free(&exact);
-    stored_image_free(&images[0]);
-    stored_image_free(&images[1]);
+    StoredImage images[2] = {image_of(plain), image_of(plain)};
+    strcpy(images[0].names[2], "red");
+    assert_false(measure(&difference, images, &error));
+    assert_string_equal(error.text, "a: it has no channels R, G and B");
 }
 
-static void limits_are_kept_up_to_their_value(void **state)
+TEST(limits_are_kept_up_to_their_value)
 {
-    (void)state;
     Limits limits = {0};
     Error error = {0};
     assert_true(limits_parse(&limits, "rmse=0.5,max=25%,psnr=6,share1=1,share4=.5,hits=0", &error));
@@ -164,9 +129,8 @@ static void limits_are_kept_up_to_their_value(void **state)
         assert_false(limit_is_kept(&limits, (LimitKind)kind, &difference));
 }
 
-static void limits_that_are_not_understood_are_refused(void **state)
+TEST(limits_that_are_not_understood_are_refused)
 {
-    (void)state;
     const char *const wrong[] = {"",         "rmse",       "rmse=",        "rmse=x",  "mse=1",
                                  "rmse=1,",  "rmse=1 ",    "rmse=1;max=1", "rmse=-1", "psnr=4%",
                                  "rmse=1%%", "rmse=1e999", "rm=1",         "rmse=inf"};
@@ -176,19 +140,4 @@ static void limits_that_are_not_understood_are_refused(void **state)
         assert_false(limits_parse(&limits, wrong[i], &error));
         assert_non_null(strstr(error.text, "needs limits like rmse=0.01"));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_pictures_differ_by_nothing),
-        cmocka_unit_test(all_three_colors_of_all_pixels_count_alike),
-        cmocka_unit_test(a_step_of_8_bits_is_not_more_than_a_step),
-        cmocka_unit_test(first_hits_are_compared_where_both_files_have_them),
-        cmocka_unit_test(what_cannot_be_compared_is_refused_in_a_sentence),
-        cmocka_unit_test(the_map_shows_steps_at_their_fixed_brightness),
-        cmocka_unit_test(limits_are_kept_up_to_their_value),
-        cmocka_unit_test(limits_that_are_not_understood_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

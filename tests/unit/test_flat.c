@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tests the arrays that the device reads.
+// Tests the arrays that the device reads, and the kernel features that a scene needs.
 #include "accel/flat.h"
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "accel/traits.h"
+#include "unit/parsed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +17,14 @@ typedef struct {
 
 static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout)
 {
-    Flattened all = {0};
+    Flattened all = {.scene = parsed(text)};
     Error error = {0};
-    bool ok =
-        scn_parse(&all.scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error);
     const Normalization frame = normalization_of(&all.scene);
     const BvhSettings settings = {BVH_SAH, flat_leaves(layout)};
     const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame, layout, NULL};
-    ok = ok && triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
-         (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
-         flat_make(&all.flat, &source, &error);
+    const bool ok = triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
+                    (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
+                    flat_make(&all.flat, &source, &error);
     if (!ok)
         fail_msg("%s", error.text);
     return all;
@@ -46,9 +43,8 @@ static void release(Flattened *all)
     scene_free(&all->scene);
 }
 
-static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
+TEST(ids_number_spheres_first_and_triangles_in_file_order)
 {
-    (void)state;
     Flattened all =
         flattened("ply_file cube.ply\nsphere 0 0 0 1\nply_file cone.ply\nsphere 0 0 0 2", true);
     const uint32_t count = (uint32_t)all.triangles.count;
@@ -68,12 +64,11 @@ static void ids_number_spheres_first_and_triangles_in_file_order(void **state)
 
 // Tests a triangle with its corners in all six orders. The first three orders have the same
 // orientation. Two of its points differ only in the last coordinate.
-static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(void **state)
+TEST(corners_are_stored_in_one_order_whatever_their_order_in_the_file)
 {
     static const float points[3][3] = {{1, 2, 5}, {1, 2, 4}, {1, -3, 6}};
     static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                      {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-    (void)state;
     for (int i = 0; i < 6; i++) {
         const int *file = orders[i];
         const CornerOrder *order =
@@ -84,25 +79,21 @@ static void corners_are_stored_in_one_order_whatever_their_order_in_the_file(voi
     }
 }
 
-static void zero_has_one_sign(void **state)
+TEST(zero_has_one_sign)
 {
     static const double positions[3][3] = {{-1, -1, -1}, {1, 1, 1}, {1, -1, -0.0}};
-    Triangles triangles;
+    FREED_BY(triangles_free) Triangles triangles;
     Error error = {0};
-    (void)state;
-    Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     memcpy(all.scene.objects.data[0].mesh.positions, positions, sizeof positions);
     const Normalization frame = normalization_of(&all.scene);
     assert_true(triangles_make(&triangles, &all.scene, &frame, NULL, &error));
     assert_true(triangles.points[2][2] == 0 && !signbit(triangles.points[2][2]));
-    triangles_free(&triangles);
-    release(&all);
 }
 
-static void sphere_parts_add_up_to_the_double(void **state)
+TEST(sphere_parts_add_up_to_the_double)
 {
-    (void)state;
-    Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
+    FREED_BY(release) Flattened all = flattened("ply_file cube.ply\nsphere 0.1 0.2 0.3 0.7", true);
     const Normalization frame = normalization_of(&all.scene);
     const SphereData *sphere = &all.flat.spheres[0];
     const double radius = (double)sphere->radius + (double)sphere->radius_low;
@@ -113,36 +104,30 @@ static void sphere_parts_add_up_to_the_double(void **state)
     const double z = (double)sphere->center[2] + (double)sphere->center_low[2];
     assert_true(fabs(x - center.x) < 0x1p-48 && fabs(z - center.z) < 0x1p-48);
     assert_true(sphere->center_low[0] != 0 && sphere->center_low[2] != 0);
-    release(&all);
 }
 
-static void a_scene_without_triangles_has_no_tree_and_no_arrays_for_them(void **state)
+TEST(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them)
 {
-    (void)state;
-    Flattened all = flattened("sphere 0 0 0 1", true);
+    FREED_BY(release) Flattened all = flattened("sphere 0 0 0 1", true);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.triangle_count, 0);
     assert_int_equal(all.flat.normals_count, 0);
-    release(&all);
 }
 
-static void flat_objects_upload_no_normals(void **state)
+TEST(flat_objects_upload_no_normals)
 {
-    (void)state;
-    Flattened all = flattened("normals flat\nply_file cube.ply", true);
+    FREED_BY(release) Flattened all = flattened("normals flat\nply_file cube.ply", true);
     assert_int_equal(all.flat.normals_count, 0);
     assert_true(all.flat.triangles[0].normals == NOTHING);
-    release(&all);
 }
 
-static void a_lone_leaf_gets_a_node_with_one_child(void **state)
+TEST(a_lone_leaf_gets_a_node_with_one_child)
 {
-    (void)state;
-    Flattened all = flattened("ply_file cube.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file cube.ply", true);
     Bvh leaf = {.node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
-    FlatScene flat = {0};
+    FREED_BY(flat_free) FlatScene flat = {0};
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
     const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_PAIR, NULL};
@@ -150,14 +135,11 @@ static void a_lone_leaf_gets_a_node_with_one_child(void **state)
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
     assert_true(flat.pairs[0].planes[0][0][1] > flat.pairs[0].planes[0][1][1]);
-    flat_free(&flat);
-    release(&all);
 }
 
-static void a_missing_vertex_normal_becomes_the_faces(void **state)
+TEST(a_missing_vertex_normal_becomes_the_faces)
 {
-    (void)state;
-    Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
+    FREED_BY(release) Flattened all = flattened("ply_file ../tests/unit/zero_normal.ply", true);
     assert_int_equal(all.flat.normals_count, 1);
     const CornerOrder *order = triangles_order(&all.triangles, 0);
     const float *of[3] = {NULL}; // normals in the file's order of corners
@@ -166,7 +148,6 @@ static void a_missing_vertex_normal_becomes_the_faces(void **state)
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
     // Given normals keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
-    release(&all);
 }
 
 // Every scene here has one sphere, so a triangle's id is its number plus 1.
@@ -237,9 +218,8 @@ static void check_all_wide(const Flattened *all)
     free(seen);
 }
 
-static void the_wide_tree_holds_every_triangle_once_inside_nested_boxes(void **state)
+TEST(the_wide_tree_holds_every_triangle_once_inside_nested_boxes)
 {
-    (void)state;
     static const char *const scenes[] = {"sphere 0 0 0 1\nply_file cube.ply\nply_file cone.ply",
                                          "sphere 0 0 0 1\nply_file tetrahedron.ply"};
     for (int i = 0; i < 2; i++) {
@@ -249,9 +229,9 @@ static void the_wide_tree_holds_every_triangle_once_inside_nested_boxes(void **s
     }
 }
 
-static void a_leaf_too_large_for_a_block_becomes_several(void **state)
+TEST(a_leaf_too_large_for_a_block_becomes_several)
 {
-    (void)state;
+    FREED_BY(release)
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", true, NODES_WIDE);
     const Bvh leaf = {
         .node_count = 1, .leaf_count = 1, .nodes = all.bvh.nodes, .order = all.bvh.order};
@@ -264,23 +244,21 @@ static void a_leaf_too_large_for_a_block_becomes_several(void **state)
     assert_true(flat_make(&all.flat, &source, &error));
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
     check_all_wide(&all);
-    release(&all);
 }
 
-static void without_a_tree_blocks_hold_the_triangles_in_file_order(void **state)
+TEST(without_a_tree_blocks_hold_the_triangles_in_file_order)
 {
-    (void)state;
+    FREED_BY(release)
     Flattened all = flattened_as("sphere 0 0 0 1\nply_file cone.ply", false, NODES_WIDE);
     assert_int_equal(all.flat.node_count, 0);
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
     for (uint32_t i = 0; i < all.triangles.count; i++)
         assert_int_equal(NUMBER_OF(all.flat.blocks[i / 8].id[i % 8]), i);
-    release(&all);
 }
 
-static void blocks_mark_two_sided_triangles_and_looks_do_not(void **state)
+TEST(blocks_mark_two_sided_triangles_and_looks_do_not)
 {
-    (void)state;
+    FREED_BY(release)
     Flattened all = flattened_as("material 1\nsphere 0 0 0 1\nply_file tetrahedron.ply\n"
                                  "sides two\nmaterial 2\nnormals flat\nply_file tetrahedron.ply",
                                  true, NODES_WIDE);
@@ -294,24 +272,31 @@ static void blocks_mark_two_sided_triangles_and_looks_do_not(void **state)
     assert_int_equal(all.flat.looks[0].material, 1);
     assert_int_equal(all.flat.looks[half].material, 2);
     assert_true(all.flat.looks[half].normals == NOTHING);
-    release(&all);
 }
 
-int main(void)
+static Material materials[2];
+static SphereData spheres[1];
+
+TEST(only_materials_in_use_count)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ids_number_spheres_first_and_triangles_in_file_order),
-        cmocka_unit_test(corners_are_stored_in_one_order_whatever_their_order_in_the_file),
-        cmocka_unit_test(zero_has_one_sign),
-        cmocka_unit_test(sphere_parts_add_up_to_the_double),
-        cmocka_unit_test(a_scene_without_triangles_has_no_tree_and_no_arrays_for_them),
-        cmocka_unit_test(flat_objects_upload_no_normals),
-        cmocka_unit_test(a_lone_leaf_gets_a_node_with_one_child),
-        cmocka_unit_test(a_missing_vertex_normal_becomes_the_faces),
-        cmocka_unit_test(the_wide_tree_holds_every_triangle_once_inside_nested_boxes),
-        cmocka_unit_test(a_leaf_too_large_for_a_block_becomes_several),
-        cmocka_unit_test(without_a_tree_blocks_hold_the_triangles_in_file_order),
-        cmocka_unit_test(blocks_mark_two_sided_triangles_and_looks_do_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    FlatScene flat = {
+        .materials = materials, .material_count = 2, .spheres = spheres, .sphere_count = 1};
+    materials[1] = (Material){.shader = SHADER_BLINN_PHONG, .reflectivity = 0.5f};
+    spheres[0].material = 0;
+    assert_false(traits_of(&flat, false).mirrors);
+    assert_false(traits_of(&flat, false).shaded);
+    spheres[0].material = 1;
+    assert_true(traits_of(&flat, false).mirrors);
+    assert_true(traits_of(&flat, false).shaded);
+    assert_true(traits_of(&flat, false).spheres);
+    assert_false(traits_of(&flat, false).triangles);
+}
+
+TEST(traits_become_compiler_options)
+{
+    char options[TRAITS_OPTIONS_SIZE];
+    const SceneTraits traits = {.spheres = true, .mirrors = true, .statistics = true};
+    traits_write_options(&traits, options);
+    assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
+                                 "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_STATISTICS=1");
 }

@@ -58,55 +58,31 @@ static void expect_failure(const char *text, const char *sentence)
     assert_true(clock_seconds() - start < 10);
 }
 
-static void what_the_program_writes_about_the_file_is_the_stream(void **state)
+TEST(what_the_program_writes_about_the_file_is_the_stream)
 {
-    (void)state;
-    File stream;
+    FREED_BY(file_free) File stream;
     Error error;
     assert_true(run("echo about $1; sleep 0.1; echo more", &stream, &error));
     assert_int_equal(stream.size, strlen("about m.obj\nmore\n"));
     assert_memory_equal(stream.bytes, "about m.obj\nmore\n", stream.size);
-    file_free(&stream);
 }
 
-static void a_crash_is_told_with_its_signal(void **state)
+TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
 {
-    (void)state;
+    const char *late = "m.obj: Assimp took too long to read it and was stopped";
     expect_failure("echo part of it; kill -SEGV $$",
                    "m.obj: Assimp crashed while reading it (signal 11)");
-}
-
-static void a_limit_of_time_is_told(void **state)
-{
-    (void)state;
-    const char *late = "m.obj: Assimp took too long to read it and was stopped";
     expect_failure("kill -XCPU $$", late);
     expect_failure("kill -ALRM $$", late);
     expect_failure("exec sleep 60", late);
     expect_failure("while :; do echo; sleep 0.05; done", late);
-}
-
-static void a_stream_without_an_end_is_stopped(void **state)
-{
-    (void)state;
     expect_failure("exec yes", "m.obj: Assimp exceeded the limit of its output and was stopped");
-}
-
-static void a_program_that_stays_when_its_stream_has_ended_is_ended(void **state)
-{
-    (void)state;
     expect_failure("exec sleep 60 >/dev/null", "m.obj: Assimp crashed while reading it (signal 9)");
-}
-
-static void a_program_that_gives_up_is_told(void **state)
-{
-    (void)state;
     expect_failure("exit 1", "m.obj: the program that reads it ended too early");
 }
 
-static void a_program_that_is_not_there_is_told(void **state)
+TEST(a_program_that_is_not_there_is_told)
 {
-    (void)state;
     const ForeignReader reader = {.program = "/nonexistent", .limits = {.seconds = 1, .bytes = 1}};
     File stream;
     Error error = {0};
@@ -116,9 +92,8 @@ static void a_program_that_is_not_there_is_told(void **state)
 }
 
 // The program in the current folder may belong to anybody.
-static void a_program_of_that_name_in_the_current_folder_is_not_started(void **state)
+TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
 {
-    (void)state;
     char folder[] = "/tmp/clrt_folder_XXXXXX";
     File stream;
     Error error = {0};
@@ -134,30 +109,13 @@ static void a_program_of_that_name_in_the_current_folder_is_not_started(void **s
     assert_int_equal(chdir("/") + rmdir(folder), 0);
 }
 
-static int make_script(void **state)
+SET_UP(make_script)
 {
-    (void)state;
     const int file = mkstemp(script);
     return file < 0 ? -1 : close(file);
 }
 
-static int remove_script(void **state)
+TEAR_DOWN(remove_script)
 {
-    (void)state;
     return unlink(script);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_the_program_writes_about_the_file_is_the_stream),
-        cmocka_unit_test(a_crash_is_told_with_its_signal),
-        cmocka_unit_test(a_limit_of_time_is_told),
-        cmocka_unit_test(a_stream_without_an_end_is_stopped),
-        cmocka_unit_test(a_program_that_stays_when_its_stream_has_ended_is_ended),
-        cmocka_unit_test(a_program_that_gives_up_is_told),
-        cmocka_unit_test(a_program_that_is_not_there_is_told),
-        cmocka_unit_test(a_program_of_that_name_in_the_current_folder_is_not_started),
-    };
-    return cmocka_run_group_tests(tests, make_script, remove_script);
 }

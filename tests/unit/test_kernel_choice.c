@@ -4,66 +4,38 @@
 #include "device/kernel_choice.h"
 #include "unit/cmocka_all.h"
 
-static void assert_choice(const KernelRequest *request, const Device *device, KernelFamily family,
-                          NodeLayout nodes)
-{
-    const KernelChoice choice = kernel_choose(request, device);
-    assert_int_equal(choice.family, family);
-    assert_int_equal(choice.nodes, nodes);
-}
+static const struct {
+    KernelRequest request;
+    Device device;
+    KernelFamily family;
+    NodeLayout nodes;
+} cases[] = {
+    // CPUs get packets unless their implementation is slow with them.
+    {{0}, {.platform = "Portable Computing Language", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
+    {{0}, {.platform = "Oclgrind", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
+    {{0}, {.platform = "Intel(R) OpenCL", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
+    {{0}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
+    // Other devices get rays.
+    {{0}, {.platform = "Portable Computing Language"}, FAMILY_RAY, NODES_PAIR},
+    {{0}, {.platform = "rusticl"}, FAMILY_RAY, NODES_PAIR},
+    // A choice by the user is kept, and fp64 is rays over pairs everywhere.
+    {{.family = 1 + FAMILY_PACKET},
+     {.platform = "rusticl", .is_cpu = true},
+     FAMILY_PACKET,
+     NODES_WIDE},
+    {{.nodes = 1 + NODES_WIDE}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_WIDE},
+    {{.precision = PRECISION_FP64},
+     {.platform = "Portable Computing Language", .is_cpu = true},
+     FAMILY_RAY,
+     NODES_PAIR},
+};
 
-static void cpus_get_packets_unless_their_implementation_is_slow_with_them(void **state)
+TEST(each_device_gets_its_fastest_form_unless_the_user_chooses)
 {
-    (void)state;
-    const KernelRequest none = {0};
-    const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
-    const Device other = {.platform = "Oclgrind", .is_cpu = true};
-    const Device intel = {.platform = "Intel(R) OpenCL", .is_cpu = true};
-    const Device mesa = {.platform = "rusticl", .is_cpu = true};
-    assert_choice(&none, &pocl, FAMILY_PACKET, NODES_WIDE);
-    assert_choice(&none, &other, FAMILY_PACKET, NODES_WIDE);
-    assert_choice(&none, &intel, FAMILY_RAY, NODES_PAIR);
-    assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
-}
-
-static void other_devices_get_rays(void **state)
-{
-    (void)state;
-    const KernelRequest none = {0};
-    const Device pocl = {.platform = "Portable Computing Language"};
-    const Device mesa = {.platform = "rusticl"};
-    assert_choice(&none, &pocl, FAMILY_RAY, NODES_PAIR);
-    assert_choice(&none, &mesa, FAMILY_RAY, NODES_PAIR);
-}
-
-static void a_choice_by_the_user_is_kept(void **state)
-{
-    (void)state;
-    const Device mesa = {.platform = "rusticl", .is_cpu = true};
-    const KernelRequest packets = {.family = 1 + FAMILY_PACKET};
-    const KernelRequest wide = {.nodes = 1 + NODES_WIDE};
-    assert_int_equal(kernel_choose(&packets, &mesa).family, FAMILY_PACKET);
-    assert_int_equal(kernel_choose(&packets, &mesa).nodes, NODES_WIDE);
-    assert_int_equal(kernel_choose(&wide, &mesa).family, FAMILY_RAY);
-    assert_int_equal(kernel_choose(&wide, &mesa).nodes, NODES_WIDE);
-}
-
-static void fp64_is_rays_over_pairs_everywhere(void **state)
-{
-    (void)state;
-    const Device pocl = {.platform = "Portable Computing Language", .is_cpu = true};
-    const KernelRequest fp64 = {.precision = PRECISION_FP64};
-    assert_choice(&fp64, &pocl, FAMILY_RAY, NODES_PAIR);
-    assert_int_equal(kernel_choose(&fp64, &pocl).precision, PRECISION_FP64);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cpus_get_packets_unless_their_implementation_is_slow_with_them),
-        cmocka_unit_test(other_devices_get_rays),
-        cmocka_unit_test(a_choice_by_the_user_is_kept),
-        cmocka_unit_test(fp64_is_rays_over_pairs_everywhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const KernelChoice choice = kernel_choose(&cases[i].request, &cases[i].device);
+        assert_int_equal(choice.family, cases[i].family);
+        assert_int_equal(choice.nodes, cases[i].nodes);
+        assert_int_equal(choice.precision, cases[i].request.precision);
+    }
 }

@@ -2,14 +2,9 @@
 // Tests that pieces of meshes are correct for any number of threads.
 #include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdlib.h>
-
-static uint32_t random_below(uint64_t *state, uint32_t end)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33) % end;
-}
 
 static Mesh mesh_of(uint32_t vertices, uint32_t triangles)
 {
@@ -35,16 +30,14 @@ static void fill_band(Mesh *mesh, uint32_t first, uint32_t end, uint32_t vertex)
             mesh->triangles[i][corner] = vertex + i - first + corner;
 }
 
-static void a_mesh_of_one_piece_keeps_its_order(void **state)
+TEST(a_mesh_of_one_piece_keeps_its_order)
 {
-    (void)state;
     Mesh mesh = mesh_of(1002, 1000);
     fill_band(&mesh, 0, 1000, 0);
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 1);
     assert_int_equal(pieces.ends[0], 1000);
     assert_null(pieces.order);
-    mesh_pieces_free(&pieces);
     free(mesh.triangles);
 }
 
@@ -87,9 +80,8 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 #define TRIANGLES 60000
 
 // Random triangles. The vertices of each triangle are in one range of a thousand.
-static void pieces_are_what_shared_vertices_join(void **state)
+TEST(pieces_are_what_shared_vertices_join)
 {
-    (void)state;
     uint64_t random = 1;
     Mesh mesh = mesh_of(VERTICES, TRIANGLES);
     for (uint32_t i = 0; i < TRIANGLES; i++) {
@@ -109,39 +101,24 @@ static void pieces_are_what_shared_vertices_join(void **state)
     free(mesh.triangles);
 }
 
-static void small_pieces_are_one_before_the_larger(void **state)
+TEST(small_pieces_are_one_before_the_larger)
 {
-    (void)state;
     const uint32_t small = 30, band = PIECE_TRIANGLES;
     Mesh mesh = mesh_of(3 * small + band + 2, small + band);
     fill_band(&mesh, 0, band, 0);
     for (uint32_t i = 0; i < small; i++)
         fill_band(&mesh, band + i, band + i + 1, band + 2 + 3 * i);
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 2);
     assert_int_equal(pieces.ends[0], small);
     assert_int_equal(pieces.order[0], band);
     assert_int_equal(pieces.ends[1], small + band);
-    mesh_pieces_free(&pieces);
     free(mesh.triangles);
 }
 
-static void no_triangles_are_no_pieces(void **state)
+TEST(no_triangles_are_no_pieces)
 {
-    (void)state;
     const Mesh mesh = {0};
-    MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
     assert_int_equal(pieces.count, 0);
-    mesh_pieces_free(&pieces);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mesh_of_one_piece_keeps_its_order),
-        cmocka_unit_test(pieces_are_what_shared_vertices_join),
-        cmocka_unit_test(small_pieces_are_one_before_the_larger),
-        cmocka_unit_test(no_triangles_are_no_pieces),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

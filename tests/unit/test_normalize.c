@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Tests the normalized coordinate frame of scenes.
+// Tests the normalized coordinate frame of scenes, how many levels of rays a scene needs, and the
+// axes of camera rays.
+#include "scene/camera.h"
 #include "scene/normalize.h"
-#include "scene/scn.h"
+#include "unit/parsed.h"
 
-#include "unit/cmocka_all.h"
-
-#include <string.h>
-
-static Scene parsed(const char *text)
+TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
 {
-    Scene scene;
-    Error error = {0};
-    if (!scn_parse(&scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error))
-        fail_msg("%s", error.text);
-    return scene;
-}
-
-static void the_largest_side_of_the_triangles_comes_to_between_one_and_two(void **state)
-{
-    (void)state;
-    Scene scene = parsed("mesh cube.ply scale 1000 translate 5000 0 0");
+    FREED_BY(scene_free) Scene scene = parsed("mesh cube.ply scale 1000 translate 5000 0 0");
     const Normalization frame = normalization_of(&scene);
     const Mesh *mesh = &scene.objects.data[0].mesh;
     double low = 9, high = -9;
@@ -33,48 +21,120 @@ static void the_largest_side_of_the_triangles_comes_to_between_one_and_two(void 
     assert_true(high - low >= 0.5 && high - low < 2);
     int exponent;
     assert_true(frexp(frame.scale, &exponent) == 0.5);
-    scene_free(&scene);
 }
 
-static void spheres_frame_a_scene_only_without_triangles(void **state)
+TEST(spheres_frame_a_scene_only_without_triangles)
 {
-    (void)state;
-    Scene spheres = parsed("sphere 10 0 0 4");
+    FREED_BY(scene_free) Scene spheres = parsed("sphere 10 0 0 4");
     assert_true(normalization_of(&spheres).center.x == 10);
     assert_true(normalization_of(&spheres).scale == 0.125);
-    Scene both = parsed("sphere 0 0 -1e9 1e9\nmesh cube.ply");
+    FREED_BY(scene_free) Scene both = parsed("sphere 0 0 -1e9 1e9\nmesh cube.ply");
     assert_true(normalization_of(&both).scale > 0.5);
-    scene_free(&spheres);
-    scene_free(&both);
 }
 
-static void an_empty_scene_keeps_its_coordinates(void **state)
+TEST(an_empty_scene_keeps_its_coordinates)
 {
-    (void)state;
-    Scene scene = parsed("");
+    FREED_BY(scene_free) Scene scene = parsed("");
     const Normalization frame = normalization_of(&scene);
     assert_true(frame.scale == 1 && frame.center.x == 0);
-    scene_free(&scene);
 }
 
-static void what_lies_too_far_away_is_refused_by_name(void **state)
+TEST(what_lies_too_far_away_is_refused_by_name)
 {
-    (void)state;
     Error error = {0};
-    Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");
+    FREED_BY(scene_free) Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");
     const Normalization frame = normalization_of(&scene);
     assert_false(normalization_check(&frame, &scene, &error));
     assert_string_equal(error.text, "light 2 is more than 1e12 times the scene's size away");
+}
+
+// Returns a scene with a sphere of each reflectivity.
+static Scene scene_of(const float reflectivities[], size_t count)
+{
+    Scene scene = {0};
+    Error error = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        const Material material = {.reflectivity = reflectivities[i]};
+        const Sphere sphere = {.radius = 1, .material = i};
+        assert_true(array_push(&scene.materials, material, &error));
+        assert_true(array_push(&scene.spheres, sphere, &error));
+    }
+    return scene;
+}
+
+TEST(the_bound_is_the_largest_weight_that_is_left)
+{
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.25f, 0.5f, 0}, 3);
+    assert_true(truncation_bound(&scene, 0) == 1);
+    assert_true(truncation_bound(&scene, 3) == 0.125);
+}
+
+TEST(the_level_is_the_first_within_the_bound)
+{
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.5f}, 1);
+    for (uint32_t level = 0; level < 30; level++) {
+        assert_int_equal(truncation_level(&scene, ldexp(1, -(int)level)), level);
+        assert_int_equal(truncation_level(&scene, ldexp(0.99, -(int)level)), level + 1);
+    }
+}
+
+TEST(without_mirrors_one_level_is_exact)
+{
+    Scene scene = scene_of((const float[]){0}, 1), empty = {0};
+    assert_int_equal(truncation_level(&scene, 1e-30), 1);
+    assert_int_equal(truncation_level(&empty, 1e-30), 1);
+    assert_true(truncation_bound(&scene, 1) == 0);
     scene_free(&scene);
 }
 
-int main(void)
+TEST(perfect_mirrors_take_all_levels)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_largest_side_of_the_triangles_comes_to_between_one_and_two),
-        cmocka_unit_test(spheres_frame_a_scene_only_without_triangles),
-        cmocka_unit_test(an_empty_scene_keeps_its_coordinates),
-        cmocka_unit_test(what_lies_too_far_away_is_refused_by_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){1}, 1);
+    assert_int_equal(truncation_level(&scene, 0.5), MAX_LEVEL_LIMIT);
+    assert_true(truncation_bound(&scene, MAX_LEVEL_LIMIT) == 1);
+}
+
+TEST(materials_that_nothing_uses_do_not_count)
+{
+    Error error = {0};
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0.25f}, 1);
+    assert_true(array_push(&scene.materials, (Material){.reflectivity = 1}, &error));
+    assert_true(truncation_bound(&scene, 2) == 0.0625);
+}
+
+static const Viewpoint ahead = {{4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 90};
+static const Normalization unmoved = {{0, 0, 0}, 1};
+
+TEST(right_and_down_span_the_image_plane)
+{
+    const CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
+    assert_true(camera.eye[0] == 4 && camera.forward[0] == -1);
+    // At 90 degrees, half the plane's height is 1, divided into 100 half steps.
+    assert_true(camera.right_step[1] == 0.01f && camera.right_step[2] == 0);
+    assert_true(camera.down_step[2] == -0.01f && camera.down_step[1] == 0);
+}
+
+TEST(samples_divide_the_step)
+{
+    const CameraData one = camera_make(&ahead, &unmoved, 64, 1);
+    const CameraData four = camera_make(&ahead, &unmoved, 64, 4);
+    assert_true(one.right_step[1] == 4 * four.right_step[1]);
+}
+
+TEST(the_eye_moves_with_the_frame_and_directions_do_not)
+{
+    const Normalization moved = {{2, 1, 0}, 0.5};
+    const CameraData camera = camera_make(&ahead, &moved, 100, 1);
+    assert_true(camera.eye[0] == 1 && camera.eye[1] == -0.5f);
+    assert_true(camera.forward[0] == -1);
+}
+
+TEST(a_shift_moves_samples_by_parts_of_their_distance)
+{
+    CameraData camera = camera_make(&ahead, &unmoved, 100, 1);
+    camera_shift(&camera, 0.5, -0.25);
+    // Samples are two half steps apart.
+    assert_float_equal(camera.forward[1], 0.01, 1e-9);
+    assert_float_equal(camera.forward[2], 0.005, 1e-9);
+    assert_true(camera.forward[0] == -1);
 }

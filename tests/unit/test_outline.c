@@ -2,14 +2,14 @@
 // Tests the cells that an outline touches, and the centers that it contains, cell by cell.
 #include "refine/outline.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #define TRIALS 3000
 #define GRID   12
 
 static double random_number(uint64_t *state, double low, double high)
 {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
+    return low + (high - low) * random_unit(state);
 }
 
 static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};
@@ -71,9 +71,8 @@ static bool is_in(CellRange range, uint32_t number)
     return number >= range.first && number < range.end;
 }
 
-static void exactly_the_cells_that_it_meets_are_touched(void **state)
+TEST(exactly_the_cells_that_it_meets_are_touched)
 {
-    (void)state;
     uint64_t random = 1;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
@@ -88,9 +87,8 @@ static void exactly_the_cells_that_it_meets_are_touched(void **state)
     }
 }
 
-static void exactly_the_samples_that_it_holds_are_sampled(void **state)
+TEST(exactly_the_samples_that_it_holds_are_sampled)
 {
-    (void)state;
     uint64_t random = 2;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
@@ -105,39 +103,24 @@ static void exactly_the_samples_that_it_holds_are_sampled(void **state)
     }
 }
 
-static void a_triangle_is_as_thick_as_its_inner_disk(void **state)
+TEST(a_triangle_is_as_thick_as_its_inner_disk)
 {
-    (void)state;
     Outline outline = {.count = 3, .corners = {{0, 0}, {30, 0}, {0, 40}}};
     outline_complete(&outline);
     assert_true(outline_is_thinner(&outline, 20.001));
     assert_false(outline_is_thinner(&outline, 19.999));
 }
 
-static void a_polygon_is_never_said_to_be_thicker_than_it_is(void **state)
+TEST(a_polygon_is_never_said_to_be_thicker_than_it_is)
 {
-    (void)state;
     Outline strip = {.count = 4, .corners = {{0, 0}, {300, 400}, {292, 406}, {-8, 6}}};
     outline_complete(&strip);
     assert_true(outline_is_thinner(&strip, 10.001));
     assert_false(outline_is_thinner(&strip, 5));
 }
 
-static void corners_counter_clockwise_as_seen_give_a_negative_area(void **state)
+TEST(corners_counter_clockwise_as_seen_give_a_negative_area)
 {
-    (void)state;
     const Outline outline = {.count = 4, .corners = {{0, 0}, {0, 5}, {7, 5}, {7, 0}}};
     assert_true(outline_signed_area(&outline) == -70);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exactly_the_cells_that_it_meets_are_touched),
-        cmocka_unit_test(exactly_the_samples_that_it_holds_are_sampled),
-        cmocka_unit_test(a_triangle_is_as_thick_as_its_inner_disk),
-        cmocka_unit_test(a_polygon_is_never_said_to_be_thicker_than_it_is),
-        cmocka_unit_test(corners_counter_clockwise_as_seen_give_a_negative_area),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static void begin(OutputFile *file, const char *path)
     assert_true(output_file_begin(file, path, &error));
 }
 
-static void a_file_gets_the_permissions_that_the_mask_leaves(void **state)
+TEST(a_file_gets_the_permissions_that_the_mask_leaves)
 {
-    (void)state;
     OutputFile file;
     Error cause = {0};
     const mode_t before = umask(027);
@@ -45,9 +44,8 @@ static void a_file_gets_the_permissions_that_the_mask_leaves(void **state)
     unlink("picture");
 }
 
-static void unfinished_files_of_one_name_are_two(void **state)
+TEST(unfinished_files_of_one_name_are_two)
 {
-    (void)state;
     OutputFile one, other;
     Error cause = {0};
     begin(&one, "picture");
@@ -61,9 +59,8 @@ static void unfinished_files_of_one_name_are_two(void **state)
 
 // The mask applies to all threads. If it changed, files of other threads could become readable by
 // everyone.
-static void the_mask_is_not_changed_even_for_a_moment(void **state)
+TEST(the_mask_is_not_changed_even_for_a_moment)
 {
-    (void)state;
     OutputFile file;
     Error cause = {0};
     const int before = mask_changes;
@@ -74,25 +71,13 @@ static void the_mask_is_not_changed_even_for_a_moment(void **state)
     unlink("picture");
 }
 
-static int enter_folder(void **state)
+SET_UP(enter_folder)
 {
-    (void)state;
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 
 // Fails if files are left in the folder.
-static int leave_folder(void **state)
+TEAR_DOWN(leave_folder)
 {
-    (void)state;
     return rmdir(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_file_gets_the_permissions_that_the_mask_leaves),
-        cmocka_unit_test(unfinished_files_of_one_name_are_two),
-        cmocka_unit_test(the_mask_is_not_changed_even_for_a_moment),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that the vectorized contrasts of pixels equal the contrasts computed one by one.
+// Tests that the vectorized contrasts of pixels equal the contrasts computed one by one. Tests the
+// neighbors of cells in a refined picture, and its largest size.
 #include "refine/pixel_contrast.h"
 #include "unit/cmocka_all.h"
 
@@ -76,21 +77,18 @@ static void check_pixel(const RefineTree *tree, const PixelContrasts *contrasts,
 static void check_size(uint32_t width, uint32_t height)
 {
     Error error = {0};
-    RefineTree tree;
-    PixelContrasts contrasts;
+    FREED_BY(refine_tree_free) RefineTree tree;
+    FREED_BY(pixel_contrasts_free) PixelContrasts contrasts;
     assert_true(refine_tree_make(&tree, width, height, &error));
     fill(&tree);
     assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             check_pixel(&tree, &contrasts, x, y);
-    pixel_contrasts_free(&contrasts);
-    refine_tree_free(&tree);
 }
 
-static void contrasts_of_strips_are_those_of_single_pixels(void **state)
+TEST(contrasts_of_strips_are_those_of_single_pixels)
 {
-    (void)state;
     check_size(1, 1);
     check_size(1, 7);
     check_size(5, 1);
@@ -99,26 +97,58 @@ static void contrasts_of_strips_are_those_of_single_pixels(void **state)
     check_size(199, 35);
 }
 
-static void a_step_between_equal_colors_is_none(void **state)
+TEST(a_step_between_equal_colors_is_none)
 {
-    (void)state;
     Error error = {0};
-    RefineTree tree;
-    PixelContrasts contrasts;
+    FREED_BY(refine_tree_free) RefineTree tree;
+    FREED_BY(pixel_contrasts_free) PixelContrasts contrasts;
     assert_true(refine_tree_make(&tree, 2, 1, &error));
     memset(tree.pixels, 0, refine_tree_places(&tree) * sizeof *tree.pixels);
     tree.pixels[1].signature = 1;
     assert_true(pixel_contrasts_make(&contrasts, &tree, NULL, &error));
     assert_false(pixel_contrast(&contrasts, 0, 0).is_step);
-    pixel_contrasts_free(&contrasts);
-    refine_tree_free(&tree);
 }
 
-int main(void)
+// Subdivides one of two pixels, and its right middle cell. All samples are taken.
+static void make_tree(RefineTree *tree)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contrasts_of_strips_are_those_of_single_pixels),
-        cmocka_unit_test(a_step_between_equal_colors_is_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    Error error = {0};
+    assert_true(refine_tree_make(tree, 2, 1, &error));
+    assert_true(refine_tree_cut_pixel(tree, 0, 0, &error));
+    assert_true(refine_tree_cut_cell(tree, 1, 5, &error));
+    tree->traced = 3;
+}
+
+TEST(a_cell_beyond_the_pixel_is_the_pixel_beside)
+{
+    FREED_BY(refine_tree_free) RefineTree tree;
+    CellName name;
+    make_tree(&tree);
+    assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    assert_int_equal(name.group, 0);
+    assert_int_equal(name.cell, 1);
+}
+
+TEST(cells_without_their_samples_are_no_neighbors_yet)
+{
+    FREED_BY(refine_tree_free) RefineTree tree;
+    CellName name;
+    Error error = {0};
+    make_tree(&tree);
+    assert_true(refine_tree_cut_pixel(&tree, 1, 0, &error));
+    assert_false(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    tree.traced = 4;
+    assert_true(refine_tree_neighbor(&tree, &tree.groups.data[2], SIDE_RIGHT, &name));
+    assert_int_equal(name.group, 3);
+    assert_int_equal(name.cell, 3);
+}
+
+// In 32 bits, the number of pixels wraps around to 0.
+TEST(a_picture_past_the_numbers_of_its_pixels_is_refused)
+{
+    RefineTree tree;
+    Error error = {0};
+    assert_false(refine_tree_make(&tree, 65536, 65536, &error));
+    assert_string_equal(error.text, "a picture of 65536 x 65536 pixels is too large to be refined");
+    assert_null(tree.pixels);
 }

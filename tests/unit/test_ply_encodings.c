@@ -122,9 +122,8 @@ static void check_square(const Mesh *mesh)
     assert_true(mesh->normals[3][2] == 0);
 }
 
-static void what_a_mesh_does_not_use_is_passed_over(void **state)
+TEST(what_a_mesh_does_not_use_is_passed_over)
 {
-    (void)state;
     for (int encoding = ASCII; encoding <= BIG; encoding++) {
         const Builder builder = square_with_extras(encoding);
         Mesh mesh = parse_good(&builder);
@@ -133,9 +132,8 @@ static void what_a_mesh_does_not_use_is_passed_over(void **state)
     }
 }
 
-static void every_type_gives_coordinates_in_every_encoding(void **state)
+TEST(every_type_gives_coordinates_in_every_encoding)
 {
-    (void)state;
     for (size_t test = 0; test < 3 * TYPE_COUNT; test++) {
         const Type *type = &types[test / 3];
         const double largest = type->is_float    ? 1.0 / 3
@@ -172,9 +170,8 @@ static Builder triangle_with_types(int encoding, const char *length, const char 
     return builder;
 }
 
-static void every_integer_type_counts_and_numbers_corners(void **state)
+TEST(every_integer_type_counts_and_numbers_corners)
 {
-    (void)state;
     for (int test = 0; test < 3 * TYPE_COUNT * TYPE_COUNT; test++) {
         const Type *length = &types[test / 3 % TYPE_COUNT], *item = &types[test / 3 / TYPE_COUNT];
         const Builder builder = triangle_with_types(test % 3, length->name, item->name);
@@ -190,9 +187,8 @@ static void every_integer_type_counts_and_numbers_corners(void **state)
 
 // Colors are between the values that the reader needs. A quad is among the triangles, which are
 // read in bulk.
-static void unusual_elements_among_usual_ones_are_read_in_their_order(void **state)
+TEST(unusual_elements_among_usual_ones_are_read_in_their_order)
 {
-    (void)state;
     static const double faces[4][4] = {{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}, {1, 2, 3}};
     for (int encoding = ASCII; encoding <= BIG; encoding++) {
         Builder builder = builder_start(encoding);
@@ -228,44 +224,31 @@ static void unusual_elements_among_usual_ones_are_read_in_their_order(void **sta
     }
 }
 
-static void any_line_ends_and_blanks_are_read(void **state)
+// The body of the binary file begins with a byte like a line end.
+TEST(any_line_ends_and_blanks_are_read)
 {
-    (void)state;
     static const char *const breaks[] = {"\n", "\r\n", "\r"};
     for (size_t index = 0; index < 3; index++) {
+        const char *end = breaks[index];
         const char *text = "ply|comment two  words|format ascii\t1.0  |obj_info|||element vertex 3|"
                            "property float x|property float y|property float z||element face 1|"
                            "property list uchar int vertex_indices|end_header||  0 0 0 ||1 0|0 0|"
                            "1\t0  | 3 0|1|| 2 |||trailing words";
-        Builder builder = {0};
+        Builder ascii = {0}, binary = {0};
         for (; *text != '\0'; text++)
-            put_text(&builder, "%.*s", *text == '|' ? 2 : 1, *text == '|' ? breaks[index] : text);
-        Mesh mesh = parse_good(&builder);
-        assert_triangle(&mesh, 0, 0, 1, 2);
-        mesh_free(&mesh);
-    }
-}
-
-static void a_binary_body_may_begin_with_a_byte_like_a_line_end(void **state)
-{
-    (void)state;
-    static const char *const breaks[] = {"\n", "\r\n", "\r"};
-    for (size_t index = 0; index < 3; index++) {
-        const char *end = breaks[index];
-        Builder builder = {0};
-        put_text(&builder,
+            put_text(&ascii, "%.*s", *text == '|' ? 2 : 1, *text == '|' ? end : text);
+        put_text(&binary,
                  "ply%sformat binary_big_endian 1.0%selement vertex 1%sproperty char x%s"
                  "property char y%sproperty char z%send_header%s\n\r\n",
                  end, end, end, end, end, end, end);
-        Mesh mesh = parse_good(&builder);
-        assert_true(mesh.positions[0][0] == 10 && mesh.positions[0][1] == 13);
-        mesh_free(&mesh);
+        FREED_BY(mesh_free) Mesh one = parse_good(&ascii), other = parse_good(&binary);
+        assert_triangle(&one, 0, 0, 1, 2);
+        assert_true(other.positions[0][0] == 10 && other.positions[0][1] == 13);
     }
 }
 
-static void a_file_cut_anywhere_fails_or_is_complete(void **state)
+TEST(a_file_cut_anywhere_fails_or_is_complete)
 {
-    (void)state;
     for (int encoding = ASCII; encoding <= BIG; encoding++) {
         const Builder builder = square_with_extras(encoding);
         for (size_t size = 0; size < builder.size; size++) {
@@ -278,9 +261,8 @@ static void a_file_cut_anywhere_fails_or_is_complete(void **state)
     }
 }
 
-static void random_damage_neither_crashes_nor_allocates_much(void **state)
+TEST(random_damage_neither_crashes_nor_allocates_much)
 {
-    (void)state;
     Builder whole[3];
     for (int encoding = ASCII; encoding <= BIG; encoding++)
         whole[encoding] = square_with_extras(encoding);
@@ -303,19 +285,4 @@ static void random_damage_neither_crashes_nor_allocates_much(void **state)
         }
     }
     assert_true(parsed > 0 && parsed < 100000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_mesh_does_not_use_is_passed_over),
-        cmocka_unit_test(every_type_gives_coordinates_in_every_encoding),
-        cmocka_unit_test(every_integer_type_counts_and_numbers_corners),
-        cmocka_unit_test(unusual_elements_among_usual_ones_are_read_in_their_order),
-        cmocka_unit_test(any_line_ends_and_blanks_are_read),
-        cmocka_unit_test(a_binary_body_may_begin_with_a_byte_like_a_line_end),
-        cmocka_unit_test(a_file_cut_anywhere_fails_or_is_complete),
-        cmocka_unit_test(random_damage_neither_crashes_nor_allocates_much),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,9 +13,8 @@ static void assert_fails(const char *bytes, size_t size, const char *sentence)
     assert_string_equal(error.text, sentence);
 }
 
-static void each_fault_of_a_header_has_its_sentence(void **state)
+TEST(each_fault_of_a_header_has_its_sentence)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "t.ply:1: the file does not begin with 'ply'"},
         {"plyx\n", "t.ply:1: the file does not begin with 'ply'"},
@@ -63,9 +62,8 @@ static void each_fault_of_a_header_has_its_sentence(void **state)
         assert_fails(cases[index][0], strlen(cases[index][0]), cases[index][1]);
 }
 
-static void each_fault_of_an_ascii_body_has_its_sentence(void **state)
+TEST(each_fault_of_an_ascii_body_has_its_sentence)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {HEAD "element vertex 2\n" XYZ "end_header\n0 0 0\n0 ",
          "t.ply:8: element vertex: a count of 2 does not fit in what is left of the file"},
@@ -115,9 +113,8 @@ static void assert_ascii_vertex_fails(const char *values, const char *complaint)
     assert_fails(builder.bytes, builder.size, sentence);
 }
 
-static void coordinates_and_normals_must_be_finite_numbers(void **state)
+TEST(coordinates_and_normals_must_be_finite_numbers)
 {
-    (void)state;
     static const char *const words[] = {"nan",  "inf",   "-inf", "NaN", "Infinity", "nan(0x1)",
                                         "0x10", "0x1p3", "1,5",  "1e",  "--1",      "1.2.3"};
     for (size_t index = 0; index < sizeof words / sizeof *words; index++) {
@@ -138,80 +135,54 @@ static void coordinates_and_normals_must_be_finite_numbers(void **state)
                               "ny is -inf, not a finite single precision number");
 }
 
-#define BINARY_VERTEX BINARY "element vertex 1\n" XYZ "end_header\n" // 112 bytes
+// Messages for binary files have the byte. Valid elements are read in bulk, and the message must
+// still have the position of the first invalid one.
+#define VERTEX  BINARY "element vertex 1\n" XYZ "end_header\n"
+#define POINT   "\0\0\0\0\0\0\0\0\0\0\0\0"
+#define FACE    BINARY "element vertex 1\n" XYZ FACES "end_header\n" POINT
+#define LISTS   BINARY "element a 1\nproperty list "
+#define THREE   BINARY "element vertex 3\n" XYZ
+#define INDICES "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+#define GOOD    "\3\0\0\0\0\0\0\0\1\0\0\0\2"
+#define THIRD   THREE INDICES POINT POINT POINT GOOD GOOD
+#define LEFT    " does not fit in what is left of the file"
+#define CASE(bytes, sentence)                                                                      \
+    {                                                                                              \
+        bytes, sizeof(bytes) - 1, "t.ply: byte " sentence                                          \
+    }
 
-// 178 bytes with the vertex
-#define BINARY_FACE BINARY "element vertex 1\n" XYZ FACES "end_header\n\0\0\0\0\0\0\0\0\0\0\0\0"
-
-#define ASSERT_BINARY_FAILS(bytes, sentence) assert_fails(bytes, sizeof(bytes) - 1, sentence)
-
-static void each_fault_of_a_binary_body_has_its_sentence(void **state)
+TEST(each_fault_of_a_binary_body_has_its_sentence)
 {
-    (void)state;
-    ASSERT_BINARY_FAILS(
-        BINARY_VERTEX "\0\0\0\0\0\0\0\0\0\0\0",
-        "t.ply: byte 112: element vertex: a count of 1 does not fit in what is left of the file");
-    ASSERT_BINARY_FAILS(BINARY_VERTEX "\0\0\0\0"
-                                      "\x7f\xc0\0\0"
-                                      "\0\0\0\0",
-                        "t.ply: byte 116: vertex 0: y is nan, not a finite number below 1e30 in "
-                        "size");
-    ASSERT_BINARY_FAILS(BINARY_FACE "\3\0\0\0\0\0\0\0\0\0\0\0\1", "t.ply: byte 187: face 0: vertex "
-                                                                  "index 1 is not below the vertex "
-                                                                  "count 1");
-    ASSERT_BINARY_FAILS(BINARY_FACE "\3\0\0\0\0\xff\xff\xff\xff\0\0\0\1",
-                        "t.ply: byte 183: face 0: vertex index -1 is negative");
-    ASSERT_BINARY_FAILS(BINARY_FACE "\1\0\0\0\0",
-                        "t.ply: byte 178: face 0: a face needs 3 or more corners, not 1");
-    ASSERT_BINARY_FAILS(
-        BINARY_FACE "\3\0\0\0\0\0\0\0\0\0\0\0",
-        "t.ply: byte 179: face 0: a count of 3 does not fit in what is left of the file");
-    ASSERT_BINARY_FAILS(
-        BINARY "element a 1\nproperty list uint uchar b\nproperty double c\n"
-               "end_header\n\0\0\0\0\0\0\0\0\0\0\0",
-        "t.ply: byte 101: element a: a count of 1 does not fit in what is left of the file");
-    ASSERT_BINARY_FAILS(
-        BINARY "element a 1\nproperty list uint double b\nend_header\n"
-               "\xff\xff\xff\xff\0\0\0\0",
-        "t.ply: byte 88: a 0: a count of 4294967295 does not fit in what is left of the file");
-    ASSERT_BINARY_FAILS(BINARY "element a 1\nproperty list char char b\nend_header\n\x80",
-                        "t.ply: byte 82: a 0: list length -128 is negative");
-    ASSERT_BINARY_FAILS(BINARY "element a 1\nproperty list char char b\nproperty short c\n"
-                               "end_header\n\1\1\0",
-                        "t.ply: byte 101: a 0: the file ends too early");
-}
-
-// Valid elements are read in bulk. The message must still give the position of the first invalid
-// one.
-static void a_fault_behind_sound_binary_elements_is_told_by_its_place(void **state)
-{
-    (void)state;
-#define THREE_VERTICES BINARY "element vertex 3\n" XYZ // 94 bytes
-#define POINT          "\0\0\0\0\0\0\0\0\0\0\0\0"
-    ASSERT_BINARY_FAILS(THREE_VERTICES "end_header\n" POINT POINT "\x7f\x80\0\0\0\0\0\0\0\0\0\0",
-                        "t.ply: byte 136: vertex 2: x is inf, not a finite number below 1e30 in "
-                        "size");
-#define THREE_FACES                                                                                \
-    THREE_VERTICES                                                                                 \
-    "element face 3\nproperty list uchar int vertex_indices\nend_header\n" POINT POINT POINT
-#define FACE "\3\0\0\0\0\0\0\0\1\0\0\0\2"
-    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0\3",
-                        "t.ply: byte 237: face 2: vertex index 3 is not below the vertex count 3");
-    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\2\0\0\0\0\0\0\0\1\0\0\0\3",
-                        "t.ply: byte 228: face 2: a face needs 3 or more corners, not 2");
-    ASSERT_BINARY_FAILS(THREE_FACES FACE FACE "\3\0\0\0\0\0\0\0\1\0\0\0",
-                        "t.ply: byte 229: face 2: a count of 3 does not fit in what is left of the "
-                        "file");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_fault_of_a_header_has_its_sentence),
-        cmocka_unit_test(each_fault_of_an_ascii_body_has_its_sentence),
-        cmocka_unit_test(coordinates_and_normals_must_be_finite_numbers),
-        cmocka_unit_test(each_fault_of_a_binary_body_has_its_sentence),
-        cmocka_unit_test(a_fault_behind_sound_binary_elements_is_told_by_its_place),
+    static const struct {
+        const char *bytes;
+        size_t size;
+        const char *sentence;
+    } cases[] = {
+        CASE(VERTEX "\0\0\0\0\0\0\0\0\0\0\0", "112: element vertex: a count of 1" LEFT),
+        CASE(VERTEX "\0\0\0\0"
+                    "\x7f\xc0\0\0"
+                    "\0\0\0\0",
+             "116: vertex 0: y is nan, not a finite number below 1e30 in size"),
+        CASE(FACE "\3\0\0\0\0\0\0\0\0\0\0\0\1",
+             "187: face 0: vertex index 1 is not below the vertex count 1"),
+        CASE(FACE "\3\0\0\0\0\xff\xff\xff\xff\0\0\0\1", "183: face 0: vertex index -1 is negative"),
+        CASE(FACE "\1\0\0\0\0", "178: face 0: a face needs 3 or more corners, not 1"),
+        CASE(FACE "\3\0\0\0\0\0\0\0\0\0\0\0", "179: face 0: a count of 3" LEFT),
+        CASE(LISTS "uint uchar b\nproperty double c\nend_header\n\0\0\0\0\0\0\0\0\0\0\0",
+             "101: element a: a count of 1" LEFT),
+        CASE(LISTS "uint double b\nend_header\n\xff\xff\xff\xff\0\0\0\0",
+             "88: a 0: a count of 4294967295" LEFT),
+        CASE(LISTS "char char b\nend_header\n\x80", "82: a 0: list length -128 is negative"),
+        CASE(LISTS "char char b\nproperty short c\nend_header\n\1\1\0",
+             "101: a 0: the file ends too early"),
+        CASE(THREE "end_header\n" POINT POINT "\x7f\x80\0\0\0\0\0\0\0\0\0\0",
+             "136: vertex 2: x is inf, not a finite number below 1e30 in size"),
+        CASE(THIRD "\3\0\0\0\0\0\0\0\1\0\0\0\3",
+             "237: face 2: vertex index 3 is not below the vertex count 3"),
+        CASE(THIRD "\2\0\0\0\0\0\0\0\1\0\0\0\3",
+             "228: face 2: a face needs 3 or more corners, not 2"),
+        CASE(THIRD "\3\0\0\0\0\0\0\0\1\0\0\0", "229: face 2: a count of 3" LEFT),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_fails(cases[i].bytes, cases[i].size, cases[i].sentence);
 }

@@ -24,22 +24,19 @@ static Framebuffer noise(uint32_t width, uint32_t height)
     return framebuffer;
 }
 
-static void a_full_device_is_a_fault_with_its_reason(void **state)
+TEST(a_full_device_is_a_fault_with_its_reason)
 {
-    (void)state;
-    Framebuffer framebuffer = noise(256, 256);
+    FREED_BY(framebuffer_free) Framebuffer framebuffer = noise(256, 256);
     FILE *full = fopen("/dev/full", "wb");
     assert_non_null(full);
     Error error = {0};
     assert_false(png_file_write(&framebuffer, &plain, full, &error));
     assert_string_equal(error.text, "No space left on device");
     fclose(full);
-    framebuffer_free(&framebuffer);
 }
 
-static void what_libpng_refuses_is_a_fault_and_says_nothing_itself(void **state)
+TEST(what_libpng_refuses_is_a_fault_and_says_nothing_itself)
 {
-    (void)state;
     // The width exceeds libpng's limit, which fails before any pixel is read.
     const Framebuffer wide = {NULL, 1000001, 1};
     char *written = NULL, *said = NULL;
@@ -57,13 +54,4 @@ static void what_libpng_refuses_is_a_fault_and_says_nothing_itself(void **state)
     assert_string_equal(said, "");
     free(written);
     free(said);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_full_device_is_a_fault_with_its_reason),
-        cmocka_unit_test(what_libpng_refuses_is_a_fault_and_says_nothing_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,25 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Scene text -> Scene: tests every statement, and the exact message of every fault.
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <math.h>
-#include <string.h>
-
-static bool parse(Scene *scene, const char *text, Error *error)
-{
-    return scn_parse(scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", error);
-}
-
-static Scene parsed(const char *text)
-{
-    Scene scene;
-    Error error = {0};
-    if (!parse(&scene, text, &error))
-        fail_msg("%s", error.text);
-    return scene;
-}
 
 static void expect_error(const char *text, const char *message)
 {
@@ -31,93 +14,63 @@ static void expect_error(const char *text, const char *message)
     assert_string_equal(place + strlen("inline.scn:"), message);
 }
 
-static void an_empty_scene_has_the_courses_constants(void **state)
+TEST(an_empty_scene_has_the_courses_constants)
 {
-    (void)state;
-    Scene scene = parsed("");
+    FREED_BY(scene_free) Scene scene = parsed("");
     assert_int_equal(scene.width, 512);
     assert_int_equal(scene.height, 512);
     assert_int_equal(scene.max_level, 3);
     assert_true(scene.ambient == 0.05);
     assert_true(scene.background.x == 1 && scene.background.y == 1 && scene.background.z == 1);
     assert_int_equal(scene.viewpoints.count, 6);
-    scene_free(&scene);
 }
 
 // The expected numbers come from the course's framework, which prints six decimals.
-static void the_six_viewpoints_are_the_courses(void **state)
+TEST(the_six_viewpoints_are_the_courses)
 {
-    (void)state;
     static const double eyes[6][3] = {
         {4.512768, 2.104338, 4.178119},  {1.528549, -0.900384, 0.923497},
         {0.846686, 0.638024, 3.649116},  {4.291287, 0, -4.474913},
         {-2.275540, 0.287467, 1.606014}, {0.165138, 0.084142, 1.084274}};
-    Scene scene = parsed("");
+    FREED_BY(scene_free) Scene scene = parsed("");
     for (int view = 0; view < 6; view++) {
         const Vec3 eye = scene.viewpoints.data[view].eye;
         assert_true(fabs(eye.x - eyes[view][0]) < 1e-6);
         assert_true(fabs(eye.y - eyes[view][1]) < 1e-6);
         assert_true(fabs(eye.z - eyes[view][2]) < 1e-6);
     }
-    scene_free(&scene);
 }
 
-static void spheres_take_the_material_before_them(void **state)
+TEST(spheres_take_the_material_before_them)
 {
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene =
-        parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n");
-    assert_int_equal(scene.spheres.count, 3);
-    assert_int_equal(scene.spheres.data[0].material, 0);
-    assert_int_equal(scene.spheres.data[1].material, 2);
-    assert_int_equal(scene.spheres.data[2].material, 0);
+        parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n"
+               "material 2\nmaterial own\nsphere 0 0 0 1\n"
+               "define own matte\nmaterial own\nsphere 0 0 0 1");
+    // Without a file, `own` is the silhouette, unless it is defined.
+    static const uint32_t materials[] = {0, 2, 0, 0, 4};
+    assert_int_equal(scene.spheres.count, 5);
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(scene.spheres.data[i].material, materials[i]);
     assert_true(scene.spheres.data[1].center.z == 3 && scene.spheres.data[1].radius == 0.5);
-    scene_free(&scene);
+    assert_int_equal(scene.materials.data[3].shader, SHADER_MATTE);
+    assert_true(scene.materials.data[3].reflectivity == 0.25f);
 }
 
-static void the_last_line_needs_no_line_end(void **state)
+TEST(lights_are_white_or_have_a_color_and_the_last_line_needs_no_line_end)
 {
-    (void)state;
-    Scene scene = parsed("light 1 2 3 0.5");
-    assert_int_equal(scene.lights.count, 1);
-    assert_true(scene.lights.data[0].position.y == 2 && scene.lights.data[0].intensity == 0.5);
-    scene_free(&scene);
-}
-
-static void lights_are_white_or_have_a_color(void **state)
-{
-    (void)state;
-    Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0\n");
+    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0");
     const Vec3 white = scene.lights.data[0].color, color = scene.lights.data[1].color;
+    assert_int_equal(scene.lights.count, 2);
+    assert_true(scene.lights.data[0].position.y == 2 && scene.lights.data[0].intensity == 0.5);
     assert_true(white.x == 1 && white.y == 1 && white.z == 1);
     assert_true(color.x == 0.25 && color.y == 1 && color.z == 0);
-    scene_free(&scene);
 }
 
-static void own_materials_are_the_silhouette_where_a_file_has_none(void **state)
+TEST(a_definition_starts_from_its_kind)
 {
-    (void)state;
-    Scene scene = parsed("material 2\nsphere 0 0 0 1\nmaterial own\nsphere 0 0 0 1\n"
-                         "define own matte\nmaterial own\nsphere 0 0 0 1");
-    assert_int_equal(scene.spheres.data[0].material, 2);
-    assert_int_equal(scene.spheres.data[1].material, 0);
-    assert_int_equal(scene.spheres.data[2].material, 4); // a defined name takes precedence
-    scene_free(&scene);
-}
-
-static void course_material_three_is_matte_and_a_quarter_mirror(void **state)
-{
-    (void)state;
-    Scene scene = parsed("");
-    const Material *mirror = &scene.materials.data[3];
-    assert_int_equal(mirror->shader, SHADER_MATTE);
-    assert_true(mirror->reflectivity == 0.25f);
-    scene_free(&scene);
-}
-
-static void a_definition_starts_from_its_kind(void **state)
-{
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene = parsed("define gold blinn_phong diffuse 1 .8 .2 shininess 200 reflectivity .3\n"
                          "define wax matte\nmaterial wax\nsphere 0 0 0 1\nmaterial gold\n"
                          "sphere 0 0 0 1");
@@ -127,12 +80,10 @@ static void a_definition_starts_from_its_kind(void **state)
     assert_true(gold->reflectivity == 0.3f);
     const Material *wax = &scene.materials.data[scene.spheres.data[0].material];
     assert_true(wax->diffuse[0] == 1 && wax->kd == 1 && wax->reflectivity == 0);
-    scene_free(&scene);
 }
 
-static void only_small_integer_shininess_goes_by_squaring(void **state)
+TEST(only_small_integer_shininess_goes_by_squaring)
 {
-    (void)state;
     Scene scene =
         parsed("define a blinn_phong shininess 30.5\ndefine b blinn_phong shininess 2000\n"
                "define c blinn_phong shininess 1024");
@@ -142,43 +93,40 @@ static void only_small_integer_shininess_goes_by_squaring(void **state)
     scene_free(&scene);
 }
 
-static void cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow(void **state)
+TEST(cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow)
 {
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene = parsed("camera 1 0 0 0 0 0 30\nup 0 1 0\ncamera 0 0 9 0 0 0 60");
     assert_int_equal(scene.viewpoints.count, 2);
     assert_true(scene.viewpoints.data[0].up.z == 1);
     assert_true(scene.viewpoints.data[1].up.y == 1 && scene.viewpoints.data[1].fov_degrees == 60);
-    scene_free(&scene);
 }
 
-static void size_background_ambient_and_level_are_taken(void **state)
+TEST(size_background_ambient_and_level_are_taken)
 {
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene = parsed("size 640 480\nbackground 0 .5 1\nambient 0\nmax_level 9");
     assert_int_equal(scene.width, 640);
     assert_int_equal(scene.height, 480);
     assert_true(scene.background.y == 0.5 && scene.ambient == 0);
     assert_int_equal(scene.max_level, 9);
-    scene_free(&scene);
 }
 
-static void sides_and_normals_are_for_the_objects_that_follow(void **state)
+TEST(sides_and_normals_are_for_the_objects_that_follow)
 {
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene = parsed("ply_file cube.ply\nsides two\nnormals flat\nmesh cube.ply\n");
     assert_false(scene.objects.data[0].two_sided);
     assert_true(scene.objects.data[0].smooth);
     assert_true(scene.objects.data[1].two_sided);
     assert_false(scene.objects.data[1].smooth);
-    scene_free(&scene);
 }
 
 // A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis'
 // length.
-static void transforms_apply_in_the_order_written(void **state)
+TEST(transforms_apply_in_the_order_written)
 {
-    (void)state;
+    FREED_BY(scene_free)
     Scene scene = parsed("mesh cube.ply\n"
                          "mesh cube.ply scale 2 rotate 0 0 5 90 translate 10 0 0\n"
                          "mesh cube.ply translate 10 0 0 scale 2\n");
@@ -188,87 +136,59 @@ static void transforms_apply_in_the_order_written(void **state)
     assert_true(fabs(turned[0] - (10 - 2 * plain[1])) < 1e-14);
     assert_true(fabs(turned[1] - 2 * plain[0]) < 1e-14);
     assert_true(fabs(moved[0] - 2 * (plain[0] + 10)) < 1e-14);
-    scene_free(&scene);
 }
 
-static void the_hash_tells_scenes_apart(void **state)
+TEST(the_hash_tells_scenes_apart)
 {
-    (void)state;
-    Scene one = parsed("sphere 0 0 0 1"), same = parsed("sphere 0 0 0 1");
-    Scene other = parsed("sphere 0 0 0 2");
+    FREED_BY(scene_free) Scene one = parsed("sphere 0 0 0 1"), same = parsed("sphere 0 0 0 1");
+    FREED_BY(scene_free) Scene other = parsed("sphere 0 0 0 2");
     assert_memory_equal(one.hash, same.hash, sizeof one.hash);
     assert_memory_not_equal(one.hash, other.hash, sizeof one.hash);
-    scene_free(&one);
-    scene_free(&same);
-    scene_free(&other);
 }
 
-static void faults_name_line_column_and_the_statement(void **state)
+#define STATEMENT "; the statement is "
+#define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B]'"
+#define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
+#define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
+#define CAMERA    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES'"
+
+TEST(faults_name_line_column_and_the_statement)
 {
-    (void)state;
-    expect_error("\nlight 1 2\n", "2:10: expected a number: found the end of the line; the "
-                                  "statement is 'light X Y Z INTENSITY [R G B]'");
-    expect_error("sphere 0 0 zero 1", "1:12: expected a number: found 'zero'; the statement is "
-                                      "'sphere X Y Z RADIUS'");
-    expect_error("sphere 0 0 0 1 5", "1:16: expected nothing more: found '5'; the statement is "
-                                     "'sphere X Y Z RADIUS'");
-    expect_error("sphere 0 0 0 0", "1:14: expected a number between 1e-30 and 1e+30: found '0'; "
-                                   "the statement is 'sphere X Y Z RADIUS'");
-    expect_error("sphere 0 0 0 3e-31", "1:14: expected a number between 1e-30 and 1e+30: found "
-                                       "'3e-31'; the statement is 'sphere X Y Z RADIUS'");
-    expect_error("light 0 0 0 nan", "1:13: expected a number: found 'nan'; the statement is 'light "
-                                    "X Y Z INTENSITY [R G B]'");
-    expect_error("light 1e39 0 0 1", "1:7: expected a number between -1e+30 and 1e+30: found "
-                                     "'1e39'; the statement is 'light X Y Z INTENSITY [R G B]'");
-    expect_error("light 0 0 0 1 1 0", "1:18: expected a number: found the end of the line; the "
-                                      "statement is 'light X Y Z INTENSITY [R G B]'");
-    expect_error("light 0 0 0 1 1 0 1.5", "1:19: expected a number between 0 and 1: found '1.5'; "
-                                          "the statement is 'light X Y Z INTENSITY [R G B]'");
-    expect_error("light 0 0 0 1 1 1 1 1", "1:21: expected nothing more: found '1'; the statement "
-                                          "is 'light X Y Z INTENSITY [R G B]'");
+    static const char *const cases[][2] = {
+        {"\nlight 1 2\n", "2:10: expected a number: found the end of the line" LIGHT},
+        {"sphere 0 0 zero 1", "1:12: expected a number: found 'zero'" SPHERE},
+        {"sphere 0 0 0 1 5", "1:16: expected nothing more: found '5'" SPHERE},
+        {"sphere 0 0 0 0", "1:14: expected a number between 1e-30 and 1e+30: found '0'" SPHERE},
+        {"sphere 0 0 0 3e-31",
+         "1:14: expected a number between 1e-30 and 1e+30: found '3e-31'" SPHERE},
+        {"light 0 0 0 nan", "1:13: expected a number: found 'nan'" LIGHT},
+        {"light 1e39 0 0 1", "1:7: expected a number between -1e+30 and 1e+30: found '1e39'" LIGHT},
+        {"light 0 0 0 1 1 0", "1:18: expected a number: found the end of the line" LIGHT},
+        {"light 0 0 0 1 1 0 1.5", "1:19: expected a number between 0 and 1: found '1.5'" LIGHT},
+        {"light 0 0 0 1 1 1 1 1", "1:21: expected nothing more: found '1'" LIGHT},
+        {"spheer 0 0 0 1", "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'"},
+        {"??", "1:1: expected a statement (ambient, background, camera, define, light, material, "
+               "max_level, mesh, normals, ply_file, sides, size, sphere, up): found '\?\?'"},
+        {"define gold matte\nmaterial gild",
+         "2:10: undefined material (did you mean 'gold'?): found 'gild'" STATEMENT
+         "'material NUMBER|NAME|own'"},
+        {"define a matte difuse 1 1 1",
+         "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
+        {"size 0 5",
+         "1:6: expected an integer between 1 and 65536: found '0'" STATEMENT "'size WIDTH HEIGHT'"},
+        {"camera 0 0 0 0 0 0 45",
+         "1:1: the camera looks at its own position: found 'camera'" CAMERA},
+        {"camera 0 0 5 0 0 0 45",
+         "1:1: the camera must not look along its 'up' vector: found 'camera'" CAMERA},
+        {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
+        {"define a matte\ndefine a matte", "2:8: this name is already defined: found 'a'" DEFINE},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_error(cases[i][0], cases[i][1]);
 }
 
-static void unknown_words_get_the_nearest_one(void **state)
+TEST(a_missing_mesh_is_an_error_at_its_path)
 {
-    (void)state;
-    expect_error("spheer 0 0 0 1",
-                 "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'");
-    expect_error("??", "1:1: expected a statement (ambient, background, camera, define, light, "
-                       "material, max_level, mesh, normals, ply_file, sides, size, sphere, up): "
-                       "found '\?\?'");
-    expect_error("define gold matte\nmaterial gild",
-                 "2:10: undefined material (did you mean 'gold'?): "
-                 "found 'gild'; the statement is 'material "
-                 "NUMBER|NAME|own'");
-    expect_error(
-        "define a matte difuse 1 1 1",
-        "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'; the statement is "
-        "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
-}
-
-static void values_out_of_range_are_refused(void **state)
-{
-    (void)state;
-    expect_error("size 0 5", "1:6: expected an integer between 1 and 65536: found '0'; the "
-                             "statement is 'size WIDTH HEIGHT'");
-    expect_error("camera 0 0 0 0 0 0 45",
-                 "1:1: the camera looks at its own position: found 'camera'; "
-                 "the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y "
-                 "AT_Z FOV_DEGREES'");
-    expect_error("camera 0 0 5 0 0 0 45",
-                 "1:1: the camera must not look along its 'up' vector: found "
-                 "'camera'; the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z "
-                 "FOV_DEGREES'");
-    expect_error("up 0 1 0", "1:1: no camera follows this 'up': found 'up'; the statement is 'up X "
-                             "Y Z'");
-    expect_error("define a matte\ndefine a matte",
-                 "2:8: this name is already defined: found 'a'; the statement is 'define NAME "
-                 "silhouette|matte|blinn_phong [PROPERTY VALUES]...'");
-}
-
-static void a_missing_mesh_is_an_error_at_its_path(void **state)
-{
-    (void)state;
     Scene scene;
     Error error = {0};
     assert_false(parse(&scene, "ply_file nowhere.ply", &error));
@@ -276,75 +196,37 @@ static void a_missing_mesh_is_an_error_at_its_path(void **state)
     assert_non_null(strstr(error.text, "/scenes/nowhere.ply: cannot be opened: No such file"));
 }
 
-static void transforms_out_of_range_are_refused(void **state)
+TEST(transforms_out_of_range_are_refused)
 {
-    (void)state;
     Scene scene;
     Error error = {0};
     assert_false(parse(&scene, "mesh cube.ply scale 1e30 scale 1e30", &error));
     assert_non_null(strstr(error.text, "past 1e30"));
 }
 
-static void the_longest_normals_can_be_rotated(void **state)
+TEST(the_longest_normals_can_be_rotated)
 {
-    (void)state;
-    Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
+    FREED_BY(scene_free) Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
     // The rotation by 20 degrees about x multiplies y by cos - sin, and z by cos + sin.
     assert_true(isfinite(normal[2]));
     assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
-    scene_free(&scene);
 }
 
-static void a_scene_names_the_files_it_was_read_from(void **state)
+TEST(a_scene_names_the_files_it_was_read_from)
 {
-    (void)state;
-    Scene scene;
+    FREED_BY(scene_free) Scene scene;
     Error error = {0};
     assert_true(scn_load(&scene, CLRT_SOURCE_FOLDER "/scenes/simple.scn", ply_parse, &error));
     assert_int_equal(scene.inputs.count, 1 + scene.objects.count);
     assert_string_equal(scene.inputs.data[0], CLRT_SOURCE_FOLDER "/scenes/plateau.ply");
     assert_string_equal(scene.inputs.data[scene.inputs.count - 1],
                         CLRT_SOURCE_FOLDER "/scenes/simple.scn");
-    scene_free(&scene);
 }
 
-static void a_scene_tells_the_courses_cameras_from_its_own(void **state)
+TEST(a_scene_tells_the_courses_cameras_from_its_own)
 {
-    (void)state;
-    Scene scene = parsed("");
-    assert_true(scene.has_course_views);
-    scene_free(&scene);
-    scene = parsed("camera 1 2 3 4 5 6 30");
-    assert_false(scene.has_course_views);
-    scene_free(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_empty_scene_has_the_courses_constants),
-        cmocka_unit_test(the_six_viewpoints_are_the_courses),
-        cmocka_unit_test(spheres_take_the_material_before_them),
-        cmocka_unit_test(the_last_line_needs_no_line_end),
-        cmocka_unit_test(lights_are_white_or_have_a_color),
-        cmocka_unit_test(own_materials_are_the_silhouette_where_a_file_has_none),
-        cmocka_unit_test(course_material_three_is_matte_and_a_quarter_mirror),
-        cmocka_unit_test(a_definition_starts_from_its_kind),
-        cmocka_unit_test(only_small_integer_shininess_goes_by_squaring),
-        cmocka_unit_test(cameras_are_viewpoints_in_order_and_up_is_for_those_that_follow),
-        cmocka_unit_test(size_background_ambient_and_level_are_taken),
-        cmocka_unit_test(sides_and_normals_are_for_the_objects_that_follow),
-        cmocka_unit_test(transforms_apply_in_the_order_written),
-        cmocka_unit_test(the_hash_tells_scenes_apart),
-        cmocka_unit_test(faults_name_line_column_and_the_statement),
-        cmocka_unit_test(unknown_words_get_the_nearest_one),
-        cmocka_unit_test(values_out_of_range_are_refused),
-        cmocka_unit_test(a_missing_mesh_is_an_error_at_its_path),
-        cmocka_unit_test(transforms_out_of_range_are_refused),
-        cmocka_unit_test(the_longest_normals_can_be_rotated),
-        cmocka_unit_test(a_scene_names_the_files_it_was_read_from),
-        cmocka_unit_test(a_scene_tells_the_courses_cameras_from_its_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    FREED_BY(scene_free) Scene plain = parsed(""), own = parsed("camera 1 2 3 4 5 6 30");
+    assert_true(plain.has_course_views);
+    assert_false(own.has_course_views);
 }

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tests that a scene written as text is read back bit for bit.
-#include "scene/scn.h"
-
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static Scene parsed(const char *text, size_t size)
-{
-    Scene scene;
-    Error error = {0};
-    if (!scn_parse(&scene, text, size, CLRT_SOURCE_FOLDER "/scenes/inline.scn", &error))
-        fail_msg("%s\n%s", error.text, text);
-    return scene;
-}
 
 static Scene written_and_read(const Scene *scene, char *const *mesh_names, char **text)
 {
@@ -25,7 +14,7 @@ static Scene written_and_read(const Scene *scene, char *const *mesh_names, char 
     assert_non_null(stream);
     assert_true(scn_write(scene, mesh_names, stream, &error));
     assert_int_equal(fclose(stream), 0);
-    return parsed(*text, size);
+    return parsed(*text);
 }
 
 static void expect_same_materials(const Scene *a, uint32_t left, const Scene *b, uint32_t right)
@@ -58,9 +47,8 @@ static void expect_same(const Scene *a, const Scene *b)
     }
 }
 
-static void every_statement_comes_back(void **state)
+TEST(every_statement_comes_back)
 {
-    (void)state;
     static const char text[] =
         "size 640 480\nbackground 0.1 0.2 0.3\nambient 0.07\nmax_level 9\n"
         "camera 1 2 3.3333333333333335 0 0 0 33.3\nup 0 1 0.1\ncamera 9 9 9 0 0 0 60\n"
@@ -72,37 +60,31 @@ static void every_statement_comes_back(void **state)
         "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n";
     static char *const names[] = {"cube.ply", "cube.ply", "cube.ply"};
     char *again;
-    Scene scene = parsed(text, strlen(text));
-    Scene copy = written_and_read(&scene, names, &again);
+    FREED_BY(scene_free) Scene scene = parsed(text);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, names, &again);
     expect_same(&scene, &copy);
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
-static void a_scene_without_cameras_keeps_the_courses(void **state)
+TEST(a_scene_without_cameras_keeps_the_courses)
 {
-    (void)state;
     char *again;
-    Scene scene = parsed("light 1 2 3 1", 13);
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 1");
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     assert_true(copy.has_course_views);
     assert_null(strstr(again, "camera"));
     expect_same(&scene, &copy);
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
 // Mesh files may contain these names of materials.
-static void names_that_no_scene_can_define_are_replaced(void **state)
+TEST(names_that_no_scene_can_define_are_replaced)
 {
-    (void)state;
     static const char *const names[] = {"3d.obj:red", "a\"b",  "",          "own",
                                         "twice",      "twice", "material_4"};
     Error error = {0};
     char *again;
-    Scene scene = parsed("", 0);
+    FREED_BY(scene_free) Scene scene = parsed("");
     for (uint32_t i = 0; i < 7; i++) {
         MaterialName name = {.material = (uint32_t)scene.materials.count};
         Material material = material_of_shader(SHADER_MATTE);
@@ -112,35 +94,19 @@ static void names_that_no_scene_can_define_are_replaced(void **state)
         assert_true(array_push(&scene.material_names, name, &error));
         assert_true(array_push(&scene.spheres, ((Sphere){{0, 0, i}, 1, name.material}), &error));
     }
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     expect_same(&scene, &copy);
     assert_non_null(strstr(again, "define \"twice\" "));
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
 }
 
-static void numbers_have_no_more_digits_than_they_need(void **state)
+TEST(numbers_have_no_more_digits_than_they_need)
 {
-    (void)state;
     char *again;
     static const char text[] = "ambient 0.05\nlight 0.1 0.2 0.30000000000000004 1";
-    Scene scene = parsed(text, strlen(text));
-    Scene copy = written_and_read(&scene, NULL, &again);
+    FREED_BY(scene_free) Scene scene = parsed(text);
+    FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);
     assert_non_null(strstr(again, "ambient 0.05\n"));
     assert_non_null(strstr(again, "light 0.1 0.2 0.30000000000000004 1\n"));
-    scene_free(&copy);
-    scene_free(&scene);
     free(again);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_statement_comes_back),
-        cmocka_unit_test(a_scene_without_cameras_keeps_the_courses),
-        cmocka_unit_test(names_that_no_scene_can_define_are_replaced),
-        cmocka_unit_test(numbers_have_no_more_digits_than_they_need),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,23 +35,27 @@ static double sum_of_line(const Seam *seam, const SampleData cells[GROUP_CELLS])
     return (double)(sums[0][0] + sums[1][0] + sums[2][0]) / STEPS / AREA;
 }
 
-static void samples_place_a_step_between_two_cells_wherever_it_lies(void **state)
+// Returns the seam between the first two cells.
+static Seam first_seam(const SampleData cells[GROUP_CELLS])
 {
-    (void)state;
+    return (Seam){.stride = 1,
+                  .cells = GROUP_SIDE,
+                  .side = SIDE,
+                  .from = SIDE / 2,
+                  .to = SIDE / 2 + SIDE,
+                  .low = SIDE / 2,
+                  .high = SIDE / 2 + SIDE,
+                  .ends = {cells[0], cells[1]},
+                  .assumed = SEAM_ENDS};
+}
+
+TEST(samples_place_a_step_between_two_cells_wherever_it_lies)
+{
     for (uint32_t step = SIDE / 2 + 1; step <= SIDE / 2 + SIDE; step++) {
         SampleData cells[GROUP_CELLS];
         uint32_t place[2], samples = 0;
-        Seam rest, seam = {.stride = 1,
-                           .cells = GROUP_SIDE,
-                           .side = SIDE,
-                           .from = SIDE / 2,
-                           .to = SIDE / 2 + SIDE,
-                           .assumed = SEAM_ENDS};
         see_cells(cells, step);
-        seam.low = seam.from;
-        seam.high = seam.to;
-        seam.ends[0] = cells[0];
-        seam.ends[1] = cells[1];
+        Seam rest, seam = first_seam(cells);
         for (; seam_asks(&seam, place); samples++) {
             const float before = seam_contrast(&seam);
             const SampleData sample = step_at(place[0], step);
@@ -67,20 +71,17 @@ static void samples_place_a_step_between_two_cells_wherever_it_lies(void **state
 
 static Seam border_seam(const SampleData cells[GROUP_CELLS])
 {
-    Seam seam = {.stride = 1,
-                 .cells = GROUP_SIDE,
-                 .side = SIDE,
-                 .to = SIDE / 2,
-                 .high = SIDE / 2,
-                 .assumed = SEAM_END_FIRST};
+    Seam seam = first_seam(cells);
+    seam.from = seam.low = 0;
+    seam.to = seam.high = SIDE / 2;
+    seam.assumed = SEAM_END_FIRST;
     seam.ends[0] = seen(0.75f, 2);
     seam.ends[1] = cells[0];
     return seam;
 }
 
-static void what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside(void **state)
+TEST(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside)
 {
-    (void)state;
     SampleData cells[GROUP_CELLS];
     uint32_t place[2];
     Seam rest;
@@ -97,22 +98,12 @@ static void what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside(
     assert_false(seam_asks(&outside, place));
 }
 
-static void a_third_surface_between_two_makes_a_seam_on_either_side(void **state)
+TEST(a_third_surface_between_two_makes_a_seam_on_either_side)
 {
-    (void)state;
     const SampleData third = seen(1, 3);
     SampleData cells[GROUP_CELLS];
-    Seam rest, seam = {.stride = 1,
-                       .cells = GROUP_SIDE,
-                       .side = SIDE,
-                       .from = 13,
-                       .to = 40,
-                       .low = 13,
-                       .high = 40,
-                       .assumed = SEAM_ENDS};
     see_cells(cells, 30);
-    seam.ends[0] = cells[0];
-    seam.ends[1] = cells[1];
+    Seam rest, seam = first_seam(cells);
     assert_true(seam_take(&seam, &third, &rest));
     assert_int_equal(seam.to, 26);
     assert_int_equal(rest.from, 26);
@@ -124,9 +115,8 @@ static void a_third_surface_between_two_makes_a_seam_on_either_side(void **state
     assert_true(both - expected < 0.02 && both - expected > -0.02);
 }
 
-static void a_slope_is_no_step_and_a_crease_on_one_surface_is(void **state)
+TEST(a_slope_is_no_step_and_a_crease_on_one_surface_is)
 {
-    (void)state;
     const SampleData slope[] = {seen(0.1f, 1), seen(0.2f, 1), seen(0.3f, 1), seen(0.4f, 1),
                                 seen(0.5f, 1)};
     const SampleData crease[] = {seen(0.1f, 1), seen(0.1f, 1), seen(0.12f, 1), seen(0.4f, 1),
@@ -139,23 +129,10 @@ static void a_slope_is_no_step_and_a_crease_on_one_surface_is(void **state)
     }
 }
 
-static void another_surface_is_a_step_whatever_its_color(void **state)
+TEST(another_surface_is_a_step_whatever_its_color)
 {
-    (void)state;
     const SampleData one = seen(0.1f, 1), other = seen(0.1f, 2);
     const SampleData *const line[] = {&one, &one, &one, &one, &other};
     assert_false(seam_steps(line, 2));
     assert_true(seam_steps(line, 3));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_place_a_step_between_two_cells_wherever_it_lies),
-        cmocka_unit_test(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside),
-        cmocka_unit_test(a_third_surface_between_two_makes_a_seam_on_either_side),
-        cmocka_unit_test(a_slope_is_no_step_and_a_crease_on_one_surface_is),
-        cmocka_unit_test(another_surface_is_a_step_whatever_its_color),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

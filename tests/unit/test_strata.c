@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Tests strata with populations of pixels whose errors are known.
+// Tests strata with populations of pixels whose errors are known, and the positions and sums of a
+// pixel's samples.
+#include "refine/pixel_requests.h"
 #include "refine/strata.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
+#include <string.h>
 
 #define PIXELS      20000
 #define POPULATIONS 200
 #define ROUNDS_MOST 300
-
-// Returns pseudorandom numbers in [0, 1).
-static double chance(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
 
 // error is the pixel's squared error on its current rung.
 typedef struct {
@@ -27,17 +24,18 @@ typedef struct {
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;
-    const double edges = 0.3 * chance(&state), hiding = 0.01 * chance(&state);
+    const double edges = 0.3 * random_unit(&state), hiding = 0.01 * random_unit(&state);
     *strata = (Strata){.pixels = PIXELS};
     for (int i = 0; i < PIXELS; i++) {
-        const bool is_edge = chance(&state) < edges, is_near = chance(&state) < 0.3;
-        const bool hides = !is_edge && chance(&state) < (is_near ? hiding : 0.1 * hiding);
-        const double bend = is_edge ? chance(&state) : 0.02 * chance(&state) * chance(&state);
-        const double error = is_edge ? 0.1 * bend : hides ? 0.1 * chance(&state) : 0.1 * bend;
+        const bool is_edge = random_unit(&state) < edges, is_near = random_unit(&state) < 0.3;
+        const bool hides = !is_edge && random_unit(&state) < (is_near ? hiding : 0.1 * hiding);
+        const double bend =
+            is_edge ? random_unit(&state) : 0.02 * random_unit(&state) * random_unit(&state);
+        const double error = is_edge ? 0.1 * bend : hides ? 0.1 * random_unit(&state) : 0.1 * bend;
         pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0),
                             .feature = bend * bend,
                             .error = error * error,
-                            .chance = chance(&state)};
+                            .chance = random_unit(&state)};
         strata_enter(strata, pixels[i].stratum, pixels[i].feature);
     }
 }
@@ -50,7 +48,7 @@ static void advance(Pixel *pixel, Strata *strata, uint64_t *state)
     pixel->error *= 0.04;
     pixel->stratum = strata_of_deviation(rung + 1, sqrt(pixel->feature), false);
     pixel->feature /= 16;
-    pixel->chance = chance(state);
+    pixel->chance = random_unit(state);
     strata_enter(strata, pixel->stratum, pixel->feature);
 }
 
@@ -78,9 +76,8 @@ static bool reach(Pixel pixels[PIXELS], Strata *strata, double mean_square, uint
     return false;
 }
 
-static void the_bound_exceeds_the_error_of_19_populations_in_20(void **state)
+TEST(the_bound_exceeds_the_error_of_19_populations_in_20)
 {
-    (void)state;
     static Pixel pixels[PIXELS];
     int exceeded = 0;
     for (uint64_t seed = 1; seed <= POPULATIONS; seed++) {
@@ -96,9 +93,8 @@ static void the_bound_exceeds_the_error_of_19_populations_in_20(void **state)
     assert_true(20 * exceeded <= POPULATIONS);
 }
 
-static void flat_strata_get_controls_for_any_aim(void **state)
+TEST(flat_strata_get_controls_for_any_aim)
 {
-    (void)state;
     const StrataAim aim = {.mean_square = 1, .samples = INFINITY};
     Strata strata = {.pixels = PIXELS};
     const uint32_t flat = strata_of_bend(0, 0), near = strata_of_bend(0, 1);
@@ -111,9 +107,8 @@ static void flat_strata_get_controls_for_any_aim(void **state)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_REACHED);
 }
 
-static void pixels_on_the_last_rung_exhaust_the_ladder(void **state)
+TEST(pixels_on_the_last_rung_exhaust_the_ladder)
 {
-    (void)state;
     const StrataAim aim = {.mean_square = 1e-12, .samples = INFINITY};
     Strata strata = {.pixels = 10};
     for (int i = 0; i < 10; i++)
@@ -121,9 +116,8 @@ static void pixels_on_the_last_rung_exhaust_the_ladder(void **state)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
 }
 
-static void no_more_samples_are_planned_than_may_be_taken(void **state)
+TEST(no_more_samples_are_planned_than_may_be_taken)
 {
-    (void)state;
     static Pixel pixels[PIXELS];
     Strata strata;
     make_population(pixels, &strata, 1);
@@ -137,13 +131,77 @@ static void no_more_samples_are_planned_than_may_be_taken(void **state)
     assert_true(planned > 0 && planned < 2 * 1600);
 }
 
-int main(void)
+#define HASH 0x5bd1e995u
+
+// Points of the sequence that are XORed to the request's offset, as in kernels/ladder.cl.
+static const uint32_t points[REQUEST_SAMPLES][2] = {
+    {0, 0},    {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128}, {384, 384}, {896, 896},
+    {64, 960}, {576, 448}, {320, 192}, {832, 704}, {192, 320}, {704, 832}, {448, 576}, {960, 64}};
+
+// Stores the positions of samples first to end - 1 of a pixel in places. Each request has `samples`
+// samples.
+static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t places[][2])
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_exceeds_the_error_of_19_populations_in_20),
-        cmocka_unit_test(flat_strata_get_controls_for_any_aim),
-        cmocka_unit_test(pixels_on_the_last_rung_exhaust_the_ladder),
-        cmocka_unit_test(no_more_samples_are_planned_than_may_be_taken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const uint32_t pixel[2] = {3, 5};
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t point = i % samples;
+        const PixelRequest request = pixel_request(pixel, i - point, samples, HASH);
+        assert_int_equal(request.x, 3);
+        assert_int_equal(request.y, 5);
+        assert_int_equal(request.samples, samples);
+        places[i][0] = points[point][0] ^ request.offset % LADDER_GRID;
+        places[i][1] = points[point][1] ^ request.offset / LADDER_GRID;
+    }
+}
+
+// Requests of the first 16 samples have four samples.
+static void place_all(uint32_t count, uint32_t places[][2])
+{
+    const uint32_t fours = count < REQUEST_SAMPLES ? count : REQUEST_SAMPLES;
+    place(0, fours, 4, places);
+    place(fours, count, REQUEST_SAMPLES, places);
+}
+
+// Divides the pixel into columns x rows rectangles, and expects one sample in each.
+static void expect_one_in_each(uint32_t columns, uint32_t rows)
+{
+    static uint32_t places[LADDER_GRID][2];
+    static bool is_taken[LADDER_GRID];
+    const uint32_t count = columns * rows;
+    place_all(count, places);
+    memset(is_taken, 0, sizeof is_taken);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(places[i][0] < LADDER_GRID && places[i][1] < LADDER_GRID);
+        const uint32_t column = places[i][0] * columns / LADDER_GRID,
+                       row = places[i][1] * rows / LADDER_GRID;
+        assert_false(is_taken[row * columns + column]);
+        is_taken[row * columns + column] = true;
+    }
+}
+
+TEST(every_rung_has_one_sample_in_each_rectangle_of_its_size)
+{
+    for (uint32_t count = 4; count <= LADDER_GRID; count *= 4)
+        for (uint32_t columns = 1; columns <= count; columns *= 2)
+            expect_one_in_each(columns, count / columns);
+}
+
+TEST(hashes_move_the_samples)
+{
+    const uint32_t pixel[2] = {0, 0};
+    assert_int_equal(pixel_request(pixel, 0, 4, 1).offset, 1);
+    assert_int_equal(pixel_request(pixel, 0, 4, 2 * LADDER_GRID).offset, 2 * LADDER_GRID);
+}
+
+TEST(sums_give_mean_and_variance)
+{
+    PixelSums sums = {.squares = 0};
+    // Eight of the 16 samples are black, and eight are (1, 0.5, 0).
+    const PixelSums bright = {{1ull << 32, 1ull << 31, 0}, (1ull << 48) + (1ull << 46)};
+    for (int i = 0; i < 8; i++)
+        pixel_sums_add(&sums, &bright);
+    float mean[3];
+    pixel_sums_mean(&sums, 16, mean);
+    assert_true(mean[0] == 0.5f && mean[1] == 0.25f && mean[2] == 0.0f);
+    assert_true(pixel_sums_variance(&sums, 16) == (0.25 + 0.0625) / 3);
 }

@@ -4,6 +4,7 @@
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,13 +26,12 @@ typedef struct {
     ThinParts parts;
 } World;
 
-static void open_world(World *world, size_t triangles)
+static World world_of(size_t triangles)
 {
-    *world = (World){0};
-    world->positions = calloc(3 * triangles, sizeof *world->positions);
-    world->triangles = calloc(triangles, sizeof *world->triangles);
-    assert_non_null(world->positions);
-    assert_non_null(world->triangles);
+    World world = {.positions = calloc(3 * triangles, sizeof *world.positions),
+                   .triangles = calloc(triangles, sizeof *world.triangles)};
+    assert_true(world.positions != NULL && world.triangles != NULL);
+    return world;
 }
 
 static void add_triangle(World *world, Vec3 a, Vec3 b, Vec3 c)
@@ -92,13 +92,11 @@ static uint64_t count_cuts(const World *world, uint32_t level)
 
 static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
 {
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     world.object.two_sided = two_sided;
     add_triangle(&world, a, b, c);
     search(&world, 1);
     const uint64_t count = count_cuts(&world, 0);
-    close_world(&world);
     return count;
 }
 
@@ -108,11 +106,9 @@ static Vec3 point_at(double x, double y, double depth)
     return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
 }
 
-static void a_small_triangle_is_cut_where_it_appears_down_to_its_size(void **state)
+TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
 {
-    (void)state;
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, point_at(40.1, 70.9, 5), point_at(40.4, 70.8, 6), point_at(40.3, 70.7, 7));
     search(&world, 1);
     assert_true(is_cut(&world, 40, 70, 0));
@@ -121,12 +117,10 @@ static void a_small_triangle_is_cut_where_it_appears_down_to_its_size(void **sta
     assert_true(is_cut(&world, 40 * 9 + 2, 70 * 9 + 7, 2));
     assert_int_equal(count_cuts(&world, 0), 1);
     assert_int_equal(count_cuts(&world, 1), 2);
-    close_world(&world);
 }
 
-static void a_triangle_is_cut_from_either_side_only_if_it_has_two(void **state)
+TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)
 {
-    (void)state;
     const Vec3 a = point_at(40.1, 70.9, 5), b = point_at(40.4, 70.8, 6),
                c = point_at(40.3, 70.7, 7);
     assert_int_equal(cuts_of_triangle(a, b, c, false), 1);
@@ -134,9 +128,8 @@ static void a_triangle_is_cut_from_either_side_only_if_it_has_two(void **state)
     assert_int_equal(cuts_of_triangle(a, c, b, true), 1);
 }
 
-static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
+TEST(what_is_edge_on_behind_or_beside_is_not_cut)
 {
-    (void)state;
     assert_int_equal(cuts_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
     assert_int_equal(cuts_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
                      0);
@@ -145,12 +138,10 @@ static void what_is_edge_on_behind_or_beside_is_not_cut(void **state)
 }
 
 // A sliver below the eye that starts far behind it appears from the picture's lower edge upward.
-static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(void **state)
+TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
 {
-    (void)state;
-    World world;
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
-    open_world(&world, 2);
+    FREED_BY(close_world) World world = world_of(2);
     add_triangle(&world, vec3(side, -far, -1), vec3(side * 1.01, -far, -1), vec3(side, end, -1));
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++) {
@@ -159,20 +150,16 @@ static void a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it(v
             cut = cut || is_cut(&world, column, row, 0);
         assert_int_equal(cut, row >= 70);
     }
-    close_world(&world);
 }
 
-static void a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture(void **state)
+TEST(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture)
 {
-    (void)state;
-    World world;
-    open_world(&world, 1);
+    FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, vec3(0.005, 1, -1e9), vec3(0.006, 1, -1e9), vec3(0.0055, 1, 1e9));
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++)
         assert_true(is_cut(&world, 60, row, 0));
     assert_int_equal(count_cuts(&world, 0), SIDE);
-    close_world(&world);
 }
 
 // Adds slivers across the picture in all directions.
@@ -180,12 +167,8 @@ static void add_slivers(World *world, int count, double thickness)
 {
     uint64_t random = 1;
     for (int i = 0; i < count; i++) {
-        double numbers[2];
-        for (int k = 0; k < 2; k++) {
-            random = random * 6364136223846793005u + 1442695040888963407u;
-            numbers[k] = (double)(random >> 11) * 0x1p-53;
-        }
-        const double angle = PI * numbers[0], offset = SIDE * (numbers[1] - 0.5);
+        const double angle = PI * random_unit(&random);
+        const double offset = SIDE * (random_unit(&random) - 0.5);
         const double x = cos(angle), y = sin(angle), far = 2 * SIDE;
         const double middle[2] = {SIDE / 2.0 - offset * y, SIDE / 2.0 + offset * x};
         add_triangle(
@@ -195,11 +178,9 @@ static void add_slivers(World *world, int count, double thickness)
     }
 }
 
-static void too_many_slivers_take_no_more_samples_than_there_are(void **state)
+TEST(too_many_slivers_take_no_more_samples_than_there_are)
 {
-    (void)state;
-    World world;
-    open_world(&world, 20000);
+    FREED_BY(close_world) World world = world_of(20000);
     world.object.two_sided = true;
     add_slivers(&world, 20000, 0.001);
     search(&world, 2);
@@ -208,15 +189,13 @@ static void too_many_slivers_take_no_more_samples_than_there_are(void **state)
         samples += (GROUP_CELLS - 1) * count_cuts(&world, level);
     assert_true(100 * count_cuts(&world, 0) > 99 * SIDE * SIDE);
     assert_true(samples <= (uint64_t)THIN_SAMPLES * SIDE * SIDE);
-    close_world(&world);
 }
 
-static void any_threads_find_the_same_cells(void **state)
+TEST(any_threads_find_the_same_cells)
 {
-    (void)state;
     World worlds[4];
     for (uint32_t i = 0; i < 4; i++) {
-        open_world(&worlds[i], 5000);
+        worlds[i] = world_of(5000);
         worlds[i].object.two_sided = true;
         add_slivers(&worlds[i], 10, 0.3);
         search(&worlds[i], i + 1);
@@ -242,16 +221,13 @@ static void add_strip(World *world, double left, double right)
                  point_at(right, 10.1, 4));
 }
 
-static void a_wide_part_made_of_thin_ones_is_not_cut(void **state)
+TEST(a_wide_part_made_of_thin_ones_is_not_cut)
 {
-    (void)state;
-    World world;
-    open_world(&world, 400);
+    FREED_BY(close_world) World world = world_of(400);
     for (int i = 0; i < 200; i++)
         add_strip(&world, 50 + 0.1 * i, 50 + 0.1 * (i + 1));
     search(&world, 1);
     assert_int_equal(count_cuts(&world, 0), 0);
-    close_world(&world);
 }
 
 // Adds a strip whose triangles form a piece.
@@ -276,25 +252,20 @@ static void add_joined_strip(World *world, double left, double right)
     }
 }
 
-static void a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh(void **state)
+TEST(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh)
 {
-    (void)state;
-    World world;
-    open_world(&world, 2 * PIECE_TRIANGLES);
+    FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 20, 90);
     add_joined_strip(&world, 50.2, 50.5);
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++)
         assert_int_equal(is_cut(&world, 50, row, 0), row >= 10 && row < 110);
-    close_world(&world);
 }
 
 // The broader strip contains samples of these cells, and is searched first.
-static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels(void **state)
+TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
 {
-    (void)state;
-    World world;
-    open_world(&world, 2 * PIECE_TRIANGLES);
+    FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 50.05, 50.95);
     add_joined_strip(&world, 50.45, 50.55);
     search(&world, 1);
@@ -302,22 +273,4 @@ static void a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pix
         assert_true(is_cut(&world, 3 * 50 + 1, 3 * row, 1));
         assert_true(is_cut(&world, 9 * 50 + 4, 9 * row, 2));
     }
-    close_world(&world);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_small_triangle_is_cut_where_it_appears_down_to_its_size),
-        cmocka_unit_test(a_triangle_is_cut_from_either_side_only_if_it_has_two),
-        cmocka_unit_test(what_is_edge_on_behind_or_beside_is_not_cut),
-        cmocka_unit_test(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it),
-        cmocka_unit_test(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture),
-        cmocka_unit_test(too_many_slivers_take_no_more_samples_than_there_are),
-        cmocka_unit_test(any_threads_find_the_same_cells),
-        cmocka_unit_test(a_wide_part_made_of_thin_ones_is_not_cut),
-        cmocka_unit_test(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh),
-        cmocka_unit_test(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

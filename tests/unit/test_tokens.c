@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tests the tokenizer of scene text.
+// Tests the tokenizer of scene text and the suggestions for misspelled words.
 #include "scene/tokens.h"
+
+#include "base/word.h"
 
 #include "unit/cmocka_all.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static Tokens tokens_in(const char *text, Error *error)
@@ -11,62 +14,46 @@ static Tokens tokens_in(const char *text, Error *error)
     return tokens_of(text, strlen(text), "a.scn", error);
 }
 
-static void tokens_carry_line_and_column(void **state)
+// Expects these statements, each token with its line and column.
+static void expect_tokens(const char *text, const char *expected)
 {
-    (void)state;
     Error error = {0};
-    Tokens tokens = tokens_in("\n\n  light\t1\n", &error);
-    const Token light = tokens_next_statement(&tokens);
-    assert_true(token_is(light, "light"));
-    assert_int_equal(light.line, 3);
-    assert_int_equal(light.column, 3);
-    assert_int_equal(tokens_next(&tokens).column, 9);
-    assert_null(tokens_next(&tokens).text);
-    assert_null(tokens_next_statement(&tokens).text);
+    char found[256] = "";
+    Tokens tokens = tokens_in(text, &error);
+    for (Token token; (token = tokens_next_statement(&tokens)).text != NULL; strcat(found, "; "))
+        for (; token.text != NULL; token = tokens_next(&tokens))
+            snprintf(found + strlen(found), sizeof found - strlen(found), "%u:%u %.*s ", token.line,
+                     token.column, (int)token.length, token.text);
+    assert_string_equal(found, expected);
 }
 
-static void comments_end_a_line_anywhere(void **state)
+TEST(tokens_carry_line_and_column)
 {
-    (void)state;
-    Error error = {0};
-    Tokens tokens = tokens_in("// one\n# two\nlight // three\nsphere # four", &error);
-    assert_true(token_is(tokens_next_statement(&tokens), "light"));
-    assert_null(tokens_next(&tokens).text);
-    assert_true(token_is(tokens_next_statement(&tokens), "sphere"));
-    assert_null(tokens_next(&tokens).text);
+    expect_tokens("\n\n  light\t1\n", "3:3 light 3:9 1 ; ");
+    expect_tokens("a\r\nb\rc\nd", "1:1 a ; 2:1 b ; 3:1 c ; 4:1 d ; ");
+    expect_tokens("\xef\xbb\xbflight", "1:1 light ; "); // after a byte order mark
 }
 
-static void slashes_inside_a_path_are_no_comment(void **state)
+TEST(comments_end_a_line_anywhere_but_inside_a_path)
 {
-    (void)state;
-    Error error = {0};
-    Tokens tokens = tokens_in("ply_file ..//a#b.ply", &error);
-    tokens_next_statement(&tokens);
-    assert_true(token_is(tokens_next(&tokens), "..//a#b.ply"));
+    expect_tokens("// one\n# two\nlight // three\nsphere # four", "3:1 light ; 4:1 sphere ; ");
+    expect_tokens("ply_file ..//a#b.ply", "1:1 ply_file 1:10 ..//a#b.ply ; ");
 }
 
-static void all_three_line_ends_count_one_line(void **state)
+TEST(quotes_hold_blanks_together_and_an_unclosed_quote_is_part_of_the_word)
 {
-    (void)state;
-    Error error = {0};
-    Tokens tokens = tokens_in("a\r\nb\rc\nd", &error);
-    for (unsigned line = 1; line <= 4; line++)
-        assert_int_equal(tokens_next_statement(&tokens).line, line);
-}
-
-static void quotes_hold_blanks_together(void **state)
-{
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("ply_file \"my model.ply\" x", &error);
     tokens_next_statement(&tokens);
     assert_true(token_is(tokens_next(&tokens), "my model.ply"));
     assert_true(token_is(tokens_next(&tokens), "x"));
+    tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
+    tokens_next_statement(&tokens);
+    assert_true(token_is(tokens_next(&tokens), "\"my"));
 }
 
-static void messages_show_no_control_bytes_and_shorten_long_tokens(void **state)
+TEST(messages_show_no_control_bytes_and_shorten_long_tokens)
 {
-    (void)state;
     Error error = {0};
     Tokens tokens = tokens_in("\033[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx", &error);
     const Token token = tokens_next_statement(&tokens);
@@ -75,36 +62,23 @@ static void messages_show_no_control_bytes_and_shorten_long_tokens(void **state)
                         "a.scn:1:1: no: found '?[31mxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx'...");
 }
 
-static void an_unclosed_quote_is_part_of_the_word(void **state)
+static const char *const words[] = {"light", "material", "sphere", "ply_file"};
+
+static const char *nearest(const char *text)
 {
-    (void)state;
-    Error error = {0};
-    Tokens tokens = tokens_in("ply_file \"my model.ply\n\"", &error);
-    tokens_next_statement(&tokens);
-    assert_true(token_is(tokens_next(&tokens), "\"my"));
+    return word_nearest(text, strlen(text), words, 4);
 }
 
-static void a_byte_order_mark_is_passed_over(void **state)
+TEST(a_mistyped_word_finds_the_one_meant)
 {
-    (void)state;
-    Error error = {0};
-    Tokens tokens = tokens_in("\xef\xbb\xbflight", &error);
-    const Token token = tokens_next_statement(&tokens);
-    assert_true(token_is(token, "light"));
-    assert_int_equal(token.column, 1);
+    assert_string_equal(nearest("ligth"), "light");
+    assert_string_equal(nearest("shpere"), "sphere");
+    assert_string_equal(nearest("plyfile"), "ply_file");
 }
 
-int main(void)
+TEST(a_word_unlike_all_finds_none)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tokens_carry_line_and_column),
-        cmocka_unit_test(comments_end_a_line_anywhere),
-        cmocka_unit_test(slashes_inside_a_path_are_no_comment),
-        cmocka_unit_test(all_three_line_ends_count_one_line),
-        cmocka_unit_test(quotes_hold_blanks_together),
-        cmocka_unit_test(an_unclosed_quote_is_part_of_the_word),
-        cmocka_unit_test(a_byte_order_mark_is_passed_over),
-        cmocka_unit_test(messages_show_no_control_bytes_and_shorten_long_tokens),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    assert_null(nearest("zzzzzz"));
+    assert_null(nearest("a word that is far longer than any keyword could be"));
+    assert_null(word_nearest("x", 1, words, 0));
 }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Scenes from text for tests, beside the project's scenes.
+#pragma once
+
+#include "scene/scn.h"
+#include "unit/cmocka_all.h"
+
+#include <string.h>
+
+static inline bool parse(Scene *scene, const char *text, Error *error)
+{
+    return scn_parse(scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", error);
+}
+
+// A fault of the text fails the test.
+static inline Scene parsed(const char *text)
+{
+    Scene scene;
+    Error error = {0};
+    if (!parse(&scene, text, &error))
+        fail_msg("%s\n%s", error.text, text);
+    return scene;
+}
