@@ -22,7 +22,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // it was read from. Returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// A mesh that replaces a scene is turned upright, framed by cameras of its own, lit and two-sided.
+// A mesh that replaces a scene is turned upright, framed by cameras of its own, lit, placed on
+// a floor, and two-sided.
 
 // Returns whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
@@ -39,5 +40,5 @@ bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Er
 // scenes from text. On failure, only scene_free may use the scene.
 bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
 
-// Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
-UpAxis up_axis_of_shape(const Scene *scene);
+// Finds z, or y if the meshes would fall over with z up and stand on a flat base with y up.
+bool up_axis_of_shape(UpAxis *up, const Scene *scene, Error *error);

@@ -14,6 +14,10 @@
 
 #define COURSE_MATERIALS 4 // the course's materials come first in every scene
 
+// The materials that follow if the scene's file is a mesh: of meshes without their own, and of the
+// floor. The file's own follow them.
+enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
+
 typedef struct {
     Vec3 position;
     double intensity; // 0 or more; lights do not attenuate
@@ -43,7 +47,8 @@ typedef struct {
 // A camera. up and look_at - eye must be neither zero nor parallel.
 typedef struct {
     Vec3 eye, look_at, up;
-    double fov_degrees; // vertical, between 0 and 180
+    double fov_degrees;   // vertical, between 0 and 180
+    double width_degrees; // narrow pictures widen to this horizontal angle; 0: none do
 } Viewpoint;
 
 typedef struct {
@@ -71,6 +76,12 @@ typedef struct {
     // combines only the hashes of the meshes, and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
+
+// Returns whether the file is a mesh, so that clrt adds everything else.
+static inline bool scene_is_mesh(const Scene *scene)
+{
+    return scene->mesh_up != UP_AUTO;
+}
 
 // Fills scene with the defaults of a scene file: the course's constants and four materials.
 bool scene_init(Scene *scene, Error *error);

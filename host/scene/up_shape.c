@@ -3,6 +3,9 @@
 // points that touch the table. The center is inside the hull if, in every horizontal direction,
 // some point that touches lies beyond it.
 #include "scene/mesh_load.h"
+#include "scene/triangle_runs.h"
+
+#include <stdlib.h>
 
 #define DIRECTIONS 16
 // Fractions of the bounding box's longest side.
@@ -10,45 +13,30 @@
 #define MARGIN 0.03 // the hull must reach beyond the center by this distance
 
 typedef struct {
-    const Scene *scene;
-    double low[3], center[3]; // lowest coordinates; center of the triangles' area
-    double extent;            // longest side of the bounding box
+    TriangleRuns runs;
+    Vec3 center;   // of the triangles' area
+    double extent; // longest side of the bounding box
 } Body;
 
-static const double *corner_of(const Mesh *mesh, size_t triangle, int corner)
-{
-    return mesh->positions[mesh->triangles[triangle][corner]];
-}
-
-// Returns the area relative to the extent's square, so that large coordinates do not overflow.
-static double area_of(const Mesh *mesh, size_t triangle, double extent)
-{
-    double sides[2][3];
-    for (int side = 0; side < 2; side++)
-        for (int axis = 0; axis < 3; axis++)
-            sides[side][axis] =
-                (corner_of(mesh, triangle, side + 1)[axis] - corner_of(mesh, triangle, 0)[axis]) /
-                extent;
-    const Vec3 normal = vec3_cross(vec3(sides[0][0], sides[0][1], sides[0][2]),
-                                   vec3(sides[1][0], sides[1][1], sides[1][2]));
-    return sqrt(vec3_dot(normal, normal)) / 2;
-}
-
-static void find_center(Body *body)
+// Areas are relative to the extent's square, so that large coordinates do not overflow.
+static Vec3 center_of(const Body *body)
 {
     double area = 0;
-    for (size_t i = 0; i < body->scene->objects.count; i++) {
-        const Mesh *mesh = &body->scene->objects.data[i].mesh;
-        for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
-            const double part = area_of(mesh, triangle, body->extent);
-            for (int corner = 0; corner < 3; corner++)
-                for (int axis = 0; axis < 3; axis++)
-                    body->center[axis] += part / 3 * corner_of(mesh, triangle, corner)[axis];
+    Vec3 center = {0, 0, 0};
+    for (size_t i = 0; i < body->runs.runs.count; i++) {
+        const TriangleRun *run = &body->runs.runs.data[i];
+        for (size_t triangle = run->first; triangle < run->end; triangle++) {
+            const Vec3 a = triangle_corner(run->mesh, triangle, 0);
+            const Vec3 b = triangle_corner(run->mesh, triangle, 1);
+            const Vec3 c = triangle_corner(run->mesh, triangle, 2);
+            const Vec3 normal = vec3_cross(vec3_scale(vec3_sub(b, a), 1 / body->extent),
+                                           vec3_scale(vec3_sub(c, a), 1 / body->extent));
+            const double part = sqrt(vec3_dot(normal, normal));
+            center = vec3_add(center, vec3_scale(vec3_add(vec3_add(a, b), c), part / 3));
             area += part;
         }
     }
-    for (int axis = 0; axis < 3; axis++)
-        body->center[axis] /= area;
+    return vec3_scale(center, 1 / area);
 }
 
 // The hull's reach beyond the body's center in each of the directions x, y.
@@ -73,48 +61,59 @@ static void add_to_hull(Hull *hull, double x, double y)
         hull->reach[i] = fmax(hull->reach[i], x * hull->x[i] + y * hull->y[i]);
 }
 
-// Adds the triangle's corners that touch the table, if at least `least` of them do.
-static void add_touching(Hull *hull, const Body *body, const double *corners[3], int up, int least)
+// A way to stand: with z up or with y up, on triangles of which at least this many corners touch.
+typedef struct {
+    bool is_z;
+    int least;
+} Stance;
+
+// Returns the height of a point. Stores its place on the table in x and y.
+static double height_of(const Stance *stance, Vec3 point, double *x, double *y)
 {
-    const int x = (up + 1) % 3, y = (up + 2) % 3;
-    const double table = body->low[up] + TOUCH * body->extent;
-    int touching = 0;
-    for (int corner = 0; corner < 3; corner++)
-        touching += corners[corner][up] <= table;
-    for (int corner = 0; touching >= least && corner < 3; corner++)
-        if (corners[corner][up] <= table)
-            add_to_hull(hull, corners[corner][x] - body->center[x],
-                        corners[corner][y] - body->center[y]);
+    *x = point.x;
+    *y = stance->is_z ? point.y : point.z;
+    return stance->is_z ? point.z : point.y;
 }
 
-// Returns whether the body stands with the axis `up` upward, on triangles of which at least `least`
-// corners touch the table.
-static bool stands(const Body *body, int up, int least)
+static void add_touching(Hull *hull, const Body *body, const TriangleRun *run, const Stance *stance)
+{
+    double x, y, center_x, center_y;
+    height_of(stance, body->center, &center_x, &center_y);
+    const double table = height_of(stance, body->runs.low, &x, &y) + TOUCH * body->extent;
+    if (height_of(stance, run->low, &x, &y) > table)
+        return;
+    for (size_t triangle = run->first; triangle < run->end; triangle++) {
+        int touching = 0;
+        for (int corner = 0; corner < 3; corner++)
+            touching +=
+                height_of(stance, triangle_corner(run->mesh, triangle, corner), &x, &y) <= table;
+        for (int corner = 0; touching >= stance->least && corner < 3; corner++)
+            if (height_of(stance, triangle_corner(run->mesh, triangle, corner), &x, &y) <= table)
+                add_to_hull(hull, x - center_x, y - center_y);
+    }
+}
+
+static bool stands(const Body *body, const Stance *stance)
 {
     Hull hull = empty_hull();
     double reach = INFINITY;
-    for (size_t i = 0; i < body->scene->objects.count; i++) {
-        const Mesh *mesh = &body->scene->objects.data[i].mesh;
-        for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
-            const double *corners[3];
-            for (int corner = 0; corner < 3; corner++)
-                corners[corner] = corner_of(mesh, triangle, corner);
-            add_touching(&hull, body, corners, up, least);
-        }
-    }
+    for (size_t i = 0; i < body->runs.runs.count; i++)
+        add_touching(&hull, body, &body->runs.runs.data[i], stance);
     for (int i = 0; i < DIRECTIONS; i++)
         reach = fmin(reach, hull.reach[i]);
     return reach >= MARGIN * body->extent;
 }
 
-UpAxis up_axis_of_shape(const Scene *scene)
+bool up_axis_of_shape(UpAxis *up, const Scene *scene, Error *error)
 {
-    Body body = {.scene = scene};
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < scene->objects.count; i++)
-        mesh_add_bounds(&scene->objects.data[i].mesh, &low, &high);
-    body.low[0] = low.x, body.low[1] = low.y, body.low[2] = low.z;
-    body.extent = vec3_extent(vec3_sub(high, low));
-    find_center(&body);
-    return !stands(&body, 2, 1) && stands(&body, 1, 3) ? UP_Y : UP_Z;
+    static const Stance on_z = {true, 1}, on_flat_y = {false, 3};
+    Body body;
+    const bool ok = triangle_runs_make(&body.runs, scene, error);
+    if (ok) {
+        body.extent = vec3_extent(vec3_sub(body.runs.high, body.runs.low));
+        body.center = center_of(&body);
+        *up = !stands(&body, &on_z) && stands(&body, &on_flat_y) ? UP_Y : UP_Z;
+    }
+    free(body.runs.runs.memory);
+    return ok;
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests meshes that are rendered without a scene: which way is up, and that turning is exact. Every
-# run makes new meshes. Usage: test_lone_mesh.py CLRT 1|0, with 0 for a build without Assimp
+# Tests meshes that are rendered without a scene: which way is up, that turning is exact, and that
+# they fill the picture. Every run makes new meshes. Usage: test_lone_mesh.py CLRT 1|0, with 0 for a build without Assimp
+import math
 import random
 import sys
 import unittest
@@ -50,12 +51,14 @@ def tripod(splay=1.0):
     return points, triangles
 
 
-class Upright(Work):
+class Random(Work):
     def setUp(self):
         super().setUp()
         self.seed = random.SystemRandom().randrange(1 << 32)
         self.random = random.Random(self.seed)
 
+
+class Upright(Random):
     def points(self):
         """Returns the knot's points, moved at random. One coordinate is zero."""
         shift = lambda value: models.rounded(value + self.random.uniform(-0.05, 0.05))
@@ -136,6 +139,101 @@ class Upright(Work):
         self.write(a_stl=models.stl(lying, triangles), a_OFF=models.off(lying, triangles))
         for name in "a.stl", "a.OFF":
             self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", "y"), name)
+
+
+def unit(v):
+    return [x / math.hypot(*v) for x in v]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cameras(scene):
+    """Returns eye, point, up, height and width in degrees of a scene's cameras."""
+    up, found = [0, 0, 1], []
+    for words in map(str.split, scene.splitlines()):
+        if words[:1] == ["up"]:
+            up = [float(word) for word in words[1:]]
+        if words[:1] == ["camera"]:
+            numbers = [float(word) for word in words[1:]]
+            found.append((numbers[:3], numbers[3:6], up, numbers[6], numbers[7]))
+    return found
+
+
+def extents(camera, points, width, height):
+    """Returns the points' lowest and highest positions in the picture, in width and height, where
+    -1 and 1 are its edges."""
+    eye, point, up, tall, wide = camera
+    forward = unit([b - a for a, b in zip(eye, point)])
+    right = unit(cross(forward, up))
+    top = cross(right, forward)
+    half = max(math.tan(math.radians(tall / 2)), math.tan(math.radians(wide / 2)) * height / width)
+    rays = [[b - a for a, b in zip(eye, p)] for p in points]
+    across = [dot(ray, right) / dot(ray, forward) / (half * width / height) for ray in rays]
+    along = [dot(ray, top) / dot(ray, forward) / half for ray in rays]
+    return (min(across), max(across)), (min(along), max(along))
+
+
+class Studio(Random):
+    def mesh(self):
+        """Returns the points and triangles of a box or a bent tube, of any size and place."""
+        points, triangles = models.knot(self.random.randrange(3, 30), self.random.randrange(3, 9))
+        if self.random.random() < 0.5:
+            points = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+            triangles = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7)]
+        stretch = [10 ** self.random.uniform(-3, 1) for _ in range(3)]
+        size = 10 ** self.random.uniform(-8, 8)
+        place = [size * self.random.uniform(-3, 3) for _ in range(3)]
+        move = lambda p: tuple(models.rounded(x * s * size + t) for x, s, t in zip(p, stretch, place))
+        return [move(p) for p in points], triangles
+
+    def test_the_mesh_fills_four_fifths_of_any_picture(self):
+        for _ in range(20):
+            points, triangles = self.mesh()
+            width, height = self.random.randrange(100, 2000), self.random.randrange(100, 2000)
+            stray = points + [tuple(1e6 * x for x in points[0])]  # no triangle uses it
+            self.write(a_ply=models.ply(stray, triangles))
+            self.clrt("convert", "a.ply", "a.scn", "--up", "z")
+            found = cameras((self.work / "a.scn").read_text())
+            self.assertEqual(len(found), 6)
+            for view, camera in enumerate(found):
+                ranges = extents(camera, [points[i] for t in triangles for i in t], width, height)
+                filled = [(high - low) / 2 for low, high in ranges]
+                told = self.seed, view, width, height, ranges
+                self.assertGreater(max(filled), 0.78, told)
+                self.assertLess(max(filled), 0.82, told)
+                for low, high in ranges:
+                    self.assertLess(abs(low + high), 0.02, told)
+
+    def test_its_scene_gives_the_same_pictures(self):
+        self.write(a_ply=models.ply(*self.mesh()), b_obj=models.obj(models.coarse(KNOT), TRIANGLES, "mtllib b.mtl",
+                   [("usemtl red", 0)]), b_mtl="newmtl red\nKd 0.7 0.1 0.3\n")
+        for name in ["a.ply", "b.obj"] if ASSIMP else ["a.ply"]:
+            self.clrt("convert", name, "c.scn")
+            for view in range(1, 7):
+                size = f"{self.random.randrange(8, 80)}x{self.random.randrange(8, 80)}"
+                for scene in name, "c.scn":
+                    self.clrt(scene, "-s", size, "--view", str(view), "-o", f"{scene}.pfm")
+                self.assert_same_bytes(f"{name}.pfm", "c.scn.pfm", (self.seed, size, view))
+
+    def test_it_stands_on_a_floor_in_three_lights(self):
+        points, triangles = self.mesh()
+        self.write(a_ply=models.ply(points, triangles))
+        self.clrt("convert", "a.ply", "a.scn", "--up", "z")
+        statements = [line.split() for line in (self.work / "a.scn").read_text().splitlines()]
+        (floor,) = [words for words in statements if words[0] == "sphere"]
+        top, bottom = float(floor[3]) + float(floor[4]), min(points[i][2] for t in triangles for i in t)
+        self.assertLess(abs(top - bottom), 1e-9 * float(floor[4]), self.seed)
+        self.assertEqual(len([words for words in statements if words[0] == "light"]), 3)
+
+    def test_its_materials_are_no_findings(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        self.assertNotIn("defined and not used", self.clrt("check", "a.ply", "-q"))
 
 
 if __name__ == "__main__":

@@ -86,8 +86,8 @@ static uint32_t view_differences(const Stored *stored, const char *path, uint32_
     Error error = {0};
     Framebuffer picture, expected;
     const Scene *scene = &stored->scene;
-    const CameraData camera =
-        camera_make(&scene->viewpoints.data[view - 1], &stored->normalization, scene->height, 1);
+    const CameraData camera = camera_make(&scene->viewpoints.data[view - 1], &stored->normalization,
+                                          scene->width, scene->height, 1);
     const OracleView rays = stored_view(&stored->oracle, &camera, scene->width, scene->height);
     const uint32_t step = comparing->step;
     if (!oracle_draw(&rays, 1, step, &expected, &error))

@@ -252,11 +252,11 @@ static void values_out_of_range_are_refused(void **state)
     expect_error("camera 0 0 0 0 0 0 45",
                  "1:1: the camera looks at its own position: found 'camera'; "
                  "the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y "
-                 "AT_Z FOV_DEGREES'");
+                 "AT_Z FOV_DEGREES [WIDTH_DEGREES]'");
     expect_error("camera 0 0 5 0 0 0 45",
                  "1:1: the camera must not look along its 'up' vector: found "
                  "'camera'; the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z "
-                 "FOV_DEGREES'");
+                 "FOV_DEGREES [WIDTH_DEGREES]'");
     expect_error("up 0 1 0", "1:1: no camera follows this 'up': found 'up'; the statement is 'up X "
                              "Y Z'");
     expect_error("define a matte\ndefine a matte",
@@ -307,6 +307,18 @@ static void a_scene_names_the_files_it_was_read_from(void **state)
     scene_free(&scene);
 }
 
+static void a_camera_may_have_a_width(void **state)
+{
+    (void)state;
+    Scene scene = parsed("camera 1 2 3 4 5 6 30\ncamera 1 2 3 4 5 6 30 60");
+    assert_true(scene.viewpoints.data[0].width_degrees == 0);
+    assert_true(scene.viewpoints.data[1].width_degrees == 60);
+    scene_free(&scene);
+    expect_error("camera 1 2 3 4 5 6 30 180",
+                 "1:23: expected a number between 1e-06 and 180: found '180'; the statement "
+                 "is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]'");
+}
+
 static void a_scene_tells_the_courses_cameras_from_its_own(void **state)
 {
     (void)state;
@@ -342,6 +354,7 @@ int main(void)
         cmocka_unit_test(transforms_out_of_range_are_refused),
         cmocka_unit_test(the_longest_normals_can_be_rotated),
         cmocka_unit_test(a_scene_names_the_files_it_was_read_from),
+        cmocka_unit_test(a_camera_may_have_a_width),
         cmocka_unit_test(a_scene_tells_the_courses_cameras_from_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -139,7 +139,7 @@ static Scene square(const Vec3 normals[4], Vec3 eye, Vec3 light)
     scene.objects.data[0].smooth = true;
     scene.objects.data[0].material = 2;
     const Light made = light_white(light, 1);
-    const Viewpoint viewpoint = {eye, {0, 0, 0.125}, {0, 1, 0.1}, 40};
+    const Viewpoint viewpoint = {eye, {0, 0, 0.125}, {0, 1, 0.1}, 40, 0};
     require(array_push(&scene.lights, made, &error) &&
                 array_push(&scene.viewpoints, viewpoint, &error),
             &error);

@@ -25,7 +25,7 @@ static uint32_t add_mirror(Scene *scene, float reflectivity)
 static void set_view(Scene *scene, Vec3 eye, Vec3 look_at, double fov)
 {
     Error error = {0};
-    const Viewpoint viewpoint = {eye, look_at, {0, 0, 1}, fov};
+    const Viewpoint viewpoint = {eye, look_at, {0, 0, 1}, fov, 0};
     require(array_push(&scene->viewpoints, viewpoint, &error), &error);
 }
 

@@ -22,7 +22,7 @@ static void add_light(Scene *scene, Vec3 position, double intensity)
 static void add_view(Scene *scene, Vec3 eye, Vec3 look_at, double fov)
 {
     Error error = {0};
-    const Viewpoint viewpoint = {eye, look_at, {0.01, 0.02, 1}, fov};
+    const Viewpoint viewpoint = {eye, look_at, {0.01, 0.02, 1}, fov, 0};
     require(array_push(&scene->viewpoints, viewpoint, &error), &error);
 }
 

@@ -12,7 +12,7 @@ static void add_view_and_light(Scene *scene)
 {
     Error error = {0};
     const Light light = light_white(vec3(6, -5, 9), 1);
-    const Viewpoint viewpoint = {{1, -4, 2}, {0, 0, 0}, {0, 0, 1}, 40};
+    const Viewpoint viewpoint = {{1, -4, 2}, {0, 0, 0}, {0, 0, 1}, 40, 0};
     require(array_push(&scene->lights, light, &error) &&
                 array_push(&scene->viewpoints, viewpoint, &error),
             &error);

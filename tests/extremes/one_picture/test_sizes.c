@@ -99,7 +99,7 @@ static void samples_of_one_color_make_that_color_exactly_t59(void **state)
         Error error = {0};
         Framebuffer picture;
         Scene scene;
-        const Viewpoint viewpoint = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 60};
+        const Viewpoint viewpoint = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 60, 0};
         require(scene_init(&scene, &error) && array_push(&scene.viewpoints, viewpoint, &error),
                 &error);
         scene.background = vec3((double)color[0], (double)color[1], (double)color[2]);

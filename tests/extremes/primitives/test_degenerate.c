@@ -77,9 +77,9 @@ static Scene room_corner(const Viewpoint *viewpoint)
 // The first sees all; the middle column of the second and the very middle of the third look
 // straight at and along the triangle that is parallel to an axis.
 static const Viewpoint viewpoints[3] = {
-    {{3, -6, 2}, {0, 0, 0}, {0, 0, 1}, 45},
-    {{1.5, 0.125, 6}, {1.5, 0.125, -2}, {0, 1, 0}, 40},
-    {{1.5, -6, 0.5}, {1.5, 0, 0.5}, {0, 0, 1}, 40},
+    {{3, -6, 2}, {0, 0, 0}, {0, 0, 1}, 45, 0},
+    {{1.5, 0.125, 6}, {1.5, 0.125, -2}, {0, 1, 0}, 40, 0},
+    {{1.5, -6, 0.5}, {1.5, 0, 0.5}, {0, 0, 1}, 40, 0},
 };
 
 static void triangles_without_area_leave_no_trace_in_a_picture_t11(void **state)
@@ -188,7 +188,7 @@ static Scene coincident_cubes(bool green_first)
 {
     Error error = {0};
     Scene scene;
-    const Viewpoint viewpoint = {{3, -6, 2.5}, {0, 0, 0}, {0, 0, 1}, 30};
+    const Viewpoint viewpoint = {{3, -6, 2.5}, {0, 0, 0}, {0, 0, 1}, 30, 0};
     require(scene_init(&scene, &error) && array_push(&scene.viewpoints, viewpoint, &error), &error);
     const uint32_t green = add_color(&scene, 0, 1, 0), blue = add_color(&scene, 0, 0, 1);
     shape_add(&scene, shape_cube(1, 9), green_first ? green : blue);

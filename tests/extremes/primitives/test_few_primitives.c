@@ -117,7 +117,7 @@ static Scene make_scene(size_t number)
 {
     Error error = {0};
     Scene scene;
-    const Viewpoint viewpoint = {{0.3, -6, 0.2}, {0, 0, 0}, {0, 0, 1}, 30};
+    const Viewpoint viewpoint = {{0.3, -6, 0.2}, {0, 0, 0}, {0, 0, 1}, 30, 0};
     require(scene_init(&scene, &error) && array_push(&scene.viewpoints, viewpoint, &error), &error);
     scene.background = vec3(0.5, 0.75, 0.25);
     scenes[number].fill(&scene);

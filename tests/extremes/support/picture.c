@@ -63,8 +63,8 @@ void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const 
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
 {
     const Normalization normalization = normalization_of(scene);
-    return camera_make(&scene->viewpoints.data[0], &normalization, settings->height,
-                       settings->samples);
+    return camera_make(&scene->viewpoints.data[0], &normalization, settings->width,
+                       settings->height, settings->samples);
 }
 
 void picture_draw(Framebuffer *framebuffer, const Studio *studio, const Scene *scene,

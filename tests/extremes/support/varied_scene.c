@@ -37,7 +37,7 @@ Scene varied_scene(void)
     const Light lights[3] = {light_white(vec3(8, -9, 12), 0.7), light_white(vec3(-10, 3, 9), 0.4),
                              light_white(vec3(1, 1, 25), 0.3)};
     const Sphere spheres[2] = {{{6, -4, -3}, 2.5, 4}, {{-7, -5, -2}, 1.5, 3}};
-    const Viewpoint viewpoint = {{3, -21, 7}, {0, 0, -1}, {0, 0, 1}, 45};
+    const Viewpoint viewpoint = {{3, -21, 7}, {0, 0, -1}, {0, 0, 1}, 45, 0};
     ok = ok && array_push(&scene.materials, gloss, &error) &&
          array_push(&scene.viewpoints, viewpoint, &error);
     for (int i = 0; i < 3; i++)
