@@ -198,21 +198,13 @@ void run_free(Run *run)
 // is a file name.
 #define INPUT_NAME "standard input"
 
-static bool load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
-{
-    File file;
-    if (!options_read_input(options))
-        return scn_load(scene, options->scene_path, parse, error);
-    const bool ok = file_read_stream(&file, stdin, INPUT_NAME, error) &&
-                    scn_take(scene, &file, INPUT_NAME, parse, error);
-    file_free(&file);
-    return ok;
-}
-
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
 {
-    Error cause = {0};
-    return load(scene, options, parse, error) &&
-           (options->up == UP_AUTO || mesh_scene_turn(scene, options->up, &cause) ||
-            error_set(error, "%s: %s", options->scene_path, cause.text));
+    File file = {0};
+    const bool ok = options_read_input(options)
+                        ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
+                              scn_take(scene, &file, INPUT_NAME, parse, error)
+                        : scn_load(scene, options->scene_path, parse, error);
+    file_free(&file);
+    return ok && mesh_scene_turn(scene, options->up, error);
 }

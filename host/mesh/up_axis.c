@@ -39,11 +39,3 @@ void mesh_turn_up(Mesh *mesh, UpAxis up)
         n[0] = (float)normal.x, n[1] = (float)normal.y, n[2] = (float)normal.z;
     }
 }
-
-UpAxis up_axis_inverse(UpAxis up)
-{
-    static const UpAxis inverses[UP_AXES] = {
-        [UP_X] = UP_MINUS_X, [UP_Y] = UP_MINUS_Y, [UP_Z] = UP_Z,
-        [UP_MINUS_X] = UP_X, [UP_MINUS_Y] = UP_Y, [UP_MINUS_Z] = UP_MINUS_Z};
-    return inverses[up];
-}

@@ -22,6 +22,3 @@ extern const char *const up_axis_names[UP_AXES];
 // Rotates positions and normals so that the axis `up` becomes z. The rotation only exchanges
 // coordinates and changes signs, so it rounds nothing. UP_AUTO and UP_Z keep the mesh.
 void mesh_turn_up(Mesh *mesh, UpAxis up);
-
-// Returns the axis for which mesh_turn_up undoes a turn from `up`.
-UpAxis up_axis_inverse(UpAxis up);

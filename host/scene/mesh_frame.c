@@ -1,112 +1,129 @@
 // SPDX-License-Identifier: MIT
-// From an eye, the points of a mesh lie between two planes in width and two in height. The planes
-// touch the mesh. Planes of a given slope fix the nearest eye, and this eye fixes the slopes of the
-// other two.
+// The eye is at a fixed distance. The edges of the picture are planes through the eye. For each
+// axis of the picture, two planes of the same slope are found that touch the meshes.
 #include "scene/mesh_frame.h"
 
 #include "base/limits.h"
 
-#define VIEWS       6
-#define FOV_DEGREES 30
-#define FILLED      0.8 // part of the picture's width or height
-#define MOST_STEPS  32
+#include <stdlib.h>
+
+#define VIEWS         6
+#define DISTANCE      4.0 // of the eye from the center, in radii
+#define FILLED        0.8 // part of the picture's width or height
+#define RUN_TRIANGLES 64
+#define MOST_STEPS    32
 
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// The points that two planes support, which rise from the eye along an axis of the picture.
+// A short run of a mesh's triangles with its bounding box, by which a search skips most runs.
+// Neighbors in a file are usually neighbors in space.
 typedef struct {
-    double high, low;           // their coordinates along the axis
-    double high_back, low_back; // their distances from the center toward the eye
-} Support;
+    Mesh mesh; // borrowed
+    Vec3 low, high;
+} Run;
 
-// Planes of a higher slope contain more points.
-static Support support_of(const MeshPlace *place, Vec3 axis, Vec3 back, double slope)
-{
-    const Vec3 inward = vec3_scale(back, slope);
-    const Vec3 high =
-        vec3_sub(triangle_runs_farthest(&place->runs, vec3_add(inward, axis)), place->center);
-    const Vec3 low =
-        vec3_sub(triangle_runs_farthest(&place->runs, vec3_sub(inward, axis)), place->center);
-    return (Support){vec3_dot(high, axis), vec3_dot(low, axis), vec3_dot(high, back),
-                     vec3_dot(low, back)};
-}
+typedef struct {
+    ARRAY(Run) runs;
+    Vec3 center;
+    double distance;
+} Frame;
 
-// Returns the distance from the center at which planes of this slope meet.
-static double distance_of(const Support *support, double slope)
+static bool add_runs(Frame *frame, const Mesh *mesh, Error *error)
 {
-    return ((support->high - support->low) / slope + support->high_back + support->low_back) / 2;
-}
-
-// Returns the slope of the planes that meet at this distance.
-static double slope_at(const Support *support, double distance)
-{
-    return (support->high - support->low) / (2 * distance - support->high_back - support->low_back);
-}
-
-// Returns the angle in degrees between two planes through the eye that leave a part of the picture
-// free. Newton's method starts above the result, where the tangent is convex, and stays above.
-static double angle_between(double slope)
-{
-    const double tangent = slope / FILLED;
-    double half = FOV_DEGREES / 2.0;
-    for (int step = 0; step < 8; step++) {
-        const double sine = sine_of_degrees(half), cosine = cosine_of_degrees(half);
-        half -= (sine - tangent * cosine) * cosine * DEGREES_PER_RADIAN;
+    for (size_t first = 0; first < mesh->triangle_count; first += RUN_TRIANGLES) {
+        const size_t rest = mesh->triangle_count - first;
+        Run run = {*mesh, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        run.mesh.triangles += first;
+        run.mesh.triangle_count = rest < RUN_TRIANGLES ? rest : RUN_TRIANGLES;
+        mesh_add_bounds(&run.mesh, &run.low, &run.high);
+        if (!array_push(&frame->runs, run, error))
+            return false;
     }
-    return fmax(2 * half, FOV_LEAST);
+    return true;
 }
 
-// Shrinks the slope of planes that meet at this distance until they touch the meshes. The gap
-// between planes and meshes is a convex, piecewise linear function of the slope, so Newton's method
-// ends after few steps.
-static double touch(const MeshPlace *place, Vec3 axis, Vec3 back, double distance, Support *support)
+// Returns the vertex that lies farthest in direction d, relative to the center.
+static Vec3 farthest(const Frame *frame, Vec3 d)
 {
-    double slope = INFINITY, next = slope_at(support, distance);
+    Vec3 found = frame->center;
+    double most = -INFINITY;
+    for (size_t i = 0; i < frame->runs.count; i++) {
+        const Run *run = &frame->runs.data[i];
+        if (fmax(d.x * run->low.x, d.x * run->high.x) + fmax(d.y * run->low.y, d.y * run->high.y) +
+                fmax(d.z * run->low.z, d.z * run->high.z) <=
+            most)
+            continue;
+        for (size_t corner = 0; corner < 3 * run->mesh.triangle_count; corner++) {
+            const double *p = run->mesh.positions[run->mesh.triangles[corner / 3][corner % 3]];
+            const Vec3 point = {p[0], p[1], p[2]};
+            if (vec3_dot(point, d) > most) {
+                most = vec3_dot(point, d);
+                found = point;
+            }
+        }
+    }
+    return vec3_sub(found, frame->center);
+}
+
+// Returns the slope of the planes that touch the meshes on both sides of an axis, and stores the
+// coordinate of their intersection on the axis. The gap between the planes and the meshes is a
+// convex, piecewise linear function of the slope, so Newton's method ends after few steps.
+static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
+{
+    double slope = -1, next = 0;
     for (int step = 0; step < MOST_STEPS && next != slope; step++) {
         slope = next;
-        *support = support_of(place, axis, back, slope);
-        next = slope_at(support, distance);
+        const Vec3 inward = vec3_scale(back, slope);
+        const Vec3 high = farthest(frame, vec3_add(inward, axis));
+        const Vec3 low = farthest(frame, vec3_sub(inward, axis));
+        const double above = frame->distance - vec3_dot(high, back);
+        const double below = frame->distance - vec3_dot(low, back);
+        next = (vec3_dot(high, axis) - vec3_dot(low, axis)) / (above + below);
+        *middle = vec3_dot(high, axis) - next * above;
     }
     return next;
 }
 
-// back points from the meshes to the eye.
-static Viewpoint view_from(const MeshPlace *place, Vec3 back, Vec3 up)
+// Returns the field of view in which planes of this slope enclose the filled part. Newton's method
+// starts above the result, where the tangent is convex, and stays above.
+static double field_of_view(double slope)
 {
-    const Vec3 right = vec3_normalize(vec3_cross(up, back));
-    const Vec3 axes[2] = {right, vec3_cross(back, right)};
-    const double half = FOV_DEGREES / 2.0;
-    const double most = FILLED * sine_of_degrees(half) / cosine_of_degrees(half);
-    // The eye is outside, even if all points are on a line to it.
-    double distance = 1.01 * place->radius, slopes[2];
-    Support supports[2];
-    Viewpoint viewpoint = {.look_at = place->center, .up = up};
-    for (int axis = 0; axis < 2; axis++) {
-        supports[axis] = support_of(place, axes[axis], back, most);
-        distance = fmax(distance, distance_of(&supports[axis], most));
+    double half = 45;
+    for (int step = 0; step < MOST_STEPS; step++) {
+        const double sine = sine_of_degrees(half), cosine = cosine_of_degrees(half);
+        half -= (sine - slope / FILLED * cosine) * cosine * DEGREES_PER_RADIAN;
     }
-    for (int axis = 0; axis < 2; axis++) {
-        Support *support = &supports[axis];
-        slopes[axis] = touch(place, axes[axis], back, distance, support);
-        const double middle = support->high - slopes[axis] * (distance - support->high_back);
-        viewpoint.look_at = vec3_add(viewpoint.look_at, vec3_scale(axes[axis], middle));
-    }
-    viewpoint.eye = vec3_add(viewpoint.look_at, vec3_scale(back, distance));
-    viewpoint.fov_degrees = angle_between(slopes[1]);
-    viewpoint.width_degrees = angle_between(slopes[0]);
-    return viewpoint;
+    return fmax(2 * half, FOV_LEAST);
 }
 
-bool mesh_frame_add_views(Scene *scene, const MeshPlace *place, Error *error)
+// back points from the meshes to the eye.
+static Viewpoint view_from(const Frame *frame, Vec3 back, Vec3 up)
 {
-    static const double directions[VIEWS][3] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
-                                                {0, 1, 0},    {-1, 0, 0}, {0, 0, 1}};
-    for (int view = 0; view < VIEWS; view++) {
-        const double *d = directions[view];
+    double right, top;
+    const Vec3 x = vec3_normalize(vec3_cross(up, back)), y = vec3_cross(back, x);
+    const double width = touch(frame, x, back, &right), height = touch(frame, y, back, &top);
+    const Vec3 aside = vec3_add(vec3_scale(x, right), vec3_scale(y, top));
+    const Vec3 look_at = vec3_add(frame->center, aside);
+    return (Viewpoint){.eye = vec3_add(look_at, vec3_scale(back, frame->distance)),
+                       .look_at = look_at,
+                       .up = up,
+                       .fov_degrees = field_of_view(height),
+                       .width_degrees = field_of_view(width)};
+}
+
+bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
+{
+    static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
+                                           {0, 1, 0},    {-1, 0, 0}, {0, 0, 1}};
+    Frame frame = {.center = center, .distance = DISTANCE * radius};
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++)
+        ok = add_runs(&frame, &scene->objects.data[i].mesh, error);
+    for (int view = 0; ok && view < VIEWS; view++) {
         const Vec3 up = view == VIEWS - 1 ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        const Viewpoint viewpoint = view_from(place, vec3_normalize(vec3(d[0], d[1], d[2])), up);
-        if (!array_push(&scene->viewpoints, viewpoint, error))
-            return false;
+        const Viewpoint viewpoint = view_from(&frame, vec3_normalize(directions[view]), up);
+        ok = array_push(&scene->viewpoints, viewpoint, error);
     }
-    return true;
+    free(frame.runs.memory);
+    return ok;
 }

@@ -2,15 +2,8 @@
 // Cameras for a mesh without a scene.
 #pragma once
 
-#include "scene/triangle_runs.h"
-
-// The place of a scene's meshes.
-typedef struct {
-    TriangleRuns runs;
-    Vec3 center;   // of the bounding box
-    double radius; // half its diagonal, or 1 if that is zero
-} MeshPlace;
+#include "scene/scene.h"
 
 // Adds six viewpoints: three-quarter, front, right, back, left and top. From each, the meshes fill
-// 80 % of the picture's width or height, whichever is less.
-bool mesh_frame_add_views(Scene *scene, const MeshPlace *place, Error *error);
+// 80 % of the picture's width or height, whichever is less. All meshes are inside the sphere.
+bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error);

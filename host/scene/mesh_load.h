@@ -28,17 +28,15 @@ bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *opt
 // Returns whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
-// Fills scene from a PLY file called name, read by parse. Viewpoints: three-quarter, front, right,
-// back, left and top, with z up.
-bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
-                      Error *error);
+// Fills scene from a PLY file in memory or, if ply is NULL, from a file at path in another format,
+// with the file's own materials. Viewpoints: three-quarter, front, right, back, left and top, with
+// z up.
+bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse,
+                     Error *error);
 
-// Fills scene from a file at path in another format, with the file's own materials.
-bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error);
-
-// Turns a loaded mesh so that the axis `up` of its file is up, and frames it again. Fails for
-// scenes from text. On failure, only scene_free may use the scene.
+// Turns a loaded mesh so that the axis `up` of its file is up, and frames it again. UP_AUTO changes
+// nothing. Fails for scenes from text. Frees the scene on failure.
 bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
 
-// Finds z, or y if the meshes would fall over with z up and stand on a flat base with y up.
-bool up_axis_of_shape(UpAxis *up, const Scene *scene, Error *error);
+// Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
+UpAxis up_axis_of_shape(const Scene *scene);

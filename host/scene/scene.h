@@ -77,12 +77,6 @@ typedef struct {
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
-// Returns whether the file is a mesh, so that clrt adds everything else.
-static inline bool scene_is_mesh(const Scene *scene)
-{
-    return scene->mesh_up != UP_AUTO;
-}
-
 // Fills scene with the defaults of a scene file: the course's constants and four materials.
 bool scene_init(Scene *scene, Error *error);
 

@@ -270,7 +270,7 @@ bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_
 {
     Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
     return mesh_scene_is_mesh(file->bytes, file->size)
-               ? mesh_scene_parse(scene, file, name, parse_mesh, error)
+               ? mesh_scene_load(scene, file, name, parse_mesh, error)
                : load_text(&parser, file, name);
 }
 
@@ -278,7 +278,7 @@ bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error
 {
     File file = {0};
     if (foreign_format_is(path))
-        return mesh_scene_read_foreign(scene, path, parse_mesh, error);
+        return mesh_scene_load(scene, NULL, path, parse_mesh, error);
     const bool ok =
         file_read(&file, path, error) && scn_take(scene, &file, path, parse_mesh, error);
     file_free(&file);

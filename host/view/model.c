@@ -10,10 +10,9 @@
 static bool load(Model *model, const char *path, UpAxis up, uint32_t threads, Error *error)
 {
     Error cause = {0};
-    if (!scn_load(&model->scene, path, ply_parse, error))
+    if (!scn_load(&model->scene, path, ply_parse, error) ||
+        !mesh_scene_turn(&model->scene, up, error))
         return false;
-    if (up != UP_AUTO && !mesh_scene_turn(&model->scene, up, &cause))
-        return error_set(error, "%s: %s", path, cause.text);
     model->normalization = normalization_of(&model->scene);
     if (!normalization_check(&model->normalization, &model->scene, &cause))
         return error_set(error, "%s: %s", path, cause.text);
