@@ -14,8 +14,10 @@ typedef struct {
 static void extend(Box *box, const double *point)
 {
     for (int axis = 0; axis < 3; axis++) {
-        box->low[axis] = fmin(box->low[axis], point[axis]);
-        box->high[axis] = fmax(box->high[axis], point[axis]);
+        if (point[axis] < box->low[axis])
+            box->low[axis] = point[axis];
+        if (point[axis] > box->high[axis])
+            box->high[axis] = point[axis];
     }
 }
 
