@@ -74,7 +74,8 @@ static bool find_unused_materials(Census *census, const Scene *scene, Error *err
         is_used[scene->objects.data[i].material] = true;
     for (size_t i = 0; i < scene->spheres.count; i++)
         is_used[scene->spheres.data[i].material] = true;
-    for (size_t i = COURSE_MATERIALS; i < scene->materials.count; i++)
+    const size_t first = scene->mesh_up != UP_AUTO ? MESH_OWN_MATERIALS : COURSE_MATERIALS;
+    for (size_t i = first; i < scene->materials.count; i++)
         census->unused_materials += !is_used[i];
     free(is_used);
     return true;

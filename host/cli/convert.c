@@ -74,14 +74,15 @@ static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const cha
 static void warn_of_losses(const Conversion *conversion)
 {
     const Scene *scene = &conversion->scene;
+    const bool is_mesh = scene->mesh_up != UP_AUTO;
     bool has_materials = false;
     for (size_t i = 0; i < scene->objects.count; i++)
-        has_materials |= scene->objects.data[i].material >= COURSE_MATERIALS;
-    if (conversion->options->quiet || (scene->is_mesh && !has_materials))
+        has_materials |= scene->objects.data[i].material >= MESH_OWN_MATERIALS;
+    if (conversion->options->quiet || (is_mesh && !has_materials))
         return;
     fprintf(stderr, "clrt: %s: %s left out, which PLY has no place for\n",
             conversion->options->other_path,
-            scene->is_mesh ? "materials are" : "materials, lights and cameras are");
+            is_mesh ? "materials are" : "materials, lights and cameras are");
 }
 
 static ExitCode write_joined(const Conversion *conversion, Error *error)
@@ -89,7 +90,7 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
     Mesh mesh;
     Error cause = {0};
     const Scene *scene = &conversion->scene;
-    if (scene->spheres.count > 0) {
+    if (scene->spheres.count > 0 && scene->mesh_up == UP_AUTO) {
         error_set(error, "%s: PLY has no place for its %zu spheres: convert it to .scn",
                   conversion->options->scene_path, scene->spheres.count);
         return EXIT_SCENE;

@@ -92,8 +92,8 @@ ExitCode explain_pixel(Run *run, Error *error)
                                     .renderer = &run->renderer,
                                     .scene = &run->scene,
                                     .normalization = &run->normalization,
-                                    .camera =
-                                        camera_make(viewpoint, &run->normalization,
-                                                    run->settings.height, run->settings.samples)};
+                                    .camera = camera_make(viewpoint, &run->normalization,
+                                                          run->settings.width, run->settings.height,
+                                                          run->settings.samples)};
     return explain_with(run, &source, error);
 }

@@ -55,7 +55,7 @@ static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 static CameraData camera_of(const Picture *picture, uint32_t samples)
 {
     const Run *run = picture->run;
-    return camera_make(&picture->viewpoint, &run->normalization,
+    return camera_make(&picture->viewpoint, &run->normalization, render_whole_width(&run->settings),
                        render_whole_height(&run->settings), samples);
 }
 

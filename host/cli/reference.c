@@ -84,7 +84,8 @@ static bool draw_pass(Reference *reference, const Viewpoint *viewpoint, uint32_t
     const int half = (int)(pass % 2);
     const double place = pass / 2; // the index of the pass in its half
     CameraData camera =
-        camera_make(viewpoint, &run->normalization, render_whole_height(&run->settings), 1);
+        camera_make(viewpoint, &run->normalization, render_whole_width(&run->settings),
+                    render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};

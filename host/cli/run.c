@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
+#include "scene/mesh_load.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 
@@ -201,11 +202,11 @@ void run_free(Run *run)
 
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
 {
-    File file;
-    if (!options_read_input(options))
-        return scn_load(scene, options->scene_path, parse, error);
-    const bool ok = file_read_stream(&file, stdin, INPUT_NAME, error) &&
-                    scn_take(scene, &file, INPUT_NAME, parse, error);
+    File file = {0};
+    const bool ok = options_read_input(options)
+                        ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
+                              scn_take(scene, &file, INPUT_NAME, parse, error)
+                        : scn_load(scene, options->scene_path, parse, error);
     file_free(&file);
-    return ok;
+    return ok && mesh_scene_turn(scene, options->up, error);
 }

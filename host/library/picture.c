@@ -72,8 +72,8 @@ static bool draw(ClrtRenderer *renderer, const Viewpoint *viewpoint, ClrtPicture
     Error cause = {0};
     Framebuffer framebuffer = {(float(*)[3])rgb, wanted->width, wanted->height};
     const RenderObserver observer = {report_progress, wanted};
-    const CameraData camera =
-        camera_make(viewpoint, &renderer->normalization, wanted->height, wanted->samples);
+    const CameraData camera = camera_make(viewpoint, &renderer->normalization, wanted->width,
+                                          wanted->height, wanted->samples);
     resize(&renderer->renderer, wanted);
     if (!renderer_draw(&renderer->renderer, &camera, &observer, &framebuffer, &cause))
         return check_fail_for(error, CLRT_DEVICE, &cause);

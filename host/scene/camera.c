@@ -10,14 +10,19 @@ static void store(float out[4], Vec3 v)
     out[3] = 0;
 }
 
+static double tangent_of_half(double degrees)
+{
+    return sine_of_degrees(degrees / 2) / cosine_of_degrees(degrees / 2);
+}
+
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
-                       uint32_t height, uint32_t samples)
+                       uint32_t width, uint32_t height, uint32_t samples)
 {
     const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
     const Vec3 right = vec3_normalize(vec3_cross(forward, vec3_normalize(viewpoint->up)));
     const Vec3 down = vec3_cross(forward, right);
-    const double half = viewpoint->fov_degrees / 2;
-    const double half_height = sine_of_degrees(half) / cosine_of_degrees(half);
+    const double half_height = fmax(tangent_of_half(viewpoint->fov_degrees),
+                                    tangent_of_half(viewpoint->width_degrees) * height / width);
     // Sample coordinates count half steps from the picture's center. Both axes have the same step,
     // because pixels are square.
     const double half_step = half_height / ((double)height * samples);

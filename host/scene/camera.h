@@ -6,11 +6,11 @@
 #include "scene/normalize.h"
 #include "scene/scene.h"
 
-// Returns the course's pinhole camera: an image plane at distance 1, 2 tan(fov / 2) high. Pixels
-// are square, so the height in pixels determines the step. samples is the number of sub-pixels per
-// pixel and axis.
+// Returns the course's pinhole camera: an image plane at distance 1, 2 tan(fov / 2) high, or higher
+// if the picture's width would not contain the viewpoint's width. Pixels are square. samples is the
+// number of sub-pixels per pixel and axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
-                       uint32_t height, uint32_t samples);
+                       uint32_t width, uint32_t height, uint32_t samples);
 
 // Moves all samples right and down, by fractions of the distance between two.
 void camera_shift(CameraData *camera, double right, double down);

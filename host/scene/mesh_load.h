@@ -22,15 +22,21 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // it was read from. Returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// A mesh that replaces a scene is framed by cameras of its own, lit and two-sided.
+// A mesh that replaces a scene is turned upright, framed by cameras of its own, lit, placed on
+// a floor, and two-sided.
 
 // Returns whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
-// Fills scene from a PLY file called name, read by parse. Viewpoints: three-quarter, front, right,
-// back, left and top, with z up.
-bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse *parse,
-                      Error *error);
+// Fills scene from a PLY file in memory or, if ply is NULL, from a file at path in another format,
+// with the file's own materials. Viewpoints: three-quarter, front, right, back, left and top, with
+// z up.
+bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse,
+                     Error *error);
 
-// Fills scene from a file at path in another format, with the file's own materials.
-bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error);
+// Turns a loaded mesh so that the axis `up` of its file is up, and frames it again. UP_AUTO changes
+// nothing. Fails for scenes from text. Frees the scene on failure.
+bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
+
+// Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
+UpAxis up_axis_of_shape(const Scene *scene);

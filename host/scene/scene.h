@@ -6,13 +6,17 @@
 #include "../kernels/shared.h"
 #include "base/array.h"
 #include "base/vec.h"
-#include "mesh/mesh.h"
+#include "mesh/up_axis.h"
 
 // Limits that keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 65536
 #define MAX_LEVEL_LIMIT  1000
 
 #define COURSE_MATERIALS 4 // the course's materials come first in every scene
+
+// The materials that follow if the scene's file is a mesh: of meshes without their own, and of the
+// floor. The file's own follow them.
+enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
 
 typedef struct {
     Vec3 position;
@@ -43,7 +47,8 @@ typedef struct {
 // A camera. up and look_at - eye must be neither zero nor parallel.
 typedef struct {
     Vec3 eye, look_at, up;
-    double fov_degrees; // vertical, between 0 and 180
+    double fov_degrees;   // vertical, between 0 and 180
+    double width_degrees; // narrow pictures widen to this horizontal angle; 0: none do
 } Viewpoint;
 
 typedef struct {
@@ -59,7 +64,7 @@ typedef struct {
     ARRAY(MaterialName) material_names; // names of defined and imported materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
-    bool is_mesh;          // the file is a mesh, so clrt chooses viewpoints and lights
+    UpAxis mesh_up;        // up axis of a file that is a mesh, turned to z; UP_AUTO for scene text
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;

@@ -25,14 +25,20 @@ typedef struct {
     Error *error;
 } Parser;
 
+// Returns whether the statement has another token.
+static bool has_more(const Tokens *tokens)
+{
+    Tokens ahead = *tokens;
+    return tokens_next(&ahead).text != NULL;
+}
+
 static bool read_light(Parser *parser)
 {
     double position[3], intensity, color[3] = {1, 1, 1};
     Tokens *tokens = &parser->tokens;
     bool ok = tokens_numbers(tokens, 3, position) &&
               tokens_number_within(tokens, &intensity, 0, INTENSITY_MOST);
-    Tokens ahead = *tokens;
-    const bool is_colored = ok && tokens_next(&ahead).text != NULL;
+    const bool is_colored = ok && has_more(tokens);
     for (int i = 0; is_colored && ok && i < 3; i++)
         ok = tokens_number_within(tokens, &color[i], 0, 1);
     const Light light = {vec3(position[0], position[1], position[2]), intensity,
@@ -87,15 +93,18 @@ static bool read_ply_file(Parser *parser)
 
 static bool read_camera(Parser *parser)
 {
-    double numbers[6], fov;
+    double numbers[6], fov, width = 0;
     const Token start = parser->tokens.last;
     if (!tokens_numbers(&parser->tokens, 6, numbers) ||
-        !tokens_number_within(&parser->tokens, &fov, FOV_LEAST, FOV_MOST))
+        !tokens_number_within(&parser->tokens, &fov, FOV_LEAST, FOV_MOST) ||
+        (has_more(&parser->tokens) &&
+         !tokens_number_within(&parser->tokens, &width, FOV_LEAST, FOV_MOST)))
         return false;
     const Viewpoint viewpoint = {.eye = {numbers[0], numbers[1], numbers[2]},
                                  .look_at = {numbers[3], numbers[4], numbers[5]},
                                  .up = parser->up,
-                                 .fov_degrees = fov};
+                                 .fov_degrees = fov,
+                                 .width_degrees = width};
     const char *fault = viewpoint_fault(&viewpoint);
     if (fault != NULL)
         return tokens_fail(&parser->tokens, start, "%s", fault);
@@ -172,12 +181,13 @@ static const struct {
 } statements[] = {
     {"ambient", "ambient INTENSITY", read_ambient},
     {"background", "background R G B", read_background},
-    {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES", read_camera},
+    {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]", read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
     {"light", "light X Y Z INTENSITY [R G B]", read_light},
     {"material", "material NUMBER|NAME|own", read_material},
     {"max_level", "max_level N", read_max_level},
-    {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},
+    {"mesh", "mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]",
+     read_mesh},
     {"normals", "normals smooth|flat", read_normals},
     {"ply_file", "ply_file PATH", read_ply_file},
     {"sides", "sides one|two", read_sides},
@@ -264,7 +274,7 @@ bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_
 {
     Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
     return mesh_scene_is_mesh(file->bytes, file->size)
-               ? mesh_scene_parse(scene, file, name, parse_mesh, error)
+               ? mesh_scene_load(scene, file, name, parse_mesh, error)
                : load_text(&parser, file, name);
 }
 
@@ -272,7 +282,7 @@ bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error
 {
     File file = {0};
     if (foreign_format_is(path))
-        return mesh_scene_read_foreign(scene, path, parse_mesh, error);
+        return mesh_scene_load(scene, NULL, path, parse_mesh, error);
     const bool ok =
         file_read(&file, path, error) && scn_take(scene, &file, path, parse_mesh, error);
     file_free(&file);

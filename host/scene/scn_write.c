@@ -96,6 +96,8 @@ static void write_cameras(const Writer *writer)
         write_vector(writer->stream, viewpoint->eye);
         write_vector(writer->stream, viewpoint->look_at);
         write_number(writer->stream, viewpoint->fov_degrees);
+        if (viewpoint->width_degrees > 0)
+            write_number(writer->stream, viewpoint->width_degrees);
         fputc('\n', writer->stream);
     }
 }

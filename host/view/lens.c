@@ -21,7 +21,7 @@ static void store_clip(float clip[3], const float step[4], double pixels)
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
              uint32_t height)
 {
-    Lens lens = {.camera = camera_make(viewpoint, normalization, height, 1),
+    Lens lens = {.camera = camera_make(viewpoint, normalization, width, height, 1),
                  .eye = normalize_point(normalization, viewpoint->eye),
                  .width = (float)width,
                  .height = (float)height,

@@ -29,7 +29,8 @@ Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
     Orbit orbit = {.pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at,
                    .look_at = viewpoint->look_at,
                    .up = viewpoint->up,
-                   .fov_degrees = viewpoint->fov_degrees};
+                   .fov_degrees = viewpoint->fov_degrees,
+                   .width_degrees = viewpoint->width_degrees};
     make_axes(orbit.axes, viewpoint->up);
     const Vec3 arm = vec3_sub(viewpoint->eye, orbit.pivot);
     const double x = vec3_dot(arm, orbit.axes[0]), y = vec3_dot(arm, orbit.axes[1]);
@@ -52,7 +53,8 @@ Viewpoint orbit_viewpoint(const Orbit *orbit)
     return (Viewpoint){.eye = vec3_add(orbit->pivot, arm),
                        .look_at = orbit->look_at,
                        .up = orbit->up,
-                       .fov_degrees = orbit->fov_degrees};
+                       .fov_degrees = orbit->fov_degrees,
+                       .width_degrees = orbit->width_degrees};
 }
 
 static double limited(double value, double low, double high)

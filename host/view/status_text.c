@@ -142,6 +142,8 @@ void status_text_camera(char *text, size_t size, const State *state)
     add_vector(&buffer, "\ncamera ", camera->eye);
     add_vector(&buffer, "  ", camera->look_at);
     add_number(&buffer, "  ", camera->fov_degrees);
+    if (camera->width_degrees > 0)
+        add_number(&buffer, " ", camera->width_degrees);
     add(&buffer, "\n");
 }
 

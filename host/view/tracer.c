@@ -131,8 +131,8 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
         return false;
     Renderer *renderer = counts ? &tracer->counter : &tracer->renderer;
     const RenderSettings settings = tracer_settings(tracer, pass);
-    const CameraData data =
-        camera_make(shot->camera, &tracer->model->normalization, pass->height, pass->samples);
+    const CameraData data = camera_make(shot->camera, &tracer->model->normalization, pass->width,
+                                        pass->height, pass->samples);
     renderer_resize(renderer, &settings);
     return renderer_draw(renderer, &data, observer, framebuffer, error);
 }

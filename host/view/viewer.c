@@ -207,8 +207,11 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
     viewer->script = (Script){settings->keys, settings->quit_after};
-    viewer->request = (WorkerRequest){
-        .path = settings->scene_path, .loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
+    viewer->request = (WorkerRequest){.path = settings->scene_path,
+                                      .up = settings->up,
+                                      .loads = 1,
+                                      .uses_bvh = settings->uses_bvh,
+                                      .samples = 1};
     viewer->status.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};

@@ -119,7 +119,7 @@ bool certified_make(Certified *certified, const Office *office, const Scene *sce
     const RenderSettings settings = settings_of(scene, view);
     *certified = (Certified){.settings = settings};
     certified->camera = camera_make(&scene->viewpoints.data[view->view - 1], &normalization,
-                                    settings.height, settings.samples);
+                                    settings.width, settings.height, settings.samples);
     return flatten(&certified->flat, scene, NODES_PAIR, error) &&
            draw_plain(certified, office, scene, error) && copy_plain(certified, error) &&
            certify(certified, office, error);

@@ -93,6 +93,19 @@ class Pages(Work):
             for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
                 self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
 
+    def test_the_gallery_has_a_small_picture_for_each_command(self):
+        page = (ROOT / "docs/gallery.md").read_text()
+        inputs = re.findall(r"`clrt scenes/(\S+) [^`]*`", page)
+        pictures = re.findall(r"\]\((gallery/\S+)\)", page)
+        self.assertGreaterEqual(len(inputs), 8)
+        self.assertEqual(len(inputs), len(pictures))
+        for name in inputs:
+            self.assertTrue(name.startswith("models/") or (ROOT / "scenes" / name).exists(), name)
+        for name in pictures:
+            content = (ROOT / "docs" / name).read_bytes()
+            self.assertEqual(int.from_bytes(content[16:20], "big"), 320, name)
+            self.assertLessEqual(len(content), 40000, name)
+
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_every_statement_of_scenes_is_in_their_page(self):
         page = read_page(PAGES[1])

@@ -80,7 +80,8 @@ static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
 {
     const uint32_t view = pipeline->request->view;
     return camera_make(&pipeline->scene.viewpoints.data[view - 1], &pipeline->normalization,
-                       pipeline->renderer.settings.height, samples);
+                       pipeline->renderer.settings.width, pipeline->renderer.settings.height,
+                       samples);
 }
 
 static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)

@@ -72,7 +72,7 @@ static uint32_t view_differences(const Oracle *stored, const Normalization *norm
 {
     Error error = {0};
     const CameraData camera = camera_make(&stored->scene->viewpoints.data[request->view - 1],
-                                          normalization, request->height, 1);
+                                          normalization, request->width, request->height, 1);
     const OracleView rays = stored_view(stored, &camera, request->width, request->height);
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(request), expected = {0};
     if (!oracle_draw(&rays, 1, step, &expected, &error))

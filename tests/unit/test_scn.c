@@ -150,7 +150,7 @@ TEST(the_hash_tells_scenes_apart)
 #define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
-#define CAMERA    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES'"
+#define CAMERA    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]'"
 
 TEST(faults_name_line_column_and_the_statement)
 {
@@ -222,6 +222,16 @@ TEST(a_scene_names_the_files_it_was_read_from)
     assert_string_equal(scene.inputs.data[0], CLRT_SOURCE_FOLDER "/scenes/plateau.ply");
     assert_string_equal(scene.inputs.data[scene.inputs.count - 1],
                         CLRT_SOURCE_FOLDER "/scenes/simple.scn");
+}
+
+TEST(a_camera_may_have_a_width)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("camera 1 2 3 4 5 6 30\ncamera 1 2 3 4 5 6 30 60");
+    assert_true(scene.viewpoints.data[0].width_degrees == 0);
+    assert_true(scene.viewpoints.data[1].width_degrees == 60);
+    expect_error("camera 1 2 3 4 5 6 30 180",
+                 "1:23: expected a number between 1e-06 and 180: found '180'" CAMERA);
 }
 
 TEST(a_scene_tells_the_courses_cameras_from_its_own)

@@ -51,14 +51,14 @@ static void add_triangle(World *world, Vec3 a, Vec3 b, Vec3 c)
 static void search(World *world, uint32_t threads)
 {
     const Viewpoint viewpoint = {
-        {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2 * atan(SIDE / 2 / FOCUS) * 180 / PI};
+        {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2 * atan(SIDE / 2 / FOCUS) * 180 / PI, 0};
     world->object.mesh.positions = world->positions;
     world->object.mesh.triangles = world->triangles;
     world->scene.objects.data = &world->object;
     world->scene.objects.count = 1;
     world->normalization = normalization_of(&world->scene);
     world->frame = (FrameData){.width = SIDE, .height = SIDE, .max_level = 1};
-    world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, REFINE_GRID);
+    world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
     const ThinSource source = {&world->frame, &world->scene, &world->normalization, pool};
     Error error;

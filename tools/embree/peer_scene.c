@@ -106,7 +106,8 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     Triangles triangles = {0};
     FlatScene flat = {0};
     const FlatSource source = {scene, &triangles, &no_tree, &normalization, NODES_PAIR, NULL};
-    peer->camera = camera_make(&scene->viewpoints.data[0], &normalization, peer->height, 1);
+    peer->camera =
+        camera_make(&scene->viewpoints.data[0], &normalization, peer->width, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, NULL, error) &&
                     flat_make(&flat, &source, error) && take_flat(peer, &flat, error) &&
                     build(peer, &triangles, settings, error);

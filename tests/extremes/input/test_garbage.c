@@ -102,4 +102,4 @@ static void triangles_of_random_bits_are_refused_or_drawn_right_t64(void **state
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(triangles_of_random_bits_are_refused_or_drawn_right_t64))
+          EXTREME(triangles_of_random_bits_are_refused_or_drawn_right_t64))

@@ -263,10 +263,10 @@ static void places_of_many_digits_are_kept_to_the_last_bit_t63(void **state)
     free(text);
 }
 
-RUN_TESTS(NULL, NULL, TEST(spheres_without_a_size_are_refused_t36),
-          TEST(meshes_that_are_wrong_are_refused_with_a_place_t61),
-          TEST(damaged_meshes_never_crash_the_reader_t61),
-          TEST(damaged_scenes_never_crash_the_reader_t62),
-          TEST(scenes_that_are_wrong_are_refused_with_a_place_t62),
-          TEST(numbers_have_a_point_where_a_comma_is_usual_t62),
-          TEST(places_of_many_digits_are_kept_to_the_last_bit_t63))
+RUN_TESTS(NULL, NULL, EXTREME(spheres_without_a_size_are_refused_t36),
+          EXTREME(meshes_that_are_wrong_are_refused_with_a_place_t61),
+          EXTREME(damaged_meshes_never_crash_the_reader_t61),
+          EXTREME(damaged_scenes_never_crash_the_reader_t62),
+          EXTREME(scenes_that_are_wrong_are_refused_with_a_place_t62),
+          EXTREME(numbers_have_a_point_where_a_comma_is_usual_t62),
+          EXTREME(places_of_many_digits_are_kept_to_the_last_bit_t63))

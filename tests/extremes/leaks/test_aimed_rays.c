@@ -26,6 +26,7 @@ static void no_ray_leaves_a_closed_bumpy_sphere_t04(void **state)
     }
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(rays_at_edges_never_leave_a_closed_sphere_t02),
-          TEST(rays_at_vertices_never_leave_a_closed_sphere_t03),
-          TEST(no_ray_leaves_a_closed_bumpy_sphere_t04))
+RUN_TESTS(ray_batch_setup, ray_batch_teardown,
+          EXTREME(rays_at_edges_never_leave_a_closed_sphere_t02),
+          EXTREME(rays_at_vertices_never_leave_a_closed_sphere_t03),
+          EXTREME(no_ray_leaves_a_closed_bumpy_sphere_t04))

@@ -103,4 +103,4 @@ static void rays_at_a_fan_hit_its_lowest_triangle_t07(void **state)
     free(rays.data);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(rays_at_a_fan_hit_its_lowest_triangle_t07))
+RUN_TESTS(ray_batch_setup, ray_batch_teardown, EXTREME(rays_at_a_fan_hit_its_lowest_triangle_t07))

@@ -74,4 +74,4 @@ static void a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09(void **stat
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09))
+          EXTREME(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09))

@@ -27,5 +27,5 @@ static void a_hundred_million_random_rays_never_leave_a_closed_sphere_t01(void *
     free(rays.data);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown, TEST(random_rays_never_leave_a_closed_sphere_t01),
-          TEST(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01))
+RUN_TESTS(ray_batch_setup, ray_batch_teardown, EXTREME(random_rays_never_leave_a_closed_sphere_t01),
+          EXTREME(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01))

@@ -128,5 +128,5 @@ static void normals_that_are_nothing_or_cancel_out_give_no_fault_t55(void **stat
 }
 
 RUN_TESTS(picture_setup, picture_teardown,
-          TEST(highlights_of_any_shininess_are_exact_to_a_thousandth_t53),
-          TEST(normals_that_are_nothing_or_cancel_out_give_no_fault_t55))
+          EXTREME(highlights_of_any_shininess_are_exact_to_a_thousandth_t53),
+          EXTREME(normals_that_are_nothing_or_cancel_out_give_no_fault_t55))

@@ -174,6 +174,6 @@ static void a_ray_that_leaves_a_sphere_never_meets_it_again_t38(void **state)
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(a_ray_that_leaves_a_triangle_never_meets_it_again_t37),
-          TEST(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37),
-          TEST(a_ray_that_leaves_a_sphere_never_meets_it_again_t38))
+          EXTREME(a_ray_that_leaves_a_triangle_never_meets_it_again_t37),
+          EXTREME(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37),
+          EXTREME(a_ray_that_leaves_a_sphere_never_meets_it_again_t38))

@@ -90,5 +90,6 @@ static void cameras_may_stand_anywhere_t57(void **state)
 }
 
 RUN_TESTS(picture_setup, picture_teardown,
-          TEST(lights_of_any_intensity_and_number_are_added_right_t54),
-          TEST(cameras_of_any_angle_see_what_is_there_t56), TEST(cameras_may_stand_anywhere_t57))
+          EXTREME(lights_of_any_intensity_and_number_are_added_right_t54),
+          EXTREME(cameras_of_any_angle_see_what_is_there_t56),
+          EXTREME(cameras_may_stand_anywhere_t57))

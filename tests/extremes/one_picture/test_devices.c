@@ -47,5 +47,5 @@ static void another_device_draws_the_same_picture_t52(void **state)
     picture_teardown((void **)&studio);
 }
 
-RUN_TESTS(NULL, NULL, TEST(devices_that_can_do_less_leak_as_little_t65),
-          TEST(another_device_draws_the_same_picture_t52))
+RUN_TESTS(NULL, NULL, EXTREME(devices_that_can_do_less_leak_as_little_t65),
+          EXTREME(another_device_draws_the_same_picture_t52))

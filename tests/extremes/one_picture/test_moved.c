@@ -123,5 +123,5 @@ static void a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50(void **sta
 }
 
 RUN_TESTS(picture_setup, picture_teardown,
-          TEST(a_scene_moved_by_integers_gives_the_same_picture_bit_by_bit_t49),
-          TEST(a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50))
+          EXTREME(a_scene_moved_by_integers_gives_the_same_picture_bit_by_bit_t49),
+          EXTREME(a_scene_mirrored_or_turned_by_its_axes_looks_the_same_t50))

@@ -140,10 +140,12 @@ static void tiles_in_any_order_draw_the_same_picture_t48(void **state)
     framebuffer_free(&usual);
 }
 
-RUN_TESTS(picture_setup, picture_teardown, TEST(flushing_denormals_to_zero_changes_no_picture_t47),
-          TEST(the_same_picture_is_drawn_twice_t48), TEST(the_picture_is_the_one_on_record_t48),
-          TEST(unoptimized_kernels_draw_the_same_picture_t48),
-          TEST(specialized_kernels_draw_the_same_picture_t48),
-          TEST(work_groups_of_any_shape_draw_the_same_picture_t48),
-          TEST(tiles_of_any_size_draw_the_same_picture_t48),
-          TEST(tiles_in_any_order_draw_the_same_picture_t48))
+RUN_TESTS(picture_setup, picture_teardown,
+          EXTREME(flushing_denormals_to_zero_changes_no_picture_t47),
+          EXTREME(the_same_picture_is_drawn_twice_t48),
+          EXTREME(the_picture_is_the_one_on_record_t48),
+          EXTREME(unoptimized_kernels_draw_the_same_picture_t48),
+          EXTREME(specialized_kernels_draw_the_same_picture_t48),
+          EXTREME(work_groups_of_any_shape_draw_the_same_picture_t48),
+          EXTREME(tiles_of_any_size_draw_the_same_picture_t48),
+          EXTREME(tiles_in_any_order_draw_the_same_picture_t48))

@@ -18,4 +18,4 @@ static void a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46(void **sta
 }
 
 RUN_TESTS(picture_setup, picture_teardown,
-          TEST(a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46))
+          EXTREME(a_scene_of_any_size_gives_the_same_picture_bit_by_bit_t46))

@@ -106,6 +106,6 @@ static void errors_fall_with_the_number_of_samples_t60(void **state)
     framebuffer_free(&reference);
 }
 
-RUN_TESTS(picture_setup, picture_teardown, TEST(pictures_of_any_size_show_the_right_pixels_t58),
-          TEST(samples_of_one_color_make_that_color_exactly_t59),
-          TEST(errors_fall_with_the_number_of_samples_t60))
+RUN_TESTS(picture_setup, picture_teardown, EXTREME(pictures_of_any_size_show_the_right_pixels_t58),
+          EXTREME(samples_of_one_color_make_that_color_exactly_t59),
+          EXTREME(errors_fall_with_the_number_of_samples_t60))

@@ -228,7 +228,7 @@ static void hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19(void **st
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(rays_in_the_plane_of_a_face_meet_its_neighbor_instead_t19),
-          TEST(rays_in_a_tilted_plane_meet_a_neighbor_instead_t19),
-          TEST(hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19),
-          TEST(axis_parallel_rays_meet_a_lattice_cube_exactly_t20))
+          EXTREME(rays_in_the_plane_of_a_face_meet_its_neighbor_instead_t19),
+          EXTREME(rays_in_a_tilted_plane_meet_a_neighbor_instead_t19),
+          EXTREME(hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19),
+          EXTREME(axis_parallel_rays_meet_a_lattice_cube_exactly_t20))

@@ -72,4 +72,4 @@ static void scenes_of_few_primitives_show_what_exact_geometry_shows_t17(void **s
 }
 
 RUN_TESTS(picture_setup, picture_teardown,
-          TEST(scenes_of_few_primitives_show_what_exact_geometry_shows_t17))
+          EXTREME(scenes_of_few_primitives_show_what_exact_geometry_shows_t17))

@@ -56,4 +56,4 @@ static void triangles_of_three_scales_are_all_hit_where_they_are_t18(void **stat
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(triangles_of_three_scales_are_all_hit_where_they_are_t18))
+          EXTREME(triangles_of_three_scales_are_all_hit_where_they_are_t18))

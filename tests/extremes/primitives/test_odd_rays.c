@@ -135,5 +135,5 @@ static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
-          TEST(rays_from_very_far_meet_what_is_there_or_nothing_t24))
+          EXTREME(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
+          EXTREME(rays_from_very_far_meet_what_is_there_or_nothing_t24))

@@ -154,6 +154,6 @@ static void a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16(void **sta
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(of_a_million_copies_of_a_triangle_the_first_is_hit_t12),
-          TEST(a_million_concentric_triangles_are_told_apart_t14),
-          TEST(a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16))
+          EXTREME(of_a_million_copies_of_a_triangle_the_first_is_hit_t12),
+          EXTREME(a_million_concentric_triangles_are_told_apart_t14),
+          EXTREME(a_spiral_of_ever_smaller_triangles_overflows_no_stack_t16))

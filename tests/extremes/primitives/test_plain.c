@@ -80,4 +80,4 @@ static void rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15(void *
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15))
+          EXTREME(rays_at_ten_million_coplanar_triangles_meet_the_right_one_t15))

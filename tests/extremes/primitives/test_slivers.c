@@ -115,4 +115,4 @@ static void distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10(voi
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10))
+          EXTREME(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10))

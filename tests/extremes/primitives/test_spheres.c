@@ -218,8 +218,8 @@ static void rays_along_a_tangent_are_met_by_the_exact_sign_t35(void **state)
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
-          TEST(far_spheres_are_met_and_missed_as_exactly_t32),
-          TEST(the_ground_may_be_a_sphere_of_any_radius_t33),
-          TEST(an_eye_inside_a_sphere_sees_its_far_wall_t34),
-          TEST(rays_along_a_tangent_are_met_by_the_exact_sign_t35))
+          EXTREME(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
+          EXTREME(far_spheres_are_met_and_missed_as_exactly_t32),
+          EXTREME(the_ground_may_be_a_sphere_of_any_radius_t33),
+          EXTREME(an_eye_inside_a_sphere_sees_its_far_wall_t34),
+          EXTREME(rays_along_a_tangent_are_met_by_the_exact_sign_t35))

@@ -39,5 +39,5 @@ __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const
     }
 
 // A test that continues after a case has more failures than its limit, and then fails at its end.
-#define TEST(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)
+#define EXTREME(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)
 int outcome_teardown(void **state);

@@ -62,8 +62,8 @@ void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const 
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
 {
     const Normalization normalization = normalization_of(scene);
-    return camera_make(&scene->viewpoints.data[0], &normalization, settings->height,
-                       settings->samples);
+    return camera_make(&scene->viewpoints.data[0], &normalization, settings->width,
+                       settings->height, settings->samples);
 }
 
 Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,

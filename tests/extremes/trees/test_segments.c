@@ -95,4 +95,4 @@ static void anything_between_two_points_is_what_the_nearest_hit_says_t26(void **
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(anything_between_two_points_is_what_the_nearest_hit_says_t26))
+          EXTREME(anything_between_two_points_is_what_the_nearest_hit_says_t26))

@@ -127,4 +127,4 @@ static void every_box_of_a_tree_holds_all_vertices_below_it_t27(void **state)
     check_trees("sphere_k20", shape_scene(shape_sphere(100, shape_center(20))));
 }
 
-RUN_TESTS(NULL, NULL, TEST(every_box_of_a_tree_holds_all_vertices_below_it_t27))
+RUN_TESTS(NULL, NULL, EXTREME(every_box_of_a_tree_holds_all_vertices_below_it_t27))

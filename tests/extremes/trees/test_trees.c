@@ -140,5 +140,5 @@ static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(vo
 }
 
 RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          TEST(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
-          TEST(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25))
+          EXTREME(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
+          EXTREME(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25))

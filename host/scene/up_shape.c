@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Tests whether a mesh would stand on a table: whether the points that touch the table lie on all
+// four sides of its center.
+#include "scene/mesh_load.h"
+
+// Fractions of the bounding box's longest side.
+#define TOUCH  0.01 // points touch the table up to this height
+#define MARGIN 0.03 // least distance of the outermost points from the center
+
+typedef struct {
+    double low[3], high[3];
+} Box;
+
+static void extend(Box *box, const double *point)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        if (point[axis] < box->low[axis])
+            box->low[axis] = point[axis];
+        if (point[axis] > box->high[axis])
+            box->high[axis] = point[axis];
+    }
+}
+
+// Returns the box of the corners with at most this coordinate on the axis, of triangles with at
+// least `least` of them.
+static Box box_below(const Scene *scene, int axis, double most, int least)
+{
+    Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+            const uint32_t *corners = mesh->triangles[triangle];
+            int below = 0;
+            for (int corner = 0; corner < 3; corner++)
+                below += mesh->positions[corners[corner]][axis] <= most;
+            for (int corner = 0; below >= least && corner < 3; corner++)
+                if (mesh->positions[corners[corner]][axis] <= most)
+                    extend(&box, mesh->positions[corners[corner]]);
+        }
+    }
+    return box;
+}
+
+static bool stands(const Scene *scene, const Box *body, int up, int least)
+{
+    double extent = 0;
+    for (int axis = 0; axis < 3; axis++)
+        extent = fmax(extent, body->high[axis] - body->low[axis]);
+    const Box base = box_below(scene, up, body->low[up] + TOUCH * extent, least);
+    for (int axis = 0; axis < 3; axis++) {
+        const double center = (body->low[axis] + body->high[axis]) / 2;
+        if (axis != up && fmin(center - base.low[axis], base.high[axis] - center) < MARGIN * extent)
+            return false;
+    }
+    return true;
+}
+
+UpAxis up_axis_of_shape(const Scene *scene)
+{
+    const Box body = box_below(scene, 0, INFINITY, 0);
+    return !stands(scene, &body, 2, 1) && stands(scene, &body, 1, 3) ? UP_Y : UP_Z;
+}

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Tests meshes that are rendered without a scene: which way is up, that turning is exact, and that
+# they fill the picture. Every run makes new meshes. Usage: test_lone_mesh.py CLRT 1|0, with 0 for a build without Assimp
+import math
+import random
+import sys
+import unittest
+
+import models
+from work import Work, main
+
+ASSIMP = sys.argv[2] == "1"
+# The turned point for each axis that points up.
+TURNS = {
+    "x": lambda x, y, z: (-z, y, x),
+    "y": lambda x, y, z: (x, -z, y),
+    "z": lambda x, y, z: (x, y, z),
+    "-x": lambda x, y, z: (z, y, -x),
+    "-y": lambda x, y, z: (x, z, -y),
+    "-z": lambda x, y, z: (-x, y, -z),
+}
+KNOT, TRIANGLES = models.knot()
+NORMALS = models.normals_of(KNOT)
+
+
+def turned(points, up):
+    return [TURNS[up](*point) for point in points]
+
+
+def tripod(splay=1.0):
+    """Returns a body on three feet, with z up. It falls over in any other position."""
+    points, triangles = [], []
+
+    def block(low, high):
+        first = len(points)
+        points.extend((x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2]))
+        faces = (0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)
+        triangles.extend((first + a, first + b, first + c) for q in faces for a, b, c in
+                         ((q[0], q[1], q[2]), (q[0], q[2], q[3])))
+
+    for x, y in (-1, -1), (1, -1), (0, 1):
+        x, y = splay * x, splay * y
+        block((x - 0.125, y - 0.125, 0), (x + 0.125, y + 0.125, 2))
+    block((-0.5, -0.5, 2), (0.5, 0.5, 3))
+    tip = len(points)
+    points.append((1.75, 1.5, 3.5))  # a single point on three sides
+    triangles.append((tip, tip - 1, tip - 2))
+    points.append((-1.75, -1.625, 2.75))
+    triangles.append((tip + 1, tip - 7, tip - 8))
+    return points, triangles
+
+
+class Random(Work):
+    def setUp(self):
+        super().setUp()
+        self.seed = random.SystemRandom().randrange(1 << 32)
+        self.random = random.Random(self.seed)
+
+
+class Upright(Random):
+    def points(self):
+        """Returns the knot's points, moved at random. One coordinate is zero."""
+        shift = lambda value: models.rounded(value + self.random.uniform(-0.05, 0.05))
+        return [(0.0, 0.5, 0.25)] + [tuple(map(shift, point)) for point in KNOT[1:]]
+
+    def mesh_of(self, *words):
+        self.clrt("convert", *words, "out.ply", "-q")
+        return self.bytes_of("out.ply")
+
+    def test_turning_is_exact(self):
+        points = self.points()
+        self.write(a_ply=models.ply(points, TRIANGLES, NORMALS))
+        for up in TURNS:
+            permuted = models.ply(turned(points, up), TRIANGLES, turned(NORMALS, up))
+            self.write(b_ply=permuted, a_scn=f"mesh a.ply up {up}\n")
+            self.assertEqual(self.mesh_of("a.ply", "--up", up), permuted, (up, self.seed))
+            self.assertEqual(self.mesh_of("a.scn"), permuted, (up, self.seed))
+            self.assertTrue(self.picture("a.ply", "--up", up) == self.picture("b.ply", "--up", "z"), up)
+
+    def test_transforms_apply_to_the_turned_mesh_in_the_order_written(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES), b_ply=models.ply(turned(KNOT, "y"), TRIANGLES),
+                   a_scn="mesh a.ply up y translate 1 2 3\n", b_scn="mesh b.ply translate 1 2 3\n",
+                   c_scn="mesh a.ply translate 1 3 -2 up y\n")
+        self.assertEqual(self.mesh_of("a.scn"), self.mesh_of("b.scn"))
+        self.assertEqual(self.mesh_of("c.scn"), self.mesh_of("b.scn"))
+
+    def test_meshes_without_an_axis_have_z_up(self):
+        points = self.points()
+        self.write(a_ply=models.ply(points, TRIANGLES))
+        self.assertEqual(self.mesh_of("a.ply"), models.ply(points, TRIANGLES), self.seed)
+
+    def test_a_mesh_that_stands_only_with_y_up_has_y_up(self):
+        """Returns to y up from z up, and stays once it is upright."""
+        points, triangles = tripod(self.random.uniform(0.9, 1.1))
+        points = [tuple(map(models.rounded, point)) for point in points]
+        upright = models.ply(points, triangles)
+        lying = [(x, z, -y) for x, y, z in points]  # y is up
+        self.write(a_ply=models.ply(lying, triangles), b_ply=upright)
+        self.assertEqual(self.mesh_of("a.ply"), upright, self.seed)
+        self.assertEqual(self.mesh_of("b.ply"), upright, self.seed)
+        self.assertEqual(self.mesh_of("a.ply", "--up", "z"), self.bytes_of("a.ply"))
+
+    def test_parts_of_another_axis_do_not_merge(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        words = "-s", "32x32", "--tile", "16x16", "-q"
+        self.clrt("a.ply", *words, "--part", "1/2", "--up", "x", "-o", "1.exr")
+        self.clrt("a.ply", *words, "--part", "2/2", "--up", "y", "-o", "2.exr")
+        self.assertIn("another scene", self.clrt("merge", "1.exr", "2.exr", "-o", "3.exr", code=3))
+
+    def test_wrong_axes_and_scenes_get_one_message(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES), a_scn="mesh a.ply\n", b_scn="mesh a.ply up w\n",
+                   c_scn="mesh a.ply up\n")
+        self.refuses(2, "--up wants auto, x, y, z, -x, -y or -z, not 'up'", "a.ply", "--up", "up", "-o", "a.png")
+        self.refuses(3, "a.scn: only a mesh without a scene can be turned: write 'up -y' in its mesh statement",
+                     "a.scn", "--up", "-y", "-o", "a.png")
+        usage = "the statement is 'mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]'"
+        self.fails(f"b.scn:1:15: expected x, y, z, -x, -y or -z: found 'w'; {usage}", "b.scn")
+        self.fails(f"c.scn:1:14: expected x, y, z, -x, -y or -z: found the end of the line; {usage}", "c.scn")
+
+    @unittest.skipUnless(ASSIMP, "this build is without Assimp")
+    def test_formats_have_their_axes(self):
+        coarse = models.coarse(KNOT)
+        files = {
+            "a.obj": (models.obj(coarse, TRIANGLES), "y"),
+            "a.glb": (models.glb(coarse, TRIANGLES), "y"),
+            "a.stl": (models.stl(coarse, TRIANGLES), "z"),
+            "a.off": (models.off(coarse, TRIANGLES), "z"),
+        }
+        for name, (content, up) in files.items():
+            (self.work / name).write_bytes(content)
+            self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", up), name)
+            self.assertNotEqual(self.mesh_of(name), self.mesh_of(name, "--up", "x"), name)
+
+    @unittest.skipUnless(ASSIMP, "this build is without Assimp")
+    def test_the_shape_counts_in_every_format_without_an_axis(self):
+        points, triangles = tripod()
+        lying = [(x, z, -y) for x, y, z in points]
+        self.write(a_stl=models.stl(lying, triangles), a_OFF=models.off(lying, triangles))
+        for name in "a.stl", "a.OFF":
+            self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", "y"), name)
+
+
+def unit(v):
+    return [x / math.hypot(*v) for x in v]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cameras(scene):
+    """Returns eye, point, up, height and width in degrees of a scene's cameras."""
+    up, found = [0, 0, 1], []
+    for words in map(str.split, scene.splitlines()):
+        if words[:1] == ["up"]:
+            up = [float(word) for word in words[1:]]
+        if words[:1] == ["camera"]:
+            numbers = [float(word) for word in words[1:]]
+            found.append((numbers[:3], numbers[3:6], up, numbers[6], numbers[7]))
+    return found
+
+
+def extents(camera, points, width, height):
+    """Returns the points' lowest and highest positions in the picture, in width and height, where
+    -1 and 1 are its edges."""
+    eye, point, up, tall, wide = camera
+    forward = unit([b - a for a, b in zip(eye, point)])
+    right = unit(cross(forward, up))
+    top = cross(right, forward)
+    half = max(math.tan(math.radians(tall / 2)), math.tan(math.radians(wide / 2)) * height / width)
+    rays = [[b - a for a, b in zip(eye, p)] for p in points]
+    across = [dot(ray, right) / dot(ray, forward) / (half * width / height) for ray in rays]
+    along = [dot(ray, top) / dot(ray, forward) / half for ray in rays]
+    return (min(across), max(across)), (min(along), max(along))
+
+
+class Studio(Random):
+    def mesh(self):
+        """Returns the points and triangles of a box or a bent tube, of any size and place."""
+        points, triangles = models.knot(self.random.randrange(3, 30), self.random.randrange(3, 9))
+        if self.random.random() < 0.5:
+            points = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+            triangles = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7)]
+        stretch = [10 ** self.random.uniform(-3, 1) for _ in range(3)]
+        size = 10 ** self.random.uniform(-8, 8)
+        place = [size * self.random.uniform(-3, 3) for _ in range(3)]
+        move = lambda p: tuple(models.rounded(x * s * size + t) for x, s, t in zip(p, stretch, place))
+        return [move(p) for p in points], triangles
+
+    def test_the_mesh_fills_four_fifths_of_any_picture(self):
+        for _ in range(20):
+            points, triangles = self.mesh()
+            width, height = self.random.randrange(100, 2000), self.random.randrange(100, 2000)
+            stray = points + [tuple(1e6 * x for x in points[0])]  # no triangle uses it
+            self.write(a_ply=models.ply(stray, triangles))
+            self.clrt("convert", "a.ply", "a.scn", "--up", "z")
+            found = cameras((self.work / "a.scn").read_text())
+            self.assertEqual(len(found), 6)
+            for view, camera in enumerate(found):
+                ranges = extents(camera, [points[i] for t in triangles for i in t], width, height)
+                filled = [(high - low) / 2 for low, high in ranges]
+                told = self.seed, view, width, height, ranges
+                self.assertGreater(max(filled), 0.78, told)
+                self.assertLess(max(filled), 0.82, told)
+                for low, high in ranges:
+                    self.assertLess(abs(low + high), 0.02, told)
+
+    def test_its_scene_gives_the_same_pictures(self):
+        self.write(a_ply=models.ply(*self.mesh()), b_obj=models.obj(models.coarse(KNOT), TRIANGLES, "mtllib b.mtl",
+                   [("usemtl red", 0)]), b_mtl="newmtl red\nKd 0.7 0.1 0.3\n")
+        for name in ["a.ply", "b.obj"] if ASSIMP else ["a.ply"]:
+            self.clrt("convert", name, "c.scn")
+            for view in range(1, 7):
+                size = f"{self.random.randrange(8, 80)}x{self.random.randrange(8, 80)}"
+                for scene in name, "c.scn":
+                    self.clrt(scene, "-s", size, "--view", str(view), "-o", f"{scene}.pfm")
+                self.assert_same_bytes(f"{name}.pfm", "c.scn.pfm", (self.seed, size, view))
+
+    def test_it_stands_on_a_floor_in_three_lights(self):
+        points, triangles = self.mesh()
+        self.write(a_ply=models.ply(points, triangles))
+        self.clrt("convert", "a.ply", "a.scn", "--up", "z")
+        statements = [line.split() for line in (self.work / "a.scn").read_text().splitlines()]
+        (floor,) = [words for words in statements if words[0] == "sphere"]
+        top, bottom = float(floor[3]) + float(floor[4]), min(points[i][2] for t in triangles for i in t)
+        self.assertLess(abs(top - bottom), 1e-9 * float(floor[4]), self.seed)
+        self.assertEqual(len([words for words in statements if words[0] == "light"]), 3)
+
+    def test_its_materials_are_no_findings(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        self.assertNotIn("defined and not used", self.clrt("check", "a.ply", "-q"))
+
+
+if __name__ == "__main__":
+    main(2)
