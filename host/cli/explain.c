@@ -23,7 +23,7 @@ static bool explain_samples(const ExplainReport *report, Explainer *explainer, j
 {
     ExplainedSample sample;
     uint64_t sums[3] = {0};
-    const uint32_t *pixel = report->options->pixel;
+    const uint32_t *pixel = report->pixel;
     const uint32_t side = report->settings->samples;
     for (uint32_t i = 0; i < side * side; i++) {
         if (!explainer_trace(explainer, pixel[0] * side + i % side, pixel[1] * side + i / side,
@@ -40,10 +40,10 @@ static bool explain_samples(const ExplainReport *report, Explainer *explainer, j
     return true;
 }
 
-static ExitCode explain(const ExplainReport *report, Explainer *explainer, Error *error)
+static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
+                        Error *error)
 {
     float color[3];
-    const Options *options = report->options;
     if (options->json) {
         json_t *list = json_array();
         const char *path = options->json_path != NULL ? options->json_path : "-";
@@ -64,10 +64,16 @@ static ExitCode explain(const ExplainReport *report, Explainer *explainer, Error
 static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)
 {
     Explainer explainer;
-    const ExplainReport report = {run->options, &run->scene, &run->settings};
+    const Options *options = run->options;
+    const ExplainReport report = {.scene_path = options->scene_path,
+                                  .scene = &run->scene,
+                                  .settings = &run->settings,
+                                  .view = options->view,
+                                  .pixel = {options->pixel[0], options->pixel[1]},
+                                  .encoding = options->encoding};
     if (!explainer_open(&explainer, source, error))
         return EXIT_DEVICE;
-    const ExitCode outcome = explain(&report, &explainer, error);
+    const ExitCode outcome = explain(&report, &explainer, options, error);
     explainer_close(&explainer);
     return outcome;
 }

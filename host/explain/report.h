@@ -2,16 +2,20 @@
 // The explained samples of a pixel -> a report as text or JSON.
 #pragma once
 
-#include "cli/options/options.h"
 #include "explain/explainer.h"
+#include "image/image_file.h"
 
 #include <jansson.h>
 #include <stdio.h>
 
 typedef struct {
-    const Options *options;
+    const char *scene_path;
     const Scene *scene;
     const RenderSettings *settings;
+    uint32_t view; // number of the viewpoint, from 1
+    uint32_t pixel[2];
+    Encoding encoding;
+    bool is_brief; // omits origins of rays, error bounds and colors of samples
 } ExplainReport;
 
 // Writes the lines above the samples.

@@ -2,7 +2,6 @@
 // Primitive ids equal the values of the --aov channel "primitive", which count from 0.
 #include "explain/report.h"
 
-#include "explain/explainer.h"
 #include "image/json_file.h"
 
 #define SCHEMA_VERSION 1
@@ -80,13 +79,12 @@ json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *
 
 json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3])
 {
-    const Options *options = report->options;
     const RenderSettings *settings = report->settings;
     return json_pack("{s:i, s:s, s:o, s:[I, I], s:[I, I], s:I, s:o, s:o, s:[f, f, f]}", "schema",
                      SCHEMA_VERSION, "version", CLRT_VERSION, "scene",
-                     json_file_path(options->scene_path), "pixel", (json_int_t)options->pixel[0],
-                     (json_int_t)options->pixel[1], "size", (json_int_t)settings->width,
-                     (json_int_t)settings->height, "view", (json_int_t)options->view, "background",
+                     json_file_path(report->scene_path), "pixel", (json_int_t)report->pixel[0],
+                     (json_int_t)report->pixel[1], "size", (json_int_t)settings->width,
+                     (json_int_t)settings->height, "view", (json_int_t)report->view, "background",
                      vector_json(report->scene->background), "samples", samples, "color",
                      (double)color[0], (double)color[1], (double)color[2]);
 }

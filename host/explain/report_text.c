@@ -2,12 +2,10 @@
 // Writes one paragraph per ray and one fact per line.
 #include "explain/report.h"
 
-#include "explain/explainer.h"
-#include "image/image_file.h"
-
-static void write_vector(Vec3 v, FILE *stream)
+static void write_vector(const ExplainReport *report, Vec3 v, FILE *stream)
 {
-    fprintf(stream, "(%.6g, %.6g, %.6g)", v.x, v.y, v.z);
+    const int digits = report->is_brief ? 4 : 6;
+    fprintf(stream, "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits, v.z);
 }
 
 static void write_primitive(const Scene *scene, uint32_t id, FILE *stream)
@@ -21,10 +19,12 @@ static void write_primitive(const Scene *scene, uint32_t id, FILE *stream)
 
 void explain_write_head(const ExplainReport *report, FILE *stream)
 {
-    const Options *options = report->options;
     const RenderSettings *settings = report->settings;
-    fprintf(stream, "pixel %u,%u of %u x %u, view %u of %s\n", options->pixel[0], options->pixel[1],
-            settings->width, settings->height, options->view, options->scene_path);
+    fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1], settings->width,
+            settings->height);
+    if (!report->is_brief)
+        fprintf(stream, ", view %u of %s", report->view, report->scene_path);
+    fprintf(stream, "\n");
 }
 
 static void write_light(const ExplainReport *report, const ExplainedLight *light, uint32_t number,
@@ -50,7 +50,7 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
     const Vec3 color = report->scene->lights.data[number - 1].color;
     if (light->state == LIGHT_SEEN && (color.x < 1 || color.y < 1 || color.z < 1)) {
         fprintf(stream, "; light color ");
-        write_vector(color, stream);
+        write_vector(report, color, stream);
     }
     fprintf(stream, "\n");
 }
@@ -61,16 +61,19 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
     const Material *material = &scene->materials.data[ray->material];
     fprintf(stream, "    meets      ");
     write_primitive(scene, ray->primitive, stream);
-    fprintf(stream, ", material %s\n    distance   %.9g, off by at most %.2g\n    point      ",
-            name_material(scene, ray->material), ray->distance, ray->error);
-    write_vector(ray->point, stream);
+    fprintf(stream, ", material %s\n    distance   %.*g", name_material(scene, ray->material),
+            report->is_brief ? 4 : 9, ray->distance);
+    if (!report->is_brief)
+        fprintf(stream, ", off by at most %.2g", ray->error);
+    fprintf(stream, "\n    point      ");
+    write_vector(report, ray->point, stream);
     fprintf(stream, ", normal ");
-    write_vector(ray->normal, stream);
+    write_vector(report, ray->normal, stream);
     fprintf(stream, "\n");
     for (uint32_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
         write_light(report, &ray->lights[i], i + 1, material, stream);
     fprintf(stream, "    color      ");
-    write_vector(ray->shaded, stream);
+    write_vector(report, ray->shaded, stream);
     fprintf(stream, ", weight %.6g in the sample", ray->share);
     if (material->reflectivity > 0)
         fprintf(stream, "; reflectivity %.6g", (double)material->reflectivity);
@@ -84,11 +87,13 @@ static void write_ray(const ExplainReport *report, const ExplainedRay *ray, uint
         fprintf(stream, "  the camera's ray\n");
     else
         fprintf(stream, "  reflected ray %u, weight %.6g in the sample\n", level, ray->weight);
-    fprintf(stream, "    from       ");
-    write_vector(ray->origin, stream);
-    fprintf(stream, " along ");
-    write_vector(ray->direction, stream);
-    fprintf(stream, "\n");
+    if (!report->is_brief) {
+        fprintf(stream, "    from       ");
+        write_vector(report, ray->origin, stream);
+        fprintf(stream, " along ");
+        write_vector(report, ray->direction, stream);
+        fprintf(stream, "\n");
+    }
     if (ray->primitive == NOTHING)
         fprintf(stream, "    meets      nothing\n");
     else
@@ -106,11 +111,14 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
         write_ray(report, &sample->rays[level], level, stream);
     if (sample->background_weight > 0) {
         fprintf(stream, "  the background ");
-        write_vector(report->scene->background, stream);
+        write_vector(report, report->scene->background, stream);
         fprintf(stream, ", weight %.6g in the sample\n", sample->background_weight);
     }
+    if (report->is_brief)
+        return;
     fprintf(stream, "  the sample's color ");
-    write_vector(vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),
+    write_vector(report,
+                 vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),
                  stream);
     fprintf(stream, "\n");
 }
@@ -118,7 +126,7 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
 void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream)
 {
     unsigned char bytes[3];
-    encode_channels(color, 3, report->options->encoding, bytes);
+    encode_channels(color, 3, report->encoding, bytes);
     fprintf(stream, "the pixel's color (%.9g, %.9g, %.9g), in 8 bits %u %u %u\n", (double)color[0],
             (double)color[1], (double)color[2], bytes[0], bytes[1], bytes[2]);
 }
