@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traces the pixel's samples one after another. Text output prints each sample at once, so only one
-// is in memory. JSON output is written as a whole.
+// --explain-pixel: text output prints each sample at once, and JSON output is written as a whole.
 #include "cli/commands.h"
 
 #include "explain/report.h"
@@ -16,30 +15,6 @@ static bool has_pixel(const Run *run, Error *error)
                      options->pixel[0], options->pixel[1], settings->width, settings->height);
 }
 
-// Traces all samples and stores their mean in color. Adds the samples to list, or prints them as
-// text if list is NULL.
-static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
-                            float color[3], Error *error)
-{
-    ExplainedSample sample;
-    uint64_t sums[3] = {0};
-    const uint32_t *pixel = report->pixel;
-    const uint32_t side = report->settings->samples;
-    for (uint32_t i = 0; i < side * side; i++) {
-        if (!explainer_trace(explainer, pixel[0] * side + i % side, pixel[1] * side + i / side,
-                             &sample, error))
-            return false;
-        for (int channel = 0; channel < 3; channel++)
-            sums[channel] += (uint64_t)sample.steps[channel];
-        if (list != NULL)
-            json_array_append_new(list, explain_sample_json(report, &sample));
-        else
-            explain_write_sample(report, &sample, i, stdout);
-    }
-    explainer_mix(explainer, sums, color);
-    return true;
-}
-
 static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
                         Error *error)
 {
@@ -47,7 +22,7 @@ static ExitCode explain(const ExplainReport *report, Explainer *explainer, const
     if (options->json) {
         json_t *list = json_array();
         const char *path = options->json_path != NULL ? options->json_path : "-";
-        if (!explain_samples(report, explainer, list, color, error)) {
+        if (!explain_trace(report, explainer, &(ExplainOutput){.list = list}, color, error)) {
             json_decref(list);
             return EXIT_DEVICE;
         }
@@ -55,7 +30,7 @@ static ExitCode explain(const ExplainReport *report, Explainer *explainer, const
                                                                                : EXIT_OUTPUT;
     }
     explain_write_head(report, stdout);
-    if (!explain_samples(report, explainer, NULL, color, error))
+    if (!explain_trace(report, explainer, &(ExplainOutput){.stream = stdout}, color, error))
         return EXIT_DEVICE;
     explain_write_color(report, color, stdout);
     return EXIT_DONE;

@@ -15,8 +15,18 @@ typedef struct {
     uint32_t view; // number of the viewpoint, from 1
     uint32_t pixel[2];
     Encoding encoding;
-    bool is_brief; // omits origins of rays, error bounds and colors of samples
+    bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
+
+// The destination of explained samples: a list of JSON objects, or a text if list is NULL.
+typedef struct {
+    json_t *list;
+    FILE *stream;
+} ExplainOutput;
+
+// Traces the pixel's samples one after another, writes them to output and stores the pixel's color.
+bool explain_trace(const ExplainReport *report, Explainer *explainer, const ExplainOutput *output,
+                   float color[3], Error *error);
 
 // Writes the lines above the samples.
 void explain_write_head(const ExplainReport *report, FILE *stream);

@@ -2,19 +2,30 @@
 // Writes one paragraph per ray and one fact per line.
 #include "explain/report.h"
 
+#include <string.h>
+
+// Brief reports omit rays of less weight, because they hardly change a color of 8 bits.
+#define BRIEF_WEIGHT (1 / 255.0)
+
+static int digits_of(const ExplainReport *report)
+{
+    return report->is_brief ? 3 : 6;
+}
+
 static void write_vector(const ExplainReport *report, Vec3 v, FILE *stream)
 {
-    const int digits = report->is_brief ? 4 : 6;
+    const int digits = digits_of(report);
     fprintf(stream, "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits, v.z);
 }
 
-static void write_primitive(const Scene *scene, uint32_t id, FILE *stream)
+static void write_primitive(const ExplainReport *report, uint32_t id, FILE *stream)
 {
-    const PrimitiveName name = name_primitive(scene, id);
+    const PrimitiveName name = name_primitive(report->scene, id);
+    const char *slash = name.is_sphere || !report->is_brief ? NULL : strrchr(name.path, '/');
     if (name.is_sphere)
         fprintf(stream, "sphere %zu", name.number);
     else
-        fprintf(stream, "triangle %zu of %s", name.number, name.path);
+        fprintf(stream, "triangle %zu of %s", name.number, slash == NULL ? name.path : slash + 1);
 }
 
 void explain_write_head(const ExplainReport *report, FILE *stream)
@@ -30,6 +41,7 @@ void explain_write_head(const ExplainReport *report, FILE *stream)
 static void write_light(const ExplainReport *report, const ExplainedLight *light, uint32_t number,
                         const Material *material, FILE *stream)
 {
+    const int digits = digits_of(report);
     fprintf(stream, "    light %-4u ", number);
     if (light->state == LIGHT_BEHIND)
         fprintf(stream, "does not reach it: the normal is turned away");
@@ -37,16 +49,20 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
         fprintf(stream, "does not reach it: the face is turned away");
     if (light->state == LIGHT_BLOCKED) {
         fprintf(stream, "is blocked by ");
-        write_primitive(report->scene, light->blocker, stream);
-        fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
+        write_primitive(report, light->blocker, stream);
+        if (!report->is_brief)
+            fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
     }
     if (light->state == LIGHT_SEEN)
-        fprintf(stream, "reaches it from %.6g away", light->distance);
-    fprintf(stream, "; cosine %.6g", light->cosine);
+        fprintf(stream, "reaches it");
+    if (light->state == LIGHT_SEEN && !report->is_brief)
+        fprintf(stream, " from %.6g away", light->distance);
+    if (!report->is_brief)
+        fprintf(stream, "; cosine %.6g", light->cosine);
     if (light->state == LIGHT_SEEN)
-        fprintf(stream, "; diffuse %.6g", light->diffuse * (double)material->kd);
+        fprintf(stream, "; diffuse %.*g", digits, light->diffuse * (double)material->kd);
     if (light->state == LIGHT_SEEN && material->shader == SHADER_BLINN_PHONG)
-        fprintf(stream, "; highlight %.6g", light->specular * (double)material->ks);
+        fprintf(stream, "; highlight %.*g", digits, light->specular * (double)material->ks);
     const Vec3 color = report->scene->lights.data[number - 1].color;
     if (light->state == LIGHT_SEEN && (color.x < 1 || color.y < 1 || color.z < 1)) {
         fprintf(stream, "; light color ");
@@ -60,9 +76,9 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
     const Scene *scene = report->scene;
     const Material *material = &scene->materials.data[ray->material];
     fprintf(stream, "    meets      ");
-    write_primitive(scene, ray->primitive, stream);
+    write_primitive(report, ray->primitive, stream);
     fprintf(stream, ", material %s\n    distance   %.*g", name_material(scene, ray->material),
-            report->is_brief ? 4 : 9, ray->distance);
+            report->is_brief ? 3 : 9, ray->distance);
     if (!report->is_brief)
         fprintf(stream, ", off by at most %.2g", ray->error);
     fprintf(stream, "\n    point      ");
@@ -108,8 +124,9 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
     if (samples > 1)
         fprintf(stream, "sample %u of %u\n", number + 1, samples);
     for (uint32_t level = 0; level < sample->ray_count; level++)
-        write_ray(report, &sample->rays[level], level, stream);
-    if (sample->background_weight > 0) {
+        if (!report->is_brief || sample->rays[level].weight >= BRIEF_WEIGHT)
+            write_ray(report, &sample->rays[level], level, stream);
+    if (sample->background_weight > (report->is_brief ? BRIEF_WEIGHT : 0)) {
         fprintf(stream, "  the background ");
         write_vector(report, report->scene->background, stream);
         fprintf(stream, ", weight %.6g in the sample\n", sample->background_weight);
@@ -127,6 +144,8 @@ void explain_write_color(const ExplainReport *report, const float color[3], FILE
 {
     unsigned char bytes[3];
     encode_channels(color, 3, report->encoding, bytes);
-    fprintf(stream, "the pixel's color (%.9g, %.9g, %.9g), in 8 bits %u %u %u\n", (double)color[0],
-            (double)color[1], (double)color[2], bytes[0], bytes[1], bytes[2]);
+    const int digits = report->is_brief ? 3 : 9;
+    fprintf(stream, "the pixel's color (%.*g, %.*g, %.*g), in 8 bits %u %u %u\n", digits,
+            (double)color[0], digits, (double)color[1], digits, (double)color[2], bytes[0],
+            bytes[1], bytes[2]);
 }

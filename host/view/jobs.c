@@ -46,6 +46,7 @@ static bool is_current(Worker *worker, const Job *job)
                    request->width == job->request.width && request->height == job->request.height;
     if (job->pass.kind != PASS_MOVING)
         current = current && request->is_traced && request->subject == job->request.subject &&
+                  request->explains == job->request.explains &&
                   (job->pass.samples == 1 || request->samples == job->pass.samples);
     pthread_mutex_unlock(&worker->mutex);
     return current;
@@ -253,6 +254,47 @@ void jobs_take(Worker *worker, const Job *job)
     Error error = {0};
     take(worker, job, worker->tracer.model, &error);
     report_taken(worker, job, &error);
+}
+
+void jobs_explain(Worker *worker, const Job *job)
+{
+    Error error = {0};
+    char text[EXPLANATION_SIZE] = "";
+    const WorkerRequest *request = &job->request;
+    const Pass pass = {
+        .width = request->width, .height = request->height, .samples = request->samples, .tile = 1};
+    const ExplainReport head = {.pixel = {request->pixel[0], request->pixel[1]},
+                                .encoding = worker->setup.canvas->encoding,
+                                .is_brief = true};
+    report_busy(worker, "explaining the pixel");
+    FILE *stream = fmemopen(text, sizeof text - 1, "w"); // the last byte stays zero
+    if (stream == NULL)
+        error_set(&error, "no memory for an explanation");
+    else
+        tracer_explain(&worker->tracer, &(Shot){&request->camera, &pass}, &head, stream, &error);
+    if (stream != NULL)
+        fclose(stream);
+    WorkerStatus *status = begin_update(worker);
+    snprintf(status->explanation, sizeof status->explanation, "%s",
+             error.text[0] != '\0' ? error.text : text);
+    status->done.explains = request->explains;
+    status->busy = "";
+    end_update(worker);
+}
+
+void jobs_save(Worker *worker, const Job *job)
+{
+    Error error = {0};
+    Saver *saver = job->request.saver;
+    const Layer *layer = canvas_whole(worker->setup.canvas);
+    const bool is_traced = job->request.is_traced && layer != NULL;
+    const bool ok = saver_write(saver, is_traced ? &layer->framebuffer : &saver->shown, &error);
+    framebuffer_free(&saver->shown);
+    WorkerStatus *status = begin_update(worker);
+    status->done.saves = job->request.saves;
+    if (!ok)
+        status->failure = error;
+    end_update(worker);
 }
 
 void jobs_encode(Worker *worker, const Job *job)
