@@ -74,14 +74,15 @@ static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const cha
 static void warn_of_losses(const Conversion *conversion)
 {
     const Scene *scene = &conversion->scene;
+    const bool is_mesh = scene->mesh_up != UP_AUTO;
     bool has_materials = false;
     for (size_t i = 0; i < scene->objects.count; i++)
         has_materials |= scene->objects.data[i].material >= COURSE_MATERIALS;
-    if (conversion->options->quiet || (scene->is_mesh && !has_materials))
+    if (conversion->options->quiet || (is_mesh && !has_materials))
         return;
     fprintf(stderr, "clrt: %s: %s left out, which PLY has no place for\n",
             conversion->options->other_path,
-            scene->is_mesh ? "materials are" : "materials, lights and cameras are");
+            is_mesh ? "materials are" : "materials, lights and cameras are");
 }
 
 static ExitCode write_joined(const Conversion *conversion, Error *error)

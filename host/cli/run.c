@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
+#include "scene/mesh_load.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 
@@ -197,7 +198,7 @@ void run_free(Run *run)
 // is a file name.
 #define INPUT_NAME "standard input"
 
-bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
+static bool load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
 {
     File file;
     if (!options_read_input(options))
@@ -206,4 +207,12 @@ bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Er
                     scn_take(scene, &file, INPUT_NAME, parse, error);
     file_free(&file);
     return ok;
+}
+
+bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
+{
+    Error cause = {0};
+    return load(scene, options, parse, error) &&
+           (options->up == UP_AUTO || mesh_scene_turn(scene, options->up, &cause) ||
+            error_set(error, "%s: %s", options->scene_path, cause.text));
 }

@@ -32,6 +32,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
                                      [VIEWER_NO_DEVICE] = EXIT_DEVICE};
     const ViewerSettings settings = {.scene_path = options->scene_path,
+                                     .up = options->up,
                                      .view = options->view,
                                      .width = options->width,
                                      .height = options->height,

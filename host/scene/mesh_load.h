@@ -22,7 +22,7 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // it was read from. Returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// A mesh that replaces a scene is framed by cameras of its own, lit and two-sided.
+// A mesh that replaces a scene is turned upright, framed by cameras of its own, lit and two-sided.
 
 // Returns whether a file's bytes are a mesh and not scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
@@ -34,3 +34,10 @@ bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse
 
 // Fills scene from a file at path in another format, with the file's own materials.
 bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error);
+
+// Turns a loaded mesh so that the axis `up` of its file is up, and frames it again. Fails for
+// scenes from text. On failure, only scene_free may use the scene.
+bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
+
+// Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
+UpAxis up_axis_of_shape(const Scene *scene);

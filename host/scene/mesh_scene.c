@@ -63,14 +63,54 @@ static MeshLoadOptions options_of(PlyParse *parse)
                              .parse = parse};
 }
 
-// Adds cameras and lights to a scene of meshes. Frees the scene if ok is false or memory runs out.
-static bool complete(Scene *scene, bool ok, Error *error)
+// Turns the meshes from their current up axis and adds cameras and lights. The hash records the
+// axis, because parts of a picture must agree on it.
+static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 {
     Vec3 center;
+    for (size_t object = 0; object < scene->objects.count; object++) {
+        mesh_turn_up(&scene->objects.data[object].mesh, up_axis_inverse(scene->mesh_up));
+        mesh_turn_up(&scene->objects.data[object].mesh, up);
+    }
+    scene->mesh_up = up;
+    scene_hash_input(scene, up_axis_names[up], strlen(up_axis_names[up]));
+    scene->viewpoints.count = scene->lights.count = 0;
     const double radius = radius_of(scene, &center);
-    scene->is_mesh = true;
-    ok =
-        ok && add_cameras(scene, center, radius, error) && add_lights(scene, center, radius, error);
+    return add_cameras(scene, center, radius, error) && add_lights(scene, center, radius, error);
+}
+
+bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error)
+{
+    if (scene->mesh_up == UP_AUTO)
+        return error_set(error,
+                         "only a mesh without a scene can be turned: write 'up %s' in its "
+                         "mesh statement",
+                         up_axis_names[up]);
+    return up == UP_AUTO || turn_and_frame(scene, up, error);
+}
+
+// Returns the up axis of the formats that have one, and UP_AUTO for the others. glTF, 3MF and AMF
+// define theirs. Modeling programs write OBJ with y up, and Assimp turns formats of other
+// programs so.
+static UpAxis up_axis_of_format(const char *path)
+{
+    static const struct {
+        const char *ending;
+        UpAxis up;
+    } formats[] = {
+        {".ply", UP_AUTO}, {".stl", UP_AUTO}, {".off", UP_AUTO}, {".3mf", UP_Z}, {".amf", UP_Z}};
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++)
+        if (file_has_ending(path, formats[i].ending))
+            return formats[i].up;
+    return UP_Y;
+}
+
+// Completes a scene of meshes. Frees the scene if ok is false or memory runs out.
+static bool complete(Scene *scene, bool ok, UpAxis up, Error *error)
+{
+    if (ok && up == UP_AUTO)
+        up = up_axis_of_shape(scene);
+    ok = ok && turn_and_frame(scene, up, error);
     if (!ok)
         scene_free(scene);
     return ok;
@@ -83,7 +123,7 @@ bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse
     const double start = clock_seconds();
     const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
-    return complete(scene, ok, error);
+    return complete(scene, ok, UP_AUTO, error);
 }
 
 bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Error *error)
@@ -92,5 +132,5 @@ bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Er
     const double start = clock_seconds();
     const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
-    return complete(scene, ok, error);
+    return complete(scene, ok, up_axis_of_format(path), error);
 }

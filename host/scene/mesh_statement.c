@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "mesh/foreign_process.h"
+#include "mesh/up_axis.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -96,6 +97,19 @@ static bool read_translation(Tokens *tokens, Objects objects)
     return true;
 }
 
+static bool read_up_axis(Tokens *tokens, Objects objects)
+{
+    const Token token = tokens_next(tokens);
+    UpAxis up = UP_X;
+    while (up < UP_AXES && !token_is(token, up_axis_names[up]))
+        up++;
+    if (up == UP_AXES)
+        return tokens_fail(tokens, token, "expected x, y, z, -x, -y or -z");
+    for (size_t object = 0; object < objects.count; object++)
+        mesh_turn_up(&objects.data[object].mesh, up);
+    return true;
+}
+
 static bool read_transforms(Tokens *tokens, Objects objects)
 {
     for (;;) {
@@ -109,8 +123,10 @@ static bool read_transforms(Tokens *tokens, Objects objects)
             ok = read_rotation(tokens, objects);
         else if (token_is(token, "translate"))
             ok = read_translation(tokens, objects);
+        else if (token_is(token, "up"))
+            ok = read_up_axis(tokens, objects);
         else
-            ok = tokens_fail(tokens, token, "expected 'scale', 'rotate' or 'translate'");
+            ok = tokens_fail(tokens, token, "expected 'up', 'scale', 'rotate' or 'translate'");
         if (!ok)
             return false;
     }

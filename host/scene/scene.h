@@ -6,7 +6,7 @@
 #include "../kernels/shared.h"
 #include "base/array.h"
 #include "base/vec.h"
-#include "mesh/mesh.h"
+#include "mesh/up_axis.h"
 
 // Limits that keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 65536
@@ -59,7 +59,7 @@ typedef struct {
     ARRAY(MaterialName) material_names; // names of defined and imported materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
-    bool is_mesh;          // the file is a mesh, so clrt chooses viewpoints and lights
+    UpAxis mesh_up;        // up axis of a file that is a mesh, turned to z; UP_AUTO for scene text
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;

@@ -198,7 +198,8 @@ void jobs_load(Worker *worker, const Job *job)
 {
     Error error = {0};
     report_busy(worker, "reading the scene");
-    Model *model = model_load(job->request.path, worker->setup.options->threads, &error);
+    Model *model =
+        model_load(job->request.path, job->request.up, worker->setup.options->threads, &error);
     const BvhSettings tree = tracer_tree(&worker->tracer);
     if (model != NULL && model_build_tree(model, &tree, worker->setup.options->threads, &error)) {
         Error cause = {0};
@@ -226,7 +227,8 @@ bool jobs_begin(Worker *worker)
     pthread_mutex_lock(&worker->mutex);
     const Job job = {.kind = JOB_LOAD, .request = worker->request};
     pthread_mutex_unlock(&worker->mutex);
-    Model *model = model_load(job.request.path, worker->setup.options->threads, &error);
+    Model *model =
+        model_load(job.request.path, job.request.up, worker->setup.options->threads, &error);
     if (model == NULL) {
         report_fault(worker, FAULT_SCENE, &error);
         return false;

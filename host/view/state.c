@@ -112,6 +112,8 @@ static unsigned command_of(int key)
         return COMMAND_CAMERA;
     case 's':
         return COMMAND_SAVE;
+    case 'u':
+        return COMMAND_UP;
     case 'R':
         return COMMAND_RELOAD;
     case 'q':

@@ -31,7 +31,8 @@ enum {
     COMMAND_SAVE = 2,
     COMMAND_RELOAD = 4,
     COMMAND_QUIT = 8,
-    COMMAND_EXPLAIN = 16
+    COMMAND_EXPLAIN = 16,
+    COMMAND_UP = 32
 };
 
 // The properties of a scene that the state depends on.

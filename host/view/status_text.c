@@ -64,6 +64,8 @@ static void add_state(Buffer *buffer, const State *state, const Figures *figures
         add(buffer, ", turning");
     if (state->full_screen)
         add(buffer, ", full screen");
+    if (figures->up != NULL)
+        add(buffer, ", up %s", figures->up);
     if (state->exposure != 0)
         add(buffer, ", exposure %+.1f", state->exposure / 2.0);
 }
@@ -170,6 +172,7 @@ const char *status_text_help(void)
            "a  anti-aliasing\n"
            "+ -  exposure\n"
            "o  turn continuously\n"
+           "u  another up axis of a mesh without a scene\n"
            "n  normals\n"
            "] [  boxes of the tree, a level deeper or back\n"
            "B  boxes of the tree's leaves\n"

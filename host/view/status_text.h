@@ -11,6 +11,7 @@
 // Facts about the picture that are not part of the state.
 typedef struct {
     const char *scene_name;
+    const char *up;         // up axis of a mesh without a scene; NULL for a scene
     uint32_t width, height; // of the window, in pixels
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels

@@ -31,6 +31,10 @@ static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
 {
     if (commands & COMMAND_CAMERA)
         print_camera(viewer);
+    if ((commands & COMMAND_UP) && viewer->model->scene.mesh_up != UP_AUTO) {
+        viewer->request.up = viewer->model->scene.mesh_up % UP_MINUS_Z + 1;
+        viewer->request.loads++;
+    }
     if (commands & COMMAND_SAVE)
         viewer->wants_save = true;
     if (commands & COMMAND_QUIT)
@@ -245,8 +249,11 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->settings = *settings;
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
-    viewer->request = (WorkerRequest){
-        .path = settings->scene_path, .loads = 1, .uses_bvh = settings->uses_bvh, .samples = 1};
+    viewer->request = (WorkerRequest){.path = settings->scene_path,
+                                      .up = settings->up,
+                                      .loads = 1,
+                                      .uses_bvh = settings->uses_bvh,
+                                      .samples = 1};
     viewer->status.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};

@@ -107,6 +107,7 @@ bool viewer_take_drop(Viewer *viewer, Error *error)
         return false;
     }
     viewer->settings.scene_path = viewer->request.path = path;
+    viewer->request.up = UP_AUTO;
     viewer->request.loads++;
     viewer->notice[0] = '\0';
     viewer->is_dirty = true;

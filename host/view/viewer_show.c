@@ -18,7 +18,9 @@ static Figures figures_of(const Viewer *viewer)
     const uint64_t *tallies = status->tallies;
     const char *slash = strrchr(viewer->settings.scene_path, '/');
     const char *missing = scene_missing(&viewer->model->scene).text;
+    const UpAxis up = viewer->model->scene.mesh_up;
     Figures figures = {.scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
+                       .up = up == UP_AUTO ? NULL : up_axis_names[up],
                        .width = viewer->request.width,
                        .height = viewer->request.height,
                        .samples = viewer->settings.samples,

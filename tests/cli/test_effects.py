@@ -20,6 +20,7 @@ PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
+MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
 EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
@@ -36,6 +37,7 @@ TRIALS = {
     "size": ([SCENE, "-o", "a.pfm"], [SCENE, "-o", "a.pfm", "-s", "24x16"]),
     "crop": (PLAIN, PLAIN + ["--crop", "4,4,20,12"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
+    "up": (MESH, MESH + ["--up", "x"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),
@@ -70,10 +72,7 @@ TRIALS = {
     "repeat": (PICTURE, PICTURE + ["--repeat", "2"]),
     "explain": (PLAIN, [SCENE, "-s", "24x16", "--explain"]),
     "explain-pixel": (EXPLAIN + ["9,9"], EXPLAIN + ["12,8"]),
-    "bad-geometry": (
-        [FLAT, "-s", "8x8", "-o", "a.pfm"],
-        [FLAT, "-s", "8x8", "-o", "a.pfm", "--bad-geometry", "fail"],
-    ),
+    "bad-geometry": (MESH, MESH + ["--bad-geometry", "fail"]),
     "fail": (COMPARE, COMPARE + ["--fail", "max=0.5"]),
     "json": (CHECK, CHECK + ["--json"]),
     "quiet": (CHECK, CHECK + ["-q"]),

@@ -165,6 +165,20 @@ def a_click_explains_the_pixel_until_the_next_key(window, mode):
     window.press("1", mode, "view 1,")
 
 
+def u_turns_the_up_axis_of_a_mesh_without_a_scene(screen):
+    window = opened(screen, ROOT / "scenes" / "cone.ply")
+    first, shown = window.read(), set()
+    for up in ("-x", "-y", "-z", "x", "y", "z"):
+        window.press("u", f"BVH on, up {up}, help")
+        shown.add(window.read())
+    assert len(shown) == 6 and first in shown, "six axes show other pictures"
+    window.close()
+    window = opened(screen, SCENE)
+    window.press("u")
+    window.press("a", "AA 2x2, BVH on, help")
+    window.close()
+
+
 def keys_for_the_help_agree(screen):
     window = opened(screen, SCENE)
     plain, shown = window.read(), set()
@@ -276,7 +290,8 @@ if __name__ == "__main__":
                boxes_are_blue_at_the_leaves_and_red_above, n_shows_normals_in_red,
                plus_and_minus_change_the_exposure, o_turns_the_camera_by_itself,
                the_mouse_turns_and_zooms, the_middle_button_or_shift_moves_sideways,
-               a_click_explains_the_pixel_until_the_next_key, keys_for_the_help_agree,
+               a_click_explains_the_pixel_until_the_next_key,
+               u_turns_the_up_axis_of_a_mesh_without_a_scene, keys_for_the_help_agree,
                f11_fills_the_screen_and_escape_goes_back, c_prints_the_camera,
                s_f12_and_ctrl_s_save_the_picture, s_holds_a_turning_camera_still,
                r_in_capitals_reads_everything_again, q_ctrl_q_and_escape_quit,

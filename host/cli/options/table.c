@@ -43,6 +43,8 @@ const Option option_table[] = {
     {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
+    {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(up), GROUP_PICTURE, CLASS_NONE, FOR_TRACING | FOR_CONVERT,
+     "axis of a mesh file that points up, without a scene (default: auto, by format and shape)"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
