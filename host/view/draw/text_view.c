@@ -19,8 +19,7 @@
 #define TEXTURE_SIDE 14   // a texture of this width and height holds all characters
 #define FOLDER       "/usr/share/fonts/truetype/"
 
-// Fixed paths spare a dependency on fontconfig. Debian's OpenImageIO depends on fontconfig-config
-// and thereby on DejaVu.
+// Fixed paths spare a dependency on fontconfig. tools/setup installs the first font.
 static const char *const font_paths[] = {
     FOLDER "dejavu/DejaVuSans.ttf", FOLDER "liberation/LiberationSans-Regular.ttf",
     FOLDER "noto/NotoSans-Regular.ttf", FOLDER "freefont/FreeSans.ttf"};
