@@ -18,22 +18,13 @@ static bool has_pixel(const Run *run, Error *error)
 static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
                         Error *error)
 {
-    float color[3];
-    if (options->json) {
-        json_t *list = json_array();
-        const char *path = options->json_path != NULL ? options->json_path : "-";
-        if (!explain_trace(report, explainer, &(ExplainOutput){.list = list}, color, error)) {
-            json_decref(list);
-            return EXIT_DEVICE;
-        }
-        return json_file_write(explain_json(report, list, color), path, error) ? EXIT_DONE
-                                                                               : EXIT_OUTPUT;
-    }
-    explain_write_head(report, stdout);
-    if (!explain_trace(report, explainer, &(ExplainOutput){.stream = stdout}, color, error))
+    const char *path = options->json_path != NULL ? options->json_path : "-";
+    if (!options->json)
+        return explain_write_text(report, explainer, stdout, error) ? EXIT_DONE : EXIT_DEVICE;
+    json_t *json = explain_json(report, explainer, error);
+    if (json == NULL)
         return EXIT_DEVICE;
-    explain_write_color(report, color, stdout);
-    return EXIT_DONE;
+    return json_file_write(json, path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)

@@ -18,26 +18,10 @@ typedef struct {
     bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
 
-// The destination of explained samples: a list of JSON objects, or a text if list is NULL.
-typedef struct {
-    json_t *list;
-    FILE *stream;
-} ExplainOutput;
+// Traces the pixel's samples with a new explainer and writes them as text. Returns false if the
+// device fails.
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error);
 
-// Traces the pixel's samples one after another, writes them to output and stores the pixel's color.
-bool explain_trace(const ExplainReport *report, Explainer *explainer, const ExplainOutput *output,
-                   float color[3], Error *error);
-
-// Writes the lines above the samples.
-void explain_write_head(const ExplainReport *report, FILE *stream);
-
-// Writes a sample. number is the sample's index in the pixel, from 0.
-void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
-                          uint32_t number, FILE *stream);
-
-void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream);
-
-json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample);
-
-// Returns the whole report, and takes ownership of the JSON array samples.
-json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3]);
+// Like explain_write_text, but returns JSON, or NULL if the device fails.
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error);

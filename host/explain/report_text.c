@@ -28,7 +28,7 @@ static void write_primitive(const ExplainReport *report, uint32_t id, FILE *stre
         fprintf(stream, "triangle %zu of %s", name.number, slash == NULL ? name.path : slash + 1);
 }
 
-void explain_write_head(const ExplainReport *report, FILE *stream)
+static void write_head(const ExplainReport *report, FILE *stream)
 {
     const RenderSettings *settings = report->settings;
     fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1], settings->width,
@@ -116,8 +116,8 @@ static void write_ray(const ExplainReport *report, const ExplainedRay *ray, uint
         write_surface(report, ray, stream);
 }
 
-void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
-                          uint32_t number, FILE *stream)
+static void write_sample(const ExplainReport *report, const ExplainedSample *sample,
+                         uint32_t number, FILE *stream)
 {
     const double step = 0x1p-32;
     const uint32_t samples = report->settings->samples * report->settings->samples;
@@ -140,7 +140,7 @@ void explain_write_sample(const ExplainReport *report, const ExplainedSample *sa
     fprintf(stream, "\n");
 }
 
-void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream)
+static void write_color(const ExplainReport *report, const float color[3], FILE *stream)
 {
     unsigned char bytes[3];
     encode_channels(color, 3, report->encoding, bytes);
@@ -148,4 +148,22 @@ void explain_write_color(const ExplainReport *report, const float color[3], FILE
     fprintf(stream, "the pixel's color (%.*g, %.*g, %.*g), in 8 bits %u %u %u\n", digits,
             (double)color[0], digits, (double)color[1], digits, (double)color[2], bytes[0],
             bytes[1], bytes[2]);
+}
+
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error)
+{
+    float color[3];
+    ExplainedSample sample;
+    const uint32_t side = report->settings->samples;
+    write_head(report, stream);
+    for (uint32_t i = 0; i < side * side; i++) {
+        if (!explainer_trace(explainer, report->pixel, i, &sample, error))
+            return false;
+        if (i == 0 || !report->is_brief)
+            write_sample(report, &sample, i, stream);
+    }
+    explainer_mix(explainer, color);
+    write_color(report, color, stream);
+    return true;
 }

@@ -103,7 +103,7 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     update_sample_cost(worker, &job->pass, seconds,
                        (double)progress->tiles_done / (double)progress->tiles);
     const bool shows = whole && job->pass.kind != PASS_COUNT;
-    (shows ? canvas_finish : canvas_drop)(worker->setup.canvas, layer);
+    canvas_end(worker->setup.canvas, layer, shows);
     WorkerStatus *status = begin_update(worker);
     status->progress = 0;
     if (shows) {
@@ -143,7 +143,7 @@ void jobs_trace(Worker *worker, const Job *job)
         return;
     }
     if (layer != NULL)
-        canvas_drop(worker->setup.canvas, layer);
+        canvas_end(worker->setup.canvas, layer, false);
     report_failure(worker, job, &error);
 }
 

@@ -2,6 +2,8 @@
 // The texts depend only on the arguments, so the same state always gives the same text.
 #include "view/status_text.h"
 
+#include "scene/scn.h"
+
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -130,35 +132,13 @@ void status_text_title(char *text, size_t size, const State *state, const Figure
         add(&buffer, " - %.0f %%", 100 * figures->progress);
 }
 
-// Adds the shortest form that parses to the same number.
-static void add_number(Buffer *buffer, const char *before, double value)
+void status_text_camera(const State *state, FILE *stream)
 {
-    char text[32];
-    int digits = 6;
-    do
-        snprintf(text, sizeof text, "%.*g", digits++, value);
-    while (digits <= 17 && strtod(text, NULL) != value);
-    add(buffer, "%s%s", before, text);
-}
-
-static void add_vector(Buffer *buffer, const char *before, Vec3 v)
-{
-    add_number(buffer, before, v.x);
-    add_number(buffer, " ", v.y);
-    add_number(buffer, " ", v.z);
-}
-
-void status_text_camera(char *text, size_t size, const State *state)
-{
-    const Viewpoint *camera = &state->camera;
-    Buffer buffer = buffer_of(text, size);
+    char text[256];
+    Buffer buffer = buffer_of(text, sizeof text);
     add_orbit(&buffer, &state->orbit);
-    if (camera->up.x != 0 || camera->up.y != 0 || camera->up.z != 1)
-        add_vector(&buffer, "\nup ", camera->up);
-    add_vector(&buffer, "\ncamera ", camera->eye);
-    add_vector(&buffer, "  ", camera->look_at);
-    add_number(&buffer, "  ", camera->fov_degrees);
-    add(&buffer, "\n");
+    fprintf(stream, "%s\n", text);
+    scn_write_camera(&state->camera, vec3(0, 0, 1), stream);
 }
 
 const char *status_text_help(void)

@@ -43,7 +43,7 @@ void status_text_panel(char *text, size_t size, const State *state, const Figure
 void status_text_title(char *text, size_t size, const State *state, const Figures *figures);
 
 // Writes the camera in the course's terms, and as statements of a scene file.
-void status_text_camera(char *text, size_t size, const State *state);
+void status_text_camera(const State *state, FILE *stream);
 
 // Returns the list of keys and mouse actions, one per line. Two blanks precede the action's
 // meaning.

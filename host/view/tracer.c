@@ -151,7 +151,6 @@ bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head,
                     Error *error)
 {
     Explainer explainer;
-    float color[3];
     const Model *model = tracer->model;
     const RenderSettings settings = tracer_settings(tracer, shot->pass);
     const ExplainerSource source = {&tracer->setup, &tracer->renderer, &model->scene,
@@ -162,11 +161,7 @@ bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head,
     renderer_resize(&tracer->renderer, &settings);
     if (!explainer_open(&explainer, &source, error))
         return false;
-    explain_write_head(&report, stream);
-    const bool ok =
-        explain_trace(&report, &explainer, &(ExplainOutput){.stream = stream}, color, error);
-    if (ok)
-        explain_write_color(&report, color, stream);
+    const bool ok = explain_write_text(&report, &explainer, stream, error);
     explainer_close(&explainer);
     return ok;
 }

@@ -19,18 +19,12 @@ static uint32_t samples_of(const Viewer *viewer)
     return viewer->state.smooth ? viewer->settings.samples : 1;
 }
 
-static void print_camera(const Viewer *viewer)
-{
-    char text[STATUS_TEXT_SIZE];
-    status_text_camera(text, sizeof text, &viewer->state);
-    fputs(text, stdout);
-    fflush(stdout);
-}
-
 static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
 {
-    if (commands & COMMAND_CAMERA)
-        print_camera(viewer);
+    if (commands & COMMAND_CAMERA) {
+        status_text_camera(&viewer->state, stdout);
+        fflush(stdout);
+    }
     if ((commands & COMMAND_UP) && viewer->model->scene.mesh_up != UP_AUTO) {
         viewer->request.up = viewer->model->scene.mesh_up % UP_MINUS_Z + 1;
         viewer->request.loads++;
@@ -116,18 +110,13 @@ static void advance(Viewer *viewer)
         viewer->advanced = now;
 }
 
-static bool same_camera(const Viewpoint *one, const Viewpoint *other)
-{
-    return memcmp(one, other, sizeof *one) == 0;
-}
-
 static void post_request(Viewer *viewer)
 {
     WorkerRequest *request = &viewer->request;
     uint32_t width, height;
     window_measure(&viewer->window, &width, &height);
     if (width != request->width || height != request->height ||
-        !same_camera(&request->camera, &viewer->state.camera)) {
+        memcmp(&request->camera, &viewer->state.camera, sizeof request->camera) != 0) {
         request->subject++;
         viewer->explained = 0;
         viewer->is_dirty = true;

@@ -84,39 +84,35 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
+// Copies the text to shown. Returns whether they were different.
+static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
+{
+    const bool differs = strcmp(text, shown) != 0;
+    memcpy(shown, text, STATE_SIZE);
+    return differs;
+}
+
 static void update_title(Viewer *viewer, const Figures *figures)
 {
-    char text[STATE_SIZE];
+    char text[STATE_SIZE] = "";
     status_text_title(text, sizeof text, &viewer->state, figures);
-    if (strcmp(text, viewer->title) == 0)
-        return;
-    window_set_title(&viewer->window, text);
-    memcpy(viewer->title, text, sizeof text);
+    if (is_news(viewer->title, text))
+        window_set_title(&viewer->window, text);
 }
 
-// With -v, prints a changed state to standard error once nothing moves.
-static void print_state(Viewer *viewer, const Figures *figures)
+// Prints a new failure once, and with -v a changed state once nothing moves. The window continues
+// to display both.
+static void print_news(Viewer *viewer, const Figures *figures)
 {
-    char text[STATE_SIZE];
-    if (!viewer->settings.verbose || viewer->state.turning || !viewer_is_settled(viewer))
-        return;
-    status_text_state(text, sizeof text, &viewer->state, figures);
-    if (strcmp(text, viewer->printed_state) == 0)
-        return;
-    fprintf(stderr, "%s\n", text);
-    memcpy(viewer->printed_state, text, sizeof text);
-}
-
-// Prints a new failure once. The overlay continues to display it.
-static void print_failure(Viewer *viewer, const Figures *figures)
-{
-    char text[STATE_SIZE];
+    char text[STATE_SIZE] = "";
+    if (viewer->settings.verbose && !viewer->state.turning && viewer_is_settled(viewer)) {
+        status_text_state(text, sizeof text, &viewer->state, figures);
+        if (is_news(viewer->printed_state, text))
+            fprintf(stderr, "%s\n", text);
+    }
     snprintf(text, sizeof text, "%s", figures->failure);
-    if (strcmp(text, viewer->printed_failure) == 0)
-        return;
-    if (text[0] != '\0')
+    if (is_news(viewer->printed_failure, text) && text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", text);
-    memcpy(viewer->printed_failure, text, sizeof text);
 }
 
 // Returns false if the camera turns and the traced picture is still the previous one. Such frames
@@ -132,7 +128,7 @@ static void count_frame(Viewer *viewer, bool was_settled)
     const bool is_new = is_new_frame(viewer);
     viewer->moving_shown = viewer->status.moving_frames;
     if (!viewer->state.turning)
-        frame_times_pause(&viewer->frame_times);
+        viewer->frame_times.latest = 0;
     else if (is_new)
         frame_times_add(&viewer->frame_times, clock_seconds(), &viewer->failure);
     uint32_t *left = &viewer->settings.quit_after;
@@ -153,8 +149,7 @@ bool viewer_draw(Viewer *viewer, Error *error)
     draw_text(viewer, &figures);
     update_title(viewer, &figures);
     window_show(&viewer->window);
-    print_state(viewer, &figures);
-    print_failure(viewer, &figures);
+    print_news(viewer, &figures);
     count_frame(viewer, was_settled);
     return true;
 }

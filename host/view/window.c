@@ -18,14 +18,17 @@ typedef struct {
     int major, minor, profile;
 } Version;
 
-bool window_connect(Error *error)
+static bool fail(const char *failure, Error *error)
 {
     const char *reason = NULL;
-    if (glfwInit())
-        return true;
     glfwGetError(&reason);
-    return error_set(error, "no window can be opened (%s): write the picture with -o FILE",
+    return error_set(error, "%s can be opened (%s): write the picture with -o FILE", failure,
                      reason != NULL ? reason : "GLFW does not say why");
+}
+
+bool window_connect(Error *error)
+{
+    return glfwInit() || fail("no window", error);
 }
 
 void window_disconnect(void)
@@ -207,18 +210,12 @@ bool window_open(Window *window, const char *title, uint32_t width, uint32_t hei
 {
     static const Version versions[] = {{3, 3, GLFW_OPENGL_CORE_PROFILE},
                                        {3, 1, GLFW_OPENGL_ANY_PROFILE}};
-    const char *reason = NULL;
     *window = (Window){.is_touched = true};
     fit_screen(&width, &height);
     for (size_t i = 0; i < sizeof versions / sizeof versions[0] && window->handle == NULL; i++)
         window->handle = create(&versions[i], title, width, height);
-    if (window->handle == NULL) {
-        glfwGetError(&reason);
-        return error_set(error,
-                         "no window with OpenGL 3.1 can be opened (%s): write the picture "
-                         "with -o FILE",
-                         reason != NULL ? reason : "GLFW does not say why");
-    }
+    if (window->handle == NULL)
+        return fail("no window with OpenGL 3.1", error);
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(1);
     listen(window);

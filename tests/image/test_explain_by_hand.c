@@ -50,7 +50,7 @@ static void keep(Explainer *explainer, const Framebuffer *picture, void *context
     Error error = {0};
     ExplainedSample sample;
     (void)picture;
-    if (!explainer_trace(explainer, told->x, told->y, &sample, &error))
+    if (!explainer_trace(explainer, (uint32_t[]){told->x, told->y}, 0, &sample, &error))
         fail_msg("%s", error.text);
     told->ray_count = sample.ray_count;
     told->background_weight = sample.background_weight;

@@ -240,7 +240,7 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     assert_null(canvas_unfinished(&canvas)); // the picture is to be shown only when complete
     first->framebuffer.pixels[3][1] = 0.5f;
     canvas_add_tiles(&canvas, first, 2, 1);
-    canvas_finish(&canvas, first);
+    canvas_end(&canvas, first, true);
     assert_ptr_equal(canvas_whole(&canvas), first);
     assert_int_equal(first->bytes[3 * 3 + 1], 128);
     canvas_encode_again(&canvas, 4);
@@ -251,10 +251,10 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     canvas_add_tiles(&canvas, second, 1, 1);
     assert_int_equal(second->tiles_done, 1);
     assert_ptr_equal(canvas_whole(&canvas), first);
-    canvas_drop(&canvas, second);
+    canvas_end(&canvas, second, false);
     assert_null(canvas_unfinished(&canvas));
     second = canvas_begin(&canvas, &settings, false, &error);
-    canvas_finish(&canvas, second);
+    canvas_end(&canvas, second, true);
     assert_ptr_equal(canvas_whole(&canvas), second);
     canvas_close(&canvas);
 }

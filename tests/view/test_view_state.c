@@ -290,10 +290,13 @@ static void another_scene_is_seen_through_its_first_camera(void **state)
 static void the_printed_camera_is_read_back_to_the_bit(void **state)
 {
     (void)state;
-    char text[STATUS_TEXT_SIZE];
+    char text[STATUS_TEXT_SIZE] = "";
+    FILE *stream = fmemopen(text, sizeof text, "w");
     Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
     happen(&fixture, EVENT_TURN, 17, 31);
-    status_text_camera(text, sizeof text, &fixture.state);
+    assert_non_null(stream);
+    status_text_camera(&fixture.state, stream);
+    fclose(stream);
     assert_memory_equal(text, "azimuth ", 8);
     Fixture back = opened(strchr(text, '\n'));
     assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
