@@ -270,15 +270,13 @@ void jobs_explain(Worker *worker, const Job *job)
                                 .is_brief = true};
     report_busy(worker, "explaining the pixel");
     FILE *stream = fmemopen(text, sizeof text - 1, "w"); // the last byte stays zero
-    if (stream == NULL)
-        error_set(&error, "no memory for an explanation");
-    else
+    const bool ok =
+        stream != NULL &&
         tracer_explain(&worker->tracer, &(Shot){&request->camera, &pass}, &head, stream, &error);
     if (stream != NULL)
         fclose(stream);
     WorkerStatus *status = begin_update(worker);
-    snprintf(status->explanation, sizeof status->explanation, "%s",
-             error.text[0] != '\0' ? error.text : text);
+    snprintf(status->explanation, sizeof status->explanation, "%s", ok ? text : error.text);
     status->done.explains = request->explains;
     status->busy = "";
     end_update(worker);
@@ -286,16 +284,12 @@ void jobs_explain(Worker *worker, const Job *job)
 
 void jobs_save(Worker *worker, const Job *job)
 {
-    Error error = {0};
     Saver *saver = job->request.saver;
     const Layer *layer = canvas_whole(worker->setup.canvas);
     const bool is_traced = job->request.is_traced && layer != NULL;
-    const bool ok = saver_write(saver, is_traced ? &layer->framebuffer : &saver->shown, &error);
+    saver_write(saver, is_traced ? &layer->framebuffer : &saver->shown);
     framebuffer_free(&saver->shown);
-    WorkerStatus *status = begin_update(worker);
-    status->done.saves = job->request.saves;
-    if (!ok)
-        status->failure = error;
+    begin_update(worker)->done.saves = job->request.saves;
     end_update(worker);
 }
 

@@ -38,15 +38,14 @@ static bool write_one(const Framebuffer *picture, const char *stem, const char *
     return image_write(picture, path, &settings, error);
 }
 
-bool saver_write(Saver *saver, const Framebuffer *traced, Error *error)
+void saver_write(Saver *saver, const Framebuffer *traced)
 {
     char stem[SAVER_TEXT_SIZE];
     const char *float_ending = image_format_named("exr") != NULL ? "exr" : "pfm";
+    saver->notice[0] = saver->error.text[0] = '\0';
     write_stem(stem, saver->scene_path, float_ending);
-    const bool ok = write_one(&saver->shown, stem, "png", saver->settings, error) &&
-                    write_one(traced, stem, float_ending, saver->settings, error);
-    snprintf(saver->notice, sizeof saver->notice, "saved %.160s.png and .%s", stem, float_ending);
-    if (!ok)
-        saver->notice[0] = '\0';
-    return ok;
+    if (write_one(&saver->shown, stem, "png", saver->settings, &saver->error) &&
+        write_one(traced, stem, float_ending, saver->settings, &saver->error))
+        snprintf(saver->notice, sizeof saver->notice, "saved %.160s.png and .%s", stem,
+                 float_ending);
 }

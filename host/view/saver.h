@@ -11,7 +11,8 @@ typedef struct {
     const char *scene_path;         // determines the files' names
     char settings[SAVER_TEXT_SIZE]; // stored in both files
     char notice[SAVER_TEXT_SIZE];   // message with the written files; empty after a failure
+    Error error;                    // empty without a failure
 } Saver;
 
-// Writes the shown picture and the traced one to the current folder, and fills the notice.
-bool saver_write(Saver *saver, const Framebuffer *traced, Error *error);
+// Writes the shown picture and the traced one to the current folder. Fills notice or error.
+void saver_write(Saver *saver, const Framebuffer *traced);

@@ -67,6 +67,7 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
 
 static void report_saved(Viewer *viewer)
 {
+    viewer->failure = viewer->saver.error;
     snprintf(viewer->notice, sizeof viewer->notice, "%s", viewer->saver.notice);
     if (viewer->settings.verbose && viewer->notice[0] != '\0')
         fprintf(stderr, "%s\n", viewer->notice);

@@ -73,22 +73,17 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
         add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
 }
 
-static bool is_pressed(GLFWwindow *handle, int left_key, int right_key)
-{
-    return glfwGetKey(handle, left_key) == GLFW_PRESS ||
-           glfwGetKey(handle, right_key) == GLFW_PRESS;
-}
-
-// Stores the effect of a drag with the pressed buttons and keys, as in F3D: left turns, middle or
-// Shift pans and right zooms. Ctrl with the middle button zooms as in Blender. Returns false if no
-// button is pressed.
+// Stores the effect of a drag with the buttons and the keys pressed at its start, as in F3D: left
+// turns, middle or Shift pans and right zooms. Ctrl with the middle button zooms as in Blender.
+// Returns false if no button is pressed.
 static bool find_drag(GLFWwindow *handle, EventKind *kind)
 {
     const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
     const bool middle = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
     const bool right = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    const bool shift = is_pressed(handle, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-    const bool control = is_pressed(handle, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    const Window *window = glfwGetWindowUserPointer(handle);
+    const bool shift = window->modifiers & GLFW_MOD_SHIFT;
+    const bool control = window->modifiers & GLFW_MOD_CONTROL;
     *kind = middle && control           ? EVENT_ZOOM
             : middle || (left && shift) ? EVENT_PAN
             : left                      ? EVENT_TURN
@@ -114,6 +109,7 @@ static void take_button(GLFWwindow *handle, int button, int action, int modifier
     Window *window = glfwGetWindowUserPointer(handle);
     if (action == GLFW_RELEASE && window->may_click)
         add_click(handle);
+    window->modifiers = modifiers;
     window->may_click = action == GLFW_PRESS && button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0;
 }
 

@@ -13,6 +13,7 @@ typedef struct {
     int event_count;
     char *dropped;           // path of a file, or NULL; owned
     double mouse_x, mouse_y; // pointer position at the latest event
+    int modifiers;           // GLFW's bits of the keys pressed with the latest button
     bool may_click;          // the left button is pressed, and the pointer has hardly moved
     bool is_touched;         // the window must be drawn again
     bool is_full_screen;

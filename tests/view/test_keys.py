@@ -221,6 +221,16 @@ def s_f12_and_ctrl_s_save_the_picture(screen):
         assert endings in ({".png", ".exr"}, {".png", ".pfm"}), endings
 
 
+def a_failed_save_says_why(screen):
+    with tempfile.TemporaryDirectory() as parent:
+        folder = pathlib.Path(parent) / "gone"
+        folder.mkdir()
+        window = opened(screen, SCENE, folder=folder)
+        folder.rmdir()
+        window.press("s", "clrt: reflections-1.png: ")
+        window.close()
+
+
 def s_holds_a_turning_camera_still(screen):
     with tempfile.TemporaryDirectory() as folder:
         window = opened(screen, SCENE, folder=folder)
@@ -293,7 +303,7 @@ if __name__ == "__main__":
                a_click_explains_the_pixel_until_the_next_key,
                u_turns_the_up_axis_of_a_mesh_without_a_scene, keys_for_the_help_agree,
                f11_fills_the_screen_and_escape_goes_back, c_prints_the_camera,
-               s_f12_and_ctrl_s_save_the_picture, s_holds_a_turning_camera_still,
+               s_f12_and_ctrl_s_save_the_picture, a_failed_save_says_why, s_holds_a_turning_camera_still,
                r_in_capitals_reads_everything_again, q_ctrl_q_and_escape_quit,
                keys_are_played_in_order_from_opengl_and_frames_counted,
                stats_tell_the_times_of_frames, options_choose_what_the_window_opens_with,
