@@ -25,10 +25,11 @@ BELOW |= {
     "refine": TRACING,
     "check": TRACING,
     "library": [*TRACING, "check"],
-    "view": TRACING,
+    "explain": TRACING,
+    "view": [*TRACING, "explain"],
     "cli/options": [*TRACING, "compare"],
 }
-BELOW["explain"] = BELOW["jobs"] = [*TRACING, "compare", "cli/options"]
+BELOW["jobs"] = [*TRACING, "compare", "cli/options"]
 BELOW["cli"] = [floor for floor in BELOW if floor not in ("foreign", "library")]
 
 # The core runs under sanitizers and fuzzers, so it includes no driver and no other large library.

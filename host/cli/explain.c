@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traces the pixel's samples one after another. Text output prints each sample at once, so only one
-// is in memory. JSON output is written as a whole.
+// --explain-pixel: text output prints each sample at once, and JSON output is written as a whole.
 #include "cli/commands.h"
 
 #include "explain/report.h"
@@ -16,58 +15,31 @@ static bool has_pixel(const Run *run, Error *error)
                      options->pixel[0], options->pixel[1], settings->width, settings->height);
 }
 
-// Traces all samples and stores their mean in color. Adds the samples to list, or prints them as
-// text if list is NULL.
-static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
-                            float color[3], Error *error)
+static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
+                        Error *error)
 {
-    ExplainedSample sample;
-    uint64_t sums[3] = {0};
-    const uint32_t *pixel = report->options->pixel;
-    const uint32_t side = report->settings->samples;
-    for (uint32_t i = 0; i < side * side; i++) {
-        if (!explainer_trace(explainer, pixel[0] * side + i % side, pixel[1] * side + i / side,
-                             &sample, error))
-            return false;
-        for (int channel = 0; channel < 3; channel++)
-            sums[channel] += (uint64_t)sample.steps[channel];
-        if (list != NULL)
-            json_array_append_new(list, explain_sample_json(report, &sample));
-        else
-            explain_write_sample(report, &sample, i, stdout);
-    }
-    explainer_mix(explainer, sums, color);
-    return true;
-}
-
-static ExitCode explain(const ExplainReport *report, Explainer *explainer, Error *error)
-{
-    float color[3];
-    const Options *options = report->options;
-    if (options->json) {
-        json_t *list = json_array();
-        const char *path = options->json_path != NULL ? options->json_path : "-";
-        if (!explain_samples(report, explainer, list, color, error)) {
-            json_decref(list);
-            return EXIT_DEVICE;
-        }
-        return json_file_write(explain_json(report, list, color), path, error) ? EXIT_DONE
-                                                                               : EXIT_OUTPUT;
-    }
-    explain_write_head(report, stdout);
-    if (!explain_samples(report, explainer, NULL, color, error))
+    const char *path = options->json_path != NULL ? options->json_path : "-";
+    if (!options->json)
+        return explain_write_text(report, explainer, stdout, error) ? EXIT_DONE : EXIT_DEVICE;
+    json_t *json = explain_json(report, explainer, error);
+    if (json == NULL)
         return EXIT_DEVICE;
-    explain_write_color(report, color, stdout);
-    return EXIT_DONE;
+    return json_file_write(json, path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)
 {
     Explainer explainer;
-    const ExplainReport report = {run->options, &run->scene, &run->settings};
+    const Options *options = run->options;
+    const ExplainReport report = {.scene_path = options->scene_path,
+                                  .scene = &run->scene,
+                                  .settings = &run->settings,
+                                  .view = options->view,
+                                  .pixel = {options->pixel[0], options->pixel[1]},
+                                  .encoding = options->encoding};
     if (!explainer_open(&explainer, source, error))
         return EXIT_DEVICE;
-    const ExitCode outcome = explain(&report, &explainer, error);
+    const ExitCode outcome = explain(&report, &explainer, options, error);
     explainer_close(&explainer);
     return outcome;
 }

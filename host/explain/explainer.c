@@ -248,24 +248,29 @@ static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error
     return true;
 }
 
-bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample,
-                     Error *error)
+bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
+                     ExplainedSample *sample, Error *error)
 {
+    const uint32_t side = explainer->frame.samples;
+    const uint32_t column = pixel[0] * side + index % side, row = pixel[1] * side + index / side;
     *sample = (ExplainedSample){.rays = explainer->rays};
     if (!run_kernel(explainer, &explainer->frame, column, row, error) ||
         !read_back(explainer, sample, error))
         return false;
     for (uint32_t level = 0; level < sample->ray_count; level++)
         take_ray(explainer, level);
+    for (int channel = 0; channel < 3; channel++)
+        explainer->sums[channel] =
+            (index == 0 ? 0 : explainer->sums[channel]) + (uint64_t)sample->steps[channel];
     return true;
 }
 
 // Must match mean_color of kernels/render.cl.
-void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3])
+void explainer_mix(const Explainer *explainer, float color[3])
 {
     const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;
     for (int channel = 0; channel < 3; channel++) {
-        const uint64_t mean = (sums[channel] + count / 2) / count;
+        const uint64_t mean = (explainer->sums[channel] + count / 2) / count;
         color[channel] =
             explainer->is_fp64 ? (float)((double)mean * 0x1p-32) : (float)mean * 0x1p-32f;
     }

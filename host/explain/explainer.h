@@ -52,6 +52,7 @@ typedef struct {
     uint32_t *host_words;
     ExplainedRay *rays;     // one per level
     ExplainedLight *lights; // one per level and light of the scene
+    uint64_t sums[3];       // of ExplainedSample::steps over the pixel's samples
 } Explainer;
 
 // Inputs that must outlive the Explainer.
@@ -66,13 +67,13 @@ typedef struct {
 bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error);
 void explainer_close(Explainer *explainer);
 
-// Traces one sample into *sample, which stays valid until the next call. column and row count
-// samples, not pixels.
-bool explainer_trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample,
-                     Error *error);
+// Traces a sample of a pixel into *sample, which stays valid until the next call. index goes from 0
+// to the number of samples less 1.
+bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
+                     ExplainedSample *sample, Error *error);
 
-// Stores the pixel's color. sums holds the sums of ExplainedSample::steps over its samples.
-void explainer_mix(const Explainer *explainer, const uint64_t sums[3], float color[3]);
+// Stores the color of the pixel whose samples were all traced.
+void explainer_mix(const Explainer *explainer, float color[3]);
 
 // A primitive's name for users: a sphere has its number in the file, and a triangle has its mesh
 // and its number there.

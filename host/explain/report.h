@@ -2,28 +2,26 @@
 // The explained samples of a pixel -> a report as text or JSON.
 #pragma once
 
-#include "cli/options/options.h"
 #include "explain/explainer.h"
+#include "image/image_file.h"
 
 #include <jansson.h>
 #include <stdio.h>
 
 typedef struct {
-    const Options *options;
+    const char *scene_path;
     const Scene *scene;
     const RenderSettings *settings;
+    uint32_t view; // number of the viewpoint, from 1
+    uint32_t pixel[2];
+    Encoding encoding;
+    bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
 
-// Writes the lines above the samples.
-void explain_write_head(const ExplainReport *report, FILE *stream);
+// Traces the pixel's samples with a new explainer and writes them as text. Returns false if the
+// device fails.
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error);
 
-// Writes a sample. number is the sample's index in the pixel, from 0.
-void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
-                          uint32_t number, FILE *stream);
-
-void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream);
-
-json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample);
-
-// Returns the whole report, and takes ownership of the JSON array samples.
-json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3]);
+// Like explain_write_text, but returns JSON, or NULL if the device fails.
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error);

@@ -2,7 +2,6 @@
 // Primitive ids equal the values of the --aov channel "primitive", which count from 0.
 #include "explain/report.h"
 
-#include "explain/explainer.h"
 #include "image/json_file.h"
 
 #define SCHEMA_VERSION 1
@@ -67,7 +66,7 @@ static json_t *ray_json(const ExplainReport *report, const ExplainedRay *ray, ui
                      "weight", ray->weight, "hit", hit_json(report, ray));
 }
 
-json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *sample)
+static json_t *sample_json(const ExplainReport *report, const ExplainedSample *sample)
 {
     const double step = 0x1p-32;
     json_t *rays = json_array();
@@ -78,15 +77,35 @@ json_t *explain_sample_json(const ExplainReport *report, const ExplainedSample *
                      sample->steps[1] * step, sample->steps[2] * step);
 }
 
-json_t *explain_json(const ExplainReport *report, json_t *samples, const float color[3])
+// Returns NULL if the device fails.
+static json_t *samples_json(const ExplainReport *report, Explainer *explainer, Error *error)
 {
-    const Options *options = report->options;
+    ExplainedSample sample;
+    json_t *list = json_array();
+    const uint32_t side = report->settings->samples;
+    for (uint32_t i = 0; i < side * side; i++) {
+        if (!explainer_trace(explainer, report->pixel, i, &sample, error)) {
+            json_decref(list);
+            return NULL;
+        }
+        json_array_append_new(list, sample_json(report, &sample));
+    }
+    return list;
+}
+
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error)
+{
+    float color[3];
     const RenderSettings *settings = report->settings;
+    json_t *samples = samples_json(report, explainer, error);
+    if (samples == NULL)
+        return NULL;
+    explainer_mix(explainer, color);
     return json_pack("{s:i, s:s, s:o, s:[I, I], s:[I, I], s:I, s:o, s:o, s:[f, f, f]}", "schema",
                      SCHEMA_VERSION, "version", CLRT_VERSION, "scene",
-                     json_file_path(options->scene_path), "pixel", (json_int_t)options->pixel[0],
-                     (json_int_t)options->pixel[1], "size", (json_int_t)settings->width,
-                     (json_int_t)settings->height, "view", (json_int_t)options->view, "background",
+                     json_file_path(report->scene_path), "pixel", (json_int_t)report->pixel[0],
+                     (json_int_t)report->pixel[1], "size", (json_int_t)settings->width,
+                     (json_int_t)settings->height, "view", (json_int_t)report->view, "background",
                      vector_json(report->scene->background), "samples", samples, "color",
                      (double)color[0], (double)color[1], (double)color[2]);
 }

@@ -2,34 +2,46 @@
 // Writes one paragraph per ray and one fact per line.
 #include "explain/report.h"
 
-#include "explain/explainer.h"
-#include "image/image_file.h"
+#include <string.h>
 
-static void write_vector(Vec3 v, FILE *stream)
+// Brief reports omit rays of less weight, because they hardly change a color of 8 bits.
+#define BRIEF_WEIGHT (1 / 255.0)
+
+static int digits_of(const ExplainReport *report)
 {
-    fprintf(stream, "(%.6g, %.6g, %.6g)", v.x, v.y, v.z);
+    return report->is_brief ? 3 : 6;
 }
 
-static void write_primitive(const Scene *scene, uint32_t id, FILE *stream)
+static void write_vector(const ExplainReport *report, Vec3 v, FILE *stream)
 {
-    const PrimitiveName name = name_primitive(scene, id);
+    const int digits = digits_of(report);
+    fprintf(stream, "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits, v.z);
+}
+
+static void write_primitive(const ExplainReport *report, uint32_t id, FILE *stream)
+{
+    const PrimitiveName name = name_primitive(report->scene, id);
+    const char *slash = name.is_sphere || !report->is_brief ? NULL : strrchr(name.path, '/');
     if (name.is_sphere)
         fprintf(stream, "sphere %zu", name.number);
     else
-        fprintf(stream, "triangle %zu of %s", name.number, name.path);
+        fprintf(stream, "triangle %zu of %s", name.number, slash == NULL ? name.path : slash + 1);
 }
 
-void explain_write_head(const ExplainReport *report, FILE *stream)
+static void write_head(const ExplainReport *report, FILE *stream)
 {
-    const Options *options = report->options;
     const RenderSettings *settings = report->settings;
-    fprintf(stream, "pixel %u,%u of %u x %u, view %u of %s\n", options->pixel[0], options->pixel[1],
-            settings->width, settings->height, options->view, options->scene_path);
+    fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1], settings->width,
+            settings->height);
+    if (!report->is_brief)
+        fprintf(stream, ", view %u of %s", report->view, report->scene_path);
+    fprintf(stream, "\n");
 }
 
 static void write_light(const ExplainReport *report, const ExplainedLight *light, uint32_t number,
                         const Material *material, FILE *stream)
 {
+    const int digits = digits_of(report);
     fprintf(stream, "    light %-4u ", number);
     if (light->state == LIGHT_BEHIND)
         fprintf(stream, "does not reach it: the normal is turned away");
@@ -37,20 +49,24 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
         fprintf(stream, "does not reach it: the face is turned away");
     if (light->state == LIGHT_BLOCKED) {
         fprintf(stream, "is blocked by ");
-        write_primitive(report->scene, light->blocker, stream);
-        fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
+        write_primitive(report, light->blocker, stream);
+        if (!report->is_brief)
+            fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
     }
     if (light->state == LIGHT_SEEN)
-        fprintf(stream, "reaches it from %.6g away", light->distance);
-    fprintf(stream, "; cosine %.6g", light->cosine);
+        fprintf(stream, "reaches it");
+    if (light->state == LIGHT_SEEN && !report->is_brief)
+        fprintf(stream, " from %.6g away", light->distance);
+    if (!report->is_brief)
+        fprintf(stream, "; cosine %.6g", light->cosine);
     if (light->state == LIGHT_SEEN)
-        fprintf(stream, "; diffuse %.6g", light->diffuse * (double)material->kd);
+        fprintf(stream, "; diffuse %.*g", digits, light->diffuse * (double)material->kd);
     if (light->state == LIGHT_SEEN && material->shader == SHADER_BLINN_PHONG)
-        fprintf(stream, "; highlight %.6g", light->specular * (double)material->ks);
+        fprintf(stream, "; highlight %.*g", digits, light->specular * (double)material->ks);
     const Vec3 color = report->scene->lights.data[number - 1].color;
     if (light->state == LIGHT_SEEN && (color.x < 1 || color.y < 1 || color.z < 1)) {
         fprintf(stream, "; light color ");
-        write_vector(color, stream);
+        write_vector(report, color, stream);
     }
     fprintf(stream, "\n");
 }
@@ -60,17 +76,20 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
     const Scene *scene = report->scene;
     const Material *material = &scene->materials.data[ray->material];
     fprintf(stream, "    meets      ");
-    write_primitive(scene, ray->primitive, stream);
-    fprintf(stream, ", material %s\n    distance   %.9g, off by at most %.2g\n    point      ",
-            name_material(scene, ray->material), ray->distance, ray->error);
-    write_vector(ray->point, stream);
+    write_primitive(report, ray->primitive, stream);
+    fprintf(stream, ", material %s\n    distance   %.*g", name_material(scene, ray->material),
+            report->is_brief ? 3 : 9, ray->distance);
+    if (!report->is_brief)
+        fprintf(stream, ", off by at most %.2g", ray->error);
+    fprintf(stream, "\n    point      ");
+    write_vector(report, ray->point, stream);
     fprintf(stream, ", normal ");
-    write_vector(ray->normal, stream);
+    write_vector(report, ray->normal, stream);
     fprintf(stream, "\n");
     for (uint32_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
         write_light(report, &ray->lights[i], i + 1, material, stream);
     fprintf(stream, "    color      ");
-    write_vector(ray->shaded, stream);
+    write_vector(report, ray->shaded, stream);
     fprintf(stream, ", weight %.6g in the sample", ray->share);
     if (material->reflectivity > 0)
         fprintf(stream, "; reflectivity %.6g", (double)material->reflectivity);
@@ -84,41 +103,67 @@ static void write_ray(const ExplainReport *report, const ExplainedRay *ray, uint
         fprintf(stream, "  the camera's ray\n");
     else
         fprintf(stream, "  reflected ray %u, weight %.6g in the sample\n", level, ray->weight);
-    fprintf(stream, "    from       ");
-    write_vector(ray->origin, stream);
-    fprintf(stream, " along ");
-    write_vector(ray->direction, stream);
-    fprintf(stream, "\n");
+    if (!report->is_brief) {
+        fprintf(stream, "    from       ");
+        write_vector(report, ray->origin, stream);
+        fprintf(stream, " along ");
+        write_vector(report, ray->direction, stream);
+        fprintf(stream, "\n");
+    }
     if (ray->primitive == NOTHING)
         fprintf(stream, "    meets      nothing\n");
     else
         write_surface(report, ray, stream);
 }
 
-void explain_write_sample(const ExplainReport *report, const ExplainedSample *sample,
-                          uint32_t number, FILE *stream)
+static void write_sample(const ExplainReport *report, const ExplainedSample *sample,
+                         uint32_t number, FILE *stream)
 {
     const double step = 0x1p-32;
     const uint32_t samples = report->settings->samples * report->settings->samples;
     if (samples > 1)
         fprintf(stream, "sample %u of %u\n", number + 1, samples);
     for (uint32_t level = 0; level < sample->ray_count; level++)
-        write_ray(report, &sample->rays[level], level, stream);
-    if (sample->background_weight > 0) {
+        if (!report->is_brief || sample->rays[level].weight >= BRIEF_WEIGHT)
+            write_ray(report, &sample->rays[level], level, stream);
+    if (sample->background_weight > (report->is_brief ? BRIEF_WEIGHT : 0)) {
         fprintf(stream, "  the background ");
-        write_vector(report->scene->background, stream);
+        write_vector(report, report->scene->background, stream);
         fprintf(stream, ", weight %.6g in the sample\n", sample->background_weight);
     }
+    if (report->is_brief)
+        return;
     fprintf(stream, "  the sample's color ");
-    write_vector(vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),
+    write_vector(report,
+                 vec3(sample->steps[0] * step, sample->steps[1] * step, sample->steps[2] * step),
                  stream);
     fprintf(stream, "\n");
 }
 
-void explain_write_color(const ExplainReport *report, const float color[3], FILE *stream)
+static void write_color(const ExplainReport *report, const float color[3], FILE *stream)
 {
     unsigned char bytes[3];
-    encode_channels(color, 3, report->options->encoding, 1, bytes);
-    fprintf(stream, "the pixel's color (%.9g, %.9g, %.9g), in 8 bits %u %u %u\n", (double)color[0],
-            (double)color[1], (double)color[2], bytes[0], bytes[1], bytes[2]);
+    encode_channels(color, 3, report->encoding, 1, bytes);
+    const int digits = report->is_brief ? 3 : 9;
+    fprintf(stream, "the pixel's color (%.*g, %.*g, %.*g), in 8 bits %u %u %u\n", digits,
+            (double)color[0], digits, (double)color[1], digits, (double)color[2], bytes[0],
+            bytes[1], bytes[2]);
+}
+
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error)
+{
+    float color[3];
+    ExplainedSample sample;
+    const uint32_t side = report->settings->samples;
+    write_head(report, stream);
+    for (uint32_t i = 0; i < side * side; i++) {
+        if (!explainer_trace(explainer, report->pixel, i, &sample, error))
+            return false;
+        if (i == 0 || !report->is_brief)
+            write_sample(report, &sample, i, stream);
+    }
+    explainer_mix(explainer, color);
+    write_color(report, color, stream);
+    return true;
 }

@@ -25,6 +25,9 @@ bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_
 // false if the stream has failed.
 bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error);
 
+// Writes a camera statement, after an up statement if the camera's up direction is not up.
+void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
+
 // Returns whether scene text can contain a file of that name.
 bool scn_write_can_name(const char *name);
 

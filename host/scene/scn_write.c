@@ -80,25 +80,29 @@ static bool is_same(Vec3 a, Vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream)
+{
+    if (!is_same(up, camera->up)) {
+        fputs("up", stream);
+        write_vector(stream, camera->up);
+        fputc('\n', stream);
+    }
+    fputs("camera", stream);
+    write_vector(stream, camera->eye);
+    write_vector(stream, camera->look_at);
+    write_number(stream, camera->fov_degrees);
+    if (camera->width_degrees > 0)
+        write_number(stream, camera->width_degrees);
+    fputc('\n', stream);
+}
+
 static void write_cameras(const Writer *writer)
 {
     const Scene *scene = writer->scene;
     Vec3 up = {0, 0, 1};
     for (size_t i = 0; !scene->has_course_views && i < scene->viewpoints.count; i++) {
-        const Viewpoint *viewpoint = &scene->viewpoints.data[i];
-        if (!is_same(up, viewpoint->up)) {
-            up = viewpoint->up;
-            fputs("up", writer->stream);
-            write_vector(writer->stream, up);
-            fputc('\n', writer->stream);
-        }
-        fputs("camera", writer->stream);
-        write_vector(writer->stream, viewpoint->eye);
-        write_vector(writer->stream, viewpoint->look_at);
-        write_number(writer->stream, viewpoint->fov_degrees);
-        if (viewpoint->width_degrees > 0)
-            write_number(writer->stream, viewpoint->width_degrees);
-        fputc('\n', writer->stream);
+        scn_write_camera(&scene->viewpoints.data[i], up, writer->stream);
+        up = scene->viewpoints.data[i].up;
     }
 }
 

@@ -13,11 +13,6 @@ bool frame_times_add(FrameTimes *times, double moment, Error *error)
     return before == 0 || array_push(&times->seconds, moment - before, error);
 }
 
-void frame_times_pause(FrameTimes *times)
-{
-    times->latest = 0;
-}
-
 static int compare(const void *first, const void *second)
 {
     const double *a = first, *b = second;

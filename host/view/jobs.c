@@ -46,6 +46,7 @@ static bool is_current(Worker *worker, const Job *job)
                    request->width == job->request.width && request->height == job->request.height;
     if (job->pass.kind != PASS_MOVING)
         current = current && request->is_traced && request->subject == job->request.subject &&
+                  request->explains == job->request.explains &&
                   (job->pass.samples == 1 || request->samples == job->pass.samples);
     pthread_mutex_unlock(&worker->mutex);
     return current;
@@ -102,7 +103,7 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     update_sample_cost(worker, &job->pass, seconds,
                        (double)progress->tiles_done / (double)progress->tiles);
     const bool shows = whole && job->pass.kind != PASS_COUNT;
-    (shows ? canvas_finish : canvas_drop)(worker->setup.canvas, layer);
+    canvas_end(worker->setup.canvas, layer, shows);
     WorkerStatus *status = begin_update(worker);
     status->progress = 0;
     if (shows) {
@@ -142,7 +143,7 @@ void jobs_trace(Worker *worker, const Job *job)
         return;
     }
     if (layer != NULL)
-        canvas_drop(worker->setup.canvas, layer);
+        canvas_end(worker->setup.canvas, layer, false);
     report_failure(worker, job, &error);
 }
 
@@ -255,6 +256,41 @@ void jobs_take(Worker *worker, const Job *job)
     Error error = {0};
     take(worker, job, worker->tracer.model, &error);
     report_taken(worker, job, &error);
+}
+
+void jobs_explain(Worker *worker, const Job *job)
+{
+    Error error = {0};
+    char text[EXPLANATION_SIZE] = "";
+    const WorkerRequest *request = &job->request;
+    const Pass pass = {
+        .width = request->width, .height = request->height, .samples = request->samples, .tile = 1};
+    const ExplainReport head = {.pixel = {request->pixel[0], request->pixel[1]},
+                                .encoding = worker->setup.canvas->encoding,
+                                .is_brief = true};
+    report_busy(worker, "explaining the pixel");
+    FILE *stream = fmemopen(text, sizeof text - 1, "w"); // the last byte stays zero
+    const bool ok =
+        stream != NULL &&
+        tracer_explain(&worker->tracer, &(Shot){&request->camera, &pass}, &head, stream, &error);
+    if (stream != NULL)
+        fclose(stream);
+    WorkerStatus *status = begin_update(worker);
+    snprintf(status->explanation, sizeof status->explanation, "%s", ok ? text : error.text);
+    status->done.explains = request->explains;
+    status->busy = "";
+    end_update(worker);
+}
+
+void jobs_save(Worker *worker, const Job *job)
+{
+    Saver *saver = job->request.saver;
+    const Layer *layer = canvas_whole(worker->setup.canvas);
+    const bool is_traced = job->request.is_traced && layer != NULL;
+    saver_write(saver, is_traced ? &layer->framebuffer : &saver->shown);
+    framebuffer_free(&saver->shown);
+    begin_update(worker)->done.saves = job->request.saves;
+    end_update(worker);
 }
 
 void jobs_encode(Worker *worker, const Job *job)

@@ -7,91 +7,45 @@
 #include <string.h>
 #include <unistd.h>
 
-// File extensions for the displayed and the traced picture; NULL if this build lacks the format.
-typedef struct {
-    const char *shown, *traced;
-} Endings;
-
-static Endings endings(void)
-{
-    const char *png = image_format_named("png"), *exr = image_format_named("exr");
-    return (Endings){png, exr != NULL ? exr : image_format_named("pfm")};
-}
-
-static bool is_free(const char *stem, unsigned number, const char *ending)
+static bool is_free(const char *stem, const char *ending)
 {
     char path[PATH_MAX];
-    snprintf(path, sizeof path, "%s-%u.%s", stem, number, ending);
+    snprintf(path, sizeof path, "%s.%s", stem, ending);
     return access(path, F_OK) != 0;
 }
 
-// Stores the scene file's name in stem, without folder and extension.
-static void write_stem(char stem[SAVER_TEXT_SIZE], const char *scene_path)
+// Stores the scene file's name without folder and extension, and with a number.
+static void write_stem(char stem[SAVER_TEXT_SIZE], const char *scene_path, const char *float_ending)
 {
     const char *slash = strrchr(scene_path, '/');
     const char *name = slash == NULL ? scene_path : slash + 1;
     const char *dot = strrchr(name, '.');
     const size_t length = dot == NULL || dot == name ? strlen(name) : (size_t)(dot - name);
     const int kept = length < SAVER_TEXT_SIZE / 4 ? (int)length : SAVER_TEXT_SIZE / 4;
-    snprintf(stem, SAVER_TEXT_SIZE, "%.*s", kept, name);
+    unsigned number = 1;
+    do
+        snprintf(stem, SAVER_TEXT_SIZE, "%.*s-%u", kept, name, number++);
+    while (!is_free(stem, "png") || !is_free(stem, float_ending));
 }
 
-static bool write_one(Saver *saver, const Framebuffer *picture, const char *stem, unsigned number,
-                      const char *ending)
+static bool write_one(const Framebuffer *picture, const char *stem, const char *ending,
+                      const char *state, Error *error)
 {
     char path[PATH_MAX];
-    const ImageText text = {"clrt:state", saver->settings};
+    const ImageText text = {"clrt:state", state};
     const ImageSettings settings = {.format = ending, .texts = &text, .text_count = 1};
-    snprintf(path, sizeof path, "%s-%u.%s", stem, number, ending);
-    return image_write(picture, path, &settings, &saver->error);
+    snprintf(path, sizeof path, "%s.%s", stem, ending);
+    return image_write(picture, path, &settings, error);
 }
 
-static void *save(void *context)
+void saver_write(Saver *saver, const Framebuffer *traced)
 {
-    Saver *saver = context;
     char stem[SAVER_TEXT_SIZE];
-    unsigned number = 1;
-    const Endings names = endings();
-    write_stem(stem, saver->scene_path);
-    while (!is_free(stem, number, names.traced) ||
-           (names.shown != NULL && !is_free(stem, number, names.shown)))
-        number++;
-    const bool ok =
-        (names.shown == NULL || write_one(saver, &saver->shown, stem, number, names.shown)) &&
-        write_one(saver, &saver->traced, stem, number, names.traced);
-    if (ok && names.shown != NULL)
-        snprintf(saver->notice, sizeof saver->notice, "saved %.120s-%u.%s and .%s", stem, number,
-                 names.shown, names.traced);
-    else if (ok)
-        snprintf(saver->notice, sizeof saver->notice, "saved %.120s-%u.%s", stem, number,
-                 names.traced);
-    atomic_store(&saver->is_done, true);
-    saver->wake();
-    return NULL;
-}
-
-bool saver_start(Saver *saver, void (*wake)(void), Error *error)
-{
-    saver->wake = wake;
+    const char *float_ending = image_format_named("exr") != NULL ? "exr" : "pfm";
     saver->notice[0] = saver->error.text[0] = '\0';
-    atomic_init(&saver->is_done, false);
-    saver->is_running = pthread_create(&saver->thread, NULL, save, saver) == 0;
-    return saver->is_running || error_set(error, "no thread can be started");
-}
-
-bool saver_is_done(Saver *saver)
-{
-    if (!saver->is_running || !atomic_load(&saver->is_done))
-        return false;
-    saver_finish(saver);
-    return true;
-}
-
-void saver_finish(Saver *saver)
-{
-    if (saver->is_running)
-        pthread_join(saver->thread, NULL);
-    saver->is_running = false;
-    framebuffer_free(&saver->shown);
-    framebuffer_free(&saver->traced);
+    write_stem(stem, saver->scene_path, float_ending);
+    if (write_one(&saver->shown, stem, "png", saver->settings, &saver->error) &&
+        write_one(traced, stem, float_ending, saver->settings, &saver->error))
+        snprintf(saver->notice, sizeof saver->notice, "saved %.160s.png and .%s", stem,
+                 float_ending);
 }

@@ -17,10 +17,10 @@ static void choose_view(State *state, const StateScene *scene, uint32_t view)
     state->orbit = orbit_of(&state->camera, scene->is_course);
 }
 
-State state_begin(const StateScene *scene, uint32_t view, bool smooth, bool uses_bvh)
+State state_begin(const StateScene *scene, State state)
 {
-    State state = {.smooth = smooth, .uses_bvh = uses_bvh, .text = true};
-    choose_view(&state, scene, view);
+    state.text = true;
+    choose_view(&state, scene, state.view);
     return state;
 }
 
@@ -43,6 +43,7 @@ static int limited(int value, int low, int high)
 
 static void change_level(State *state, const StateScene *scene, int step)
 {
+    state->boxes = state->boxes || step > 0;
     if (state->boxes)
         state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
 }
@@ -62,11 +63,14 @@ static bool *switch_of(State *state, int key)
     case 'n':
         return &state->normals;
     case 'h':
+    case '?':
         return &state->help;
     case 't':
         return &state->text;
     case 'o':
         return &state->turning;
+    case KEY_FULL_SCREEN:
+        return &state->full_screen;
     default:
         return NULL;
     }
@@ -108,10 +112,11 @@ static unsigned command_of(int key)
         return COMMAND_CAMERA;
     case 's':
         return COMMAND_SAVE;
+    case 'u':
+        return COMMAND_UP;
     case 'R':
         return COMMAND_RELOAD;
     case 'q':
-    case KEY_ESCAPE:
         return COMMAND_QUIT;
     default:
         return 0;
@@ -120,10 +125,15 @@ static unsigned command_of(int key)
 
 unsigned state_apply(State *state, const Event *event, const StateScene *scene)
 {
+    int key = event->key;
+    if (key == KEY_ESCAPE)
+        key = state->full_screen ? KEY_FULL_SCREEN : 'q';
     switch (event->kind) {
     case EVENT_KEY:
-        apply_key(state, scene, event->key);
-        return command_of(event->key);
+        apply_key(state, scene, key);
+        return command_of(key);
+    case EVENT_CLICK:
+        return COMMAND_EXPLAIN;
     case EVENT_TURN:
         turn(state, event->right, event->down);
         return 0;

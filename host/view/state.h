@@ -6,24 +6,34 @@
 #include "view/orbit.h"
 
 // Keys are typed characters. These constants stand for keys without a character.
-enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN };
+enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_FULL_SCREEN };
 
 typedef enum {
     EVENT_KEY,
     EVENT_TURN, // a drag that turns the scene
     EVENT_ZOOM, // a drag that changes the distance
     EVENT_PAN,  // a drag that moves the scene sideways
-    EVENT_WHEEL
+    EVENT_WHEEL,
+    EVENT_CLICK // a click on a pixel
 } EventKind;
 
 typedef struct {
     EventKind kind;
     int key;
-    double right, down; // in pixels; for EVENT_WHEEL, down is in notches away from the user
+    // In pixels. For EVENT_WHEEL, down is in notches away from the user. For EVENT_CLICK, both are
+    // the pixel's position, counted from the upper left corner.
+    double right, down;
 } Event;
 
 // Bits of the commands that an event triggers in addition to changes of the state.
-enum { COMMAND_CAMERA = 1, COMMAND_SAVE = 2, COMMAND_RELOAD = 4, COMMAND_QUIT = 8 };
+enum {
+    COMMAND_CAMERA = 1,
+    COMMAND_SAVE = 2,
+    COMMAND_RELOAD = 4,
+    COMMAND_QUIT = 8,
+    COMMAND_EXPLAIN = 16,
+    COMMAND_UP = 32
+};
 
 // The properties of a scene that the state depends on.
 typedef struct {
@@ -40,6 +50,7 @@ typedef struct {
     bool boxes, normals; // drawn over the picture
     bool help, text;     // overlays that are displayed
     bool turning;        // the camera turns automatically
+    bool full_screen;
     uint32_t level; // displayed boxes: 0 for leaves; n for inner nodes at level n, the root at 1
     int exposure;   // in half stops
     uint32_t view;  // number of the latest viewpoint, from 1
@@ -48,8 +59,8 @@ typedef struct {
     Viewpoint camera;
 } State;
 
-// Returns the initial state; view counts from 1.
-State state_begin(const StateScene *scene, uint32_t view, bool smooth, bool uses_bvh);
+// Returns the initial state, which has state's switches and shows the camera state.view.
+State state_begin(const StateScene *scene, State state);
 
 // Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);

@@ -2,6 +2,8 @@
 // The texts depend only on the arguments, so the same state always gives the same text.
 #include "view/status_text.h"
 
+#include "scene/scn.h"
+
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -62,6 +64,10 @@ static void add_state(Buffer *buffer, const State *state, const Figures *figures
         add(buffer, ", normals");
     if (state->turning)
         add(buffer, ", turning");
+    if (state->full_screen)
+        add(buffer, ", full screen");
+    if (figures->up != NULL)
+        add(buffer, ", up %s", figures->up);
     if (state->exposure != 0)
         add(buffer, ", exposure %+.1f", state->exposure / 2.0);
 }
@@ -81,12 +87,20 @@ void status_text_state(char *text, size_t size, const State *state, const Figure
     add(&buffer, ", %ux%u", figures->width, figures->height);
 }
 
-void status_text_overlay(char *text, size_t size, const State *state, const Figures *figures)
+static void add_message(Buffer *buffer, const char *message, const char *end)
+{
+    if (message[0] != '\0')
+        add(buffer, "%s%s", message, end);
+}
+
+void status_text_line(char *text, size_t size, const State *state, const Figures *figures)
 {
     Buffer buffer = buffer_of(text, size);
+    add_message(&buffer, figures->busy, ", ");
+    add_message(&buffer, figures->notice, ", ");
+    add_message(&buffer, figures->hint, ", ");
+    add_message(&buffer, figures->missing, ", ");
     add_state(&buffer, state, figures);
-    add(&buffer, ", ");
-    add_orbit(&buffer, &state->orbit);
     if (figures->frame_seconds > 0)
         add(&buffer, ", %.1f ms", 1e3 * figures->frame_seconds);
     if (state->traced && figures->divisor > 1)
@@ -94,14 +108,18 @@ void status_text_overlay(char *text, size_t size, const State *state, const Figu
     if (state->traced && figures->has_counts)
         add(&buffer, ", %" PRIu64 " rays, %.2f triangle tests a ray", figures->rays,
             figures->tests_per_ray);
-    if (figures->busy[0] != '\0')
-        add(&buffer, "\n%s", figures->busy);
-    if (figures->notice[0] != '\0')
-        add(&buffer, "\n%s", figures->notice);
-    if (figures->failure[0] != '\0')
-        add(&buffer, "\n%s", figures->failure);
+    add(&buffer, ", ");
+    add_orbit(&buffer, &state->orbit);
+}
+
+void status_text_panel(char *text, size_t size, const State *state, const Figures *figures)
+{
+    Buffer buffer = buffer_of(text, size);
+    if (state->text)
+        add_message(&buffer, figures->failure, "\n");
+    add_message(&buffer, figures->explanation, "");
     if (state->help)
-        add(&buffer, "\n\n%s", status_text_help());
+        add(&buffer, "%s", status_text_help());
 }
 
 void status_text_title(char *text, size_t size, const State *state, const Figures *figures)
@@ -114,58 +132,38 @@ void status_text_title(char *text, size_t size, const State *state, const Figure
         add(&buffer, " - %.0f %%", 100 * figures->progress);
 }
 
-// Adds the shortest form that parses to the same number.
-static void add_number(Buffer *buffer, const char *before, double value)
+void status_text_camera(const State *state, FILE *stream)
 {
-    char text[32];
-    int digits = 6;
-    do
-        snprintf(text, sizeof text, "%.*g", digits++, value);
-    while (digits <= 17 && strtod(text, NULL) != value);
-    add(buffer, "%s%s", before, text);
-}
-
-static void add_vector(Buffer *buffer, const char *before, Vec3 v)
-{
-    add_number(buffer, before, v.x);
-    add_number(buffer, " ", v.y);
-    add_number(buffer, " ", v.z);
-}
-
-void status_text_camera(char *text, size_t size, const State *state)
-{
-    const Viewpoint *camera = &state->camera;
-    Buffer buffer = buffer_of(text, size);
+    char text[256];
+    Buffer buffer = buffer_of(text, sizeof text);
     add_orbit(&buffer, &state->orbit);
-    if (camera->up.x != 0 || camera->up.y != 0 || camera->up.z != 1)
-        add_vector(&buffer, "\nup ", camera->up);
-    add_vector(&buffer, "\ncamera ", camera->eye);
-    add_vector(&buffer, "  ", camera->look_at);
-    add_number(&buffer, "  ", camera->fov_degrees);
-    if (camera->width_degrees > 0)
-        add_number(&buffer, " ", camera->width_degrees);
-    add(&buffer, "\n");
+    fprintf(stream, "%s\n", text);
+    scn_write_camera(&state->camera, vec3(0, 0, 1), stream);
 }
 
 const char *status_text_help(void)
 {
-    return "r  OpenGL or ray tracing\n"
-           "1-9  the scene's cameras\n"
-           "left drag, arrows  turn\n"
+    return "left drag, arrows  turn the camera\n"
+           "middle or Shift drag  move the camera sideways\n"
            "right drag, wheel  move closer or away\n"
-           "middle or Shift drag  move sideways\n"
-           "o  turn continuously\n"
+           "click  explain the pixel\n"
+           "1-9  the scene's cameras\n"
+           "r  rays or OpenGL\n"
            "a  anti-aliasing\n"
-           "b  tree, or every triangle\n"
-           "B  boxes of the tree's leaves\n"
-           "] [  boxes of inner nodes, a level deeper or back\n"
-           "n  normals\n"
            "+ -  exposure\n"
-           "drop a file  show that scene\n"
+           "o  turn continuously\n"
+           "u  another up axis of a mesh without a scene\n"
+           "n  normals\n"
+           "] [  boxes of the tree, a level deeper or back\n"
+           "B  boxes of the tree's leaves\n"
+           "b  tree, or every triangle\n"
            "c  print the camera\n"
-           "s  save the picture\n"
+           "s, F12, Ctrl-S  save the picture\n"
            "R  reload the scene and the kernels\n"
-           "t  show or hide the text\n"
-           "h  show or hide this help\n"
-           "q, Esc  quit";
+           "drop a file  show that scene\n"
+           "t  show or hide the line at the top\n"
+           "h, ?, F1  show or hide this help\n"
+           "F11  full screen\n"
+           "Esc  leave full screen, or quit\n"
+           "q, Ctrl-Q  quit";
 }

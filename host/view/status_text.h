@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State and figures -> the window's texts: its title, its overlay and the output of key c.
+// State and figures -> the window's texts: its title, its line, its panel and the output of key c.
 #pragma once
 
 #include "view/state.h"
@@ -11,6 +11,7 @@
 // Facts about the picture that are not part of the state.
 typedef struct {
     const char *scene_name;
+    const char *up;         // up axis of a mesh without a scene; NULL for a scene
     uint32_t width, height; // of the window, in pixels
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
@@ -20,22 +21,30 @@ typedef struct {
     bool has_counts;        // rays and tests_per_ray are known
     uint64_t rays;
     double tests_per_ray;
-    uint32_t box_count;  // number of displayed boxes
-    const char *busy;    // the current operation; empty for none
-    const char *notice;  // the latest result; empty for none
-    const char *failure; // why the latest change has no effect; empty without a failure
+    uint32_t box_count; // number of displayed boxes
+    // Empty strings if there is nothing to report.
+    const char *busy;        // the current operation
+    const char *notice;      // the latest result
+    const char *missing;     // what the scene lacks
+    const char *hint;        // how to find the help
+    const char *failure;     // why the latest change has no effect
+    const char *explanation; // of the clicked pixel
 } Figures;
 
 // Writes the state alone, as one line without a line end, for tests and -v.
 void status_text_state(char *text, size_t size, const State *state, const Figures *figures);
 
-// Writes the overlay: state and figures.
-void status_text_overlay(char *text, size_t size, const State *state, const Figures *figures);
+// Writes the line at the top: messages, state and figures, the most important first.
+void status_text_line(char *text, size_t size, const State *state, const Figures *figures);
+
+// Writes the panel: failure, explanation and help.
+void status_text_panel(char *text, size_t size, const State *state, const Figures *figures);
 
 void status_text_title(char *text, size_t size, const State *state, const Figures *figures);
 
 // Writes the camera in the course's terms, and as statements of a scene file.
-void status_text_camera(char *text, size_t size, const State *state);
+void status_text_camera(const State *state, FILE *stream);
 
-// Returns the list of keys and mouse actions, one per line.
+// Returns the list of keys and mouse actions, one per line. Two blanks precede the action's
+// meaning.
 const char *status_text_help(void);

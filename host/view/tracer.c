@@ -122,6 +122,12 @@ static bool prepare_counter(Tracer *tracer, Error *error)
            renderer_open(&tracer->counter, &tracer->setup, &tracer->flat, &settings, error);
 }
 
+static CameraData camera_of(const Tracer *tracer, const Shot *shot)
+{
+    return camera_make(shot->camera, &tracer->model->normalization, shot->pass->width,
+                       shot->pass->height, shot->pass->samples);
+}
+
 bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error)
 {
@@ -131,8 +137,7 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
         return false;
     Renderer *renderer = counts ? &tracer->counter : &tracer->renderer;
     const RenderSettings settings = tracer_settings(tracer, pass);
-    const CameraData data = camera_make(shot->camera, &tracer->model->normalization, pass->width,
-                                        pass->height, pass->samples);
+    const CameraData data = camera_of(tracer, shot);
     renderer_resize(renderer, &settings);
     return renderer_draw(renderer, &data, observer, framebuffer, error);
 }
@@ -140,4 +145,23 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass)
 {
     return pass->kind == PASS_COUNT ? &tracer->counter.progress : &tracer->renderer.progress;
+}
+
+bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
+                    Error *error)
+{
+    Explainer explainer;
+    const Model *model = tracer->model;
+    const RenderSettings settings = tracer_settings(tracer, shot->pass);
+    const ExplainerSource source = {&tracer->setup, &tracer->renderer, &model->scene,
+                                    &model->normalization, camera_of(tracer, shot)};
+    ExplainReport report = *head;
+    report.scene = &model->scene;
+    report.settings = &settings;
+    renderer_resize(&tracer->renderer, &settings);
+    if (!explainer_open(&explainer, &source, error))
+        return false;
+    const bool ok = explain_write_text(&report, &explainer, stream, error);
+    explainer_close(&explainer);
+    return ok;
 }

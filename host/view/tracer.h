@@ -2,6 +2,7 @@
 // Device, model and pass -> picture, on the tracing thread.
 #pragma once
 
+#include "explain/report.h"
 #include "render/renderer.h"
 #include "view/model.h"
 #include "view/plan.h"
@@ -55,6 +56,10 @@ RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
 // of tracer_settings.
 bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
+
+// Writes the explanation of a pixel of the shot. head has the report's pixel, encoding and length.
+bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
+                    Error *error);
 
 // Returns the progress and counters of the latest pass of this kind.
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

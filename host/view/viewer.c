@@ -11,23 +11,24 @@
 // The loop's longest sleep in seconds. Files are checked between sleeps.
 #define REST_SECONDS 0.1
 
+// A closed window waits this long for files that are being saved.
+#define SAVE_SECONDS 60
+
 static uint32_t samples_of(const Viewer *viewer)
 {
     return viewer->state.smooth ? viewer->settings.samples : 1;
 }
 
-static void print_camera(const Viewer *viewer)
-{
-    char text[STATUS_TEXT_SIZE];
-    status_text_camera(text, sizeof text, &viewer->state);
-    fputs(text, stdout);
-    fflush(stdout);
-}
-
 static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
 {
-    if (commands & COMMAND_CAMERA)
-        print_camera(viewer);
+    if (commands & COMMAND_CAMERA) {
+        status_text_camera(&viewer->state, stdout);
+        fflush(stdout);
+    }
+    if ((commands & COMMAND_UP) && viewer->model->scene.mesh_up != UP_AUTO) {
+        viewer->request.up = viewer->model->scene.mesh_up % UP_MINUS_Z + 1;
+        viewer->request.loads++;
+    }
     if (commands & COMMAND_SAVE)
         viewer->wants_save = true;
     if (commands & COMMAND_QUIT)
@@ -35,11 +36,27 @@ static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
     return !(commands & COMMAND_RELOAD) || viewer_renew(viewer, error);
 }
 
+// Requests the explanation of a clicked pixel.
+static void explain(Viewer *viewer, const Event *event)
+{
+    WorkerRequest *request = &viewer->request;
+    if (event->right < 0 || event->right >= request->width || event->down < 0 ||
+        event->down >= request->height)
+        return;
+    request->pixel[0] = (uint32_t)event->right;
+    request->pixel[1] = (uint32_t)event->down;
+    viewer->explained = ++request->explains;
+}
+
 static bool take_event(Viewer *viewer, const Event *event, Error *error)
 {
     viewer->is_dirty = true;
     viewer->notice[0] = '\0';
-    return run_commands(viewer, state_apply(&viewer->state, event, &viewer->scene), error);
+    viewer->explained = 0;
+    const unsigned commands = state_apply(&viewer->state, event, &viewer->scene);
+    if (commands & COMMAND_EXPLAIN)
+        explain(viewer, event);
+    return run_commands(viewer, commands, error);
 }
 
 static bool take_events(Viewer *viewer, Error *error)
@@ -51,21 +68,38 @@ static bool take_events(Viewer *viewer, Error *error)
     return true;
 }
 
-// Plays the next key once the effect of the previous key is displayed.
-static bool play_script(Viewer *viewer, Error *error)
+bool viewer_has_keys(const Viewer *viewer)
 {
-    if (!script_is_running(&viewer->script) || !viewer_is_settled(viewer) || viewer->is_dirty)
-        return true;
-    const Event event = {.kind = EVENT_KEY, .key = script_take_key(&viewer->script)};
-    viewer->is_dirty = true;
-    return event.key == 0 || take_event(viewer, &event, error);
+    return viewer->settings.keys != NULL && viewer->settings.keys[0] != '\0';
 }
 
-// Turns the camera if it turns automatically. The camera waits until its traced picture is
-// complete, and stands still before a save.
+// Returns whether keys or frames remain, so that the window must draw without events.
+static bool is_playing(const Viewer *viewer)
+{
+    return viewer_has_keys(viewer) || viewer->settings.quit_after > 0;
+}
+
+// Plays the next key once the effect of the previous key is displayed.
+static bool play_key(Viewer *viewer, Error *error)
+{
+    if (!is_playing(viewer) || !viewer_is_settled(viewer) || viewer->is_dirty)
+        return true;
+    viewer->is_dirty = true;
+    if (!viewer_has_keys(viewer))
+        return true;
+    const Event event = {.kind = EVENT_KEY, .key = (unsigned char)*viewer->settings.keys++};
+    return take_event(viewer, &event, error);
+}
+
+// Removes an old hint. Turns the camera if it turns automatically. The camera waits until its
+// traced picture is complete, and stands still before a save.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
+    if (viewer->hint_end > 0 && now >= viewer->hint_end) {
+        viewer->hint_end = 0;
+        viewer->is_dirty = true;
+    }
     const bool is_behind =
         viewer->state.traced && viewer->status.reached.subject != viewer->request.subject;
     if (viewer->state.turning && !viewer->wants_save && !is_behind) {
@@ -76,19 +110,15 @@ static void advance(Viewer *viewer)
         viewer->advanced = now;
 }
 
-static bool same_camera(const Viewpoint *one, const Viewpoint *other)
-{
-    return memcmp(one, other, sizeof *one) == 0;
-}
-
 static void post_request(Viewer *viewer)
 {
     WorkerRequest *request = &viewer->request;
     uint32_t width, height;
     window_measure(&viewer->window, &width, &height);
     if (width != request->width || height != request->height ||
-        !same_camera(&request->camera, &viewer->state.camera)) {
+        memcmp(&request->camera, &viewer->state.camera, sizeof request->camera) != 0) {
         request->subject++;
+        viewer->explained = 0;
         viewer->is_dirty = true;
     }
     request->camera = viewer->state.camera;
@@ -104,7 +134,7 @@ static void post_request(Viewer *viewer)
 // Returns how long the loop may sleep, in seconds.
 static double idle_seconds(const Viewer *viewer)
 {
-    const bool plays = script_is_running(&viewer->script) && viewer_is_settled(viewer);
+    const bool plays = is_playing(viewer) && viewer_is_settled(viewer);
     const bool turns = viewer->state.turning && !viewer->state.traced;
     return viewer->is_dirty || plays || turns ? 0 : REST_SECONDS;
 }
@@ -113,9 +143,9 @@ static bool step(Viewer *viewer, Error *error)
 {
     window_wait(&viewer->window, idle_seconds(viewer));
     if (!viewer_follow_worker(viewer, error) || !take_events(viewer, error) ||
-        !viewer_take_drop(viewer, error) || !play_script(viewer, error))
+        !viewer_take_drop(viewer, error) || !play_key(viewer, error))
         return false;
-    viewer_follow_saver(viewer);
+    window_set_full_screen(&viewer->window, viewer->state.full_screen);
     viewer_follow_files(viewer);
     advance(viewer);
     post_request(viewer);
@@ -144,7 +174,7 @@ static bool open_window(Viewer *viewer, Error *error)
     const uint32_t height = settings->width > 0 ? settings->height : model->scene.height;
     model_release(model);
     return window_open(&viewer->window, "clrt", width, height, error) &&
-           views_open(&viewer->views, error);
+           views_open(&viewer->views, &viewer->failure, error);
 }
 
 static ViewerEnd end_of_fault(const Viewer *viewer, Error *error)
@@ -176,17 +206,19 @@ static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
         window_hide(&viewer->window);
-    saver_finish(&viewer->saver);
     if (viewer->settings.statistics)
         frame_times_write(&viewer->frame_times, viewer->status.moving_coarse,
                           viewer->status.moving_frames, stderr);
     frame_times_free(&viewer->frame_times);
-    reload_free(&viewer->reload);
+    watch_free(&viewer->scene_files);
+    watch_free(&viewer->kernel_files);
     model_release(viewer->model);
     if (viewer->window.handle != NULL)
         views_close(&viewer->views);
     window_close(&viewer->window);
-    if (viewer->worker != NULL && !worker_stop(viewer->worker, viewer->settings.patience))
+    const bool is_saving = viewer->status.done.saves != viewer->request.saves;
+    const double patience = is_saving ? SAVE_SECONDS : viewer->settings.patience;
+    if (viewer->worker != NULL && !worker_stop(viewer->worker, patience))
         return;
     for (size_t i = 0; i < viewer->dropped.count; i++)
         free(viewer->dropped.data[i]);
@@ -206,7 +238,6 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->settings = *settings;
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
-    viewer->script = (Script){settings->keys, settings->quit_after};
     viewer->request = (WorkerRequest){.path = settings->scene_path,
                                       .up = settings->up,
                                       .loads = 1,
@@ -217,8 +248,9 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
     ViewerEnd end = VIEWER_NO_DEVICE;
     // Watching starts before the first read, so that changes during the read are detected.
-    if (reload_follow(&viewer->reload, NULL, settings->scene_path, false, error) &&
-        reload_follow_kernels(&viewer->reload, settings->tracer.kernel_folder, error))
+    const char *kernels = settings->tracer.kernel_folder;
+    if (viewer_watch_files(viewer, error) &&
+        watch_set(&viewer->kernel_files, &kernels, kernels != NULL, error))
         viewer->worker = worker_start(&setup, &viewer->request, error);
     if (viewer->worker != NULL)
         end = show(viewer, error);

@@ -3,8 +3,15 @@
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
+#include "base/file.h"
 
 #include <stdlib.h>
+
+// Seconds for which the window displays a hint at the help.
+#define HINT_SECONDS 5
+
+// Seconds between checks of the files.
+#define POLL_SECONDS 0.2
 
 static void describe_scene(Viewer *viewer)
 {
@@ -16,12 +23,22 @@ static void describe_scene(Viewer *viewer)
                      .levels = viewer->status.has_tree ? boxes_levels(&viewer->model->bvh) : 0};
 }
 
-static bool follow_files(Viewer *viewer, Error *error)
+bool viewer_watch_files(Viewer *viewer, Error *error)
 {
-    const bool failed = viewer->status.scene_failure.text[0] != '\0';
-    viewer->is_failure_followed = failed;
-    return reload_follow(&viewer->reload, &viewer->model->scene, viewer->settings.scene_path,
-                         failed, error);
+    ARRAY(const char *) paths = {0};
+    const char *path = viewer->settings.scene_path;
+    const Scene *scene = viewer->model == NULL ? NULL : &viewer->model->scene;
+    bool ok = array_push(&paths, path, error);
+    for (size_t i = 0; ok && scene != NULL && i < scene->inputs.count; i++)
+        ok = array_push(&paths, scene->inputs.data[i], error);
+    viewer->is_failure_followed = viewer->status.scene_failure.text[0] != '\0';
+    char *folder = viewer->is_failure_followed ? file_path_beside(path, ".", error) : NULL;
+    if (folder != NULL)
+        ok = ok && array_push(&paths, folder, error);
+    ok = ok && watch_set(&viewer->scene_files, paths.data, paths.count, error);
+    free(folder);
+    free(paths.memory);
+    return ok;
 }
 
 bool viewer_adopt_model(Viewer *viewer, Error *error)
@@ -35,14 +52,26 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
     if (is_first && settings->view > viewer->scene.viewpoint_count)
         return error_set(error, "%s has %zu viewpoints, so there is no view %u",
                          settings->scene_path, viewer->scene.viewpoint_count, settings->view);
-    if (is_first) {
-        viewer->state =
-            state_begin(&viewer->scene, settings->view, settings->smooth, settings->uses_bvh);
-        viewer->state.exposure = settings->exposure;
-    } else
+    if (is_first)
+        viewer->state = state_begin(&viewer->scene, (State){.view = settings->view,
+                                                             .exposure = settings->exposure,
+                                                            .traced = settings->keys == NULL,
+                                                            .smooth = settings->smooth,
+                                                            .uses_bvh = settings->uses_bvh});
+    if (is_first && settings->keys == NULL)
+        viewer->hint_end = clock_seconds() + HINT_SECONDS;
+    if (!is_first)
         (viewer->model->path == before ? state_adopt : state_open)(&viewer->state, &viewer->scene);
     viewer->request.subject++;
-    return views_load(&viewer->views, viewer->model, error) && follow_files(viewer, error);
+    return views_load(&viewer->views, viewer->model, error) && viewer_watch_files(viewer, error);
+}
+
+static void report_saved(Viewer *viewer)
+{
+    viewer->failure = viewer->saver.error;
+    snprintf(viewer->notice, sizeof viewer->notice, "%s", viewer->saver.notice);
+    if (viewer->settings.verbose && viewer->notice[0] != '\0')
+        fprintf(stderr, "%s\n", viewer->notice);
 }
 
 bool viewer_follow_worker(Viewer *viewer, Error *error)
@@ -53,6 +82,10 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
         return true;
     const bool has_model = status.models != viewer->status.models;
     const bool has_tree = status.has_tree != viewer->status.has_tree;
+    if (status.done.saves != viewer->status.done.saves)
+        report_saved(viewer);
+    if (status.done.explains != viewer->status.done.explains && viewer->settings.verbose)
+        fputs(status.explanation, stderr);
     viewer->status = status;
     viewer->is_dirty = true;
     if (has_model && !viewer_adopt_model(viewer, error))
@@ -63,7 +96,7 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
     }
     const bool failed = status.scene_failure.text[0] != '\0';
     return viewer->model == NULL || failed == viewer->is_failure_followed ||
-           follow_files(viewer, error);
+           viewer_watch_files(viewer, error);
 }
 
 bool viewer_take_drop(Viewer *viewer, Error *error)
@@ -80,16 +113,17 @@ bool viewer_take_drop(Viewer *viewer, Error *error)
     viewer->request.loads++;
     viewer->notice[0] = '\0';
     viewer->is_dirty = true;
-    return follow_files(viewer, error);
+    return viewer_watch_files(viewer, error);
 }
 
 void viewer_follow_files(Viewer *viewer)
 {
-    const unsigned changed = reload_poll(&viewer->reload, clock_seconds());
-    if (changed & RELOAD_SCENE)
-        viewer->request.loads++;
-    if (changed & RELOAD_KERNELS)
-        viewer->request.renewals++;
+    const double now = clock_seconds();
+    if (now - viewer->polled < POLL_SECONDS)
+        return;
+    viewer->polled = now;
+    viewer->request.loads += watch_poll(&viewer->scene_files);
+    viewer->request.renewals += watch_poll(&viewer->kernel_files);
 }
 
 bool viewer_renew(Viewer *viewer, Error *error)
@@ -97,7 +131,8 @@ bool viewer_renew(Viewer *viewer, Error *error)
     viewer->request.loads++;
     viewer->request.renewals++;
     views_close(&viewer->views);
-    return views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
+    return views_open(&viewer->views, &viewer->failure, error) &&
+           views_load(&viewer->views, viewer->model, error);
 }
 
 bool viewer_recover(Viewer *viewer, Error *error)
@@ -109,5 +144,6 @@ bool viewer_recover(Viewer *viewer, Error *error)
     viewer->title[0] = '\0';
     return window_open(&viewer->window, "clrt", viewer->request.width, viewer->request.height,
                        error) &&
-           views_open(&viewer->views, error) && views_load(&viewer->views, viewer->model, error);
+           views_open(&viewer->views, &viewer->failure, error) &&
+           views_load(&viewer->views, viewer->model, error);
 }

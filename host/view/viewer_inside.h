@@ -4,20 +4,19 @@
 #pragma once
 
 #include "view/frame_times.h"
-#include "view/reload.h"
 #include "view/saver.h"
-#include "view/script.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
 #include "view/views.h"
+#include "view/watch.h"
 #include "view/window.h"
 #include "view/worker.h"
 
 #define STATE_SIZE 1024
 
 typedef struct {
-    ViewerSettings
-        settings; // settings and cache are copies, since the worker may outlive viewer_run
+    // Copies, because the worker may outlive viewer_run. Played keys and frames are removed.
+    ViewerSettings settings;
     Cache cache;
     Window window;
     Views views;
@@ -29,12 +28,14 @@ typedef struct {
     StateScene scene;
     State state;
     ARRAY(char *) dropped; // paths; owned, because the worker may still read any of these files
-    Reload reload;
+    Watch scene_files, kernel_files;
+    double polled;            // time of the latest check of these files
     bool is_failure_followed; // the scene's folder is watched, too, because a read failed
-    Script script;
     Saver saver;
     bool wants_save;
     FrameTimes frame_times;
+    uint64_t explained;    // request.explains of the displayed explanation; 0 for none
+    double hint_end;       // time at which the hint at the help disappears; 0 without a hint
     double advanced;       // time up to which the camera has turned automatically
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
@@ -49,6 +50,10 @@ bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
+
+// Watches the files of the model, or the scene's path without a model. Watches the path's folder,
+// too, if the latest read failed, because a file may be missing.
+bool viewer_watch_files(Viewer *viewer, Error *error);
 
 // Switches to a file that was dropped on the window, if any.
 bool viewer_take_drop(Viewer *viewer, Error *error);
@@ -65,10 +70,11 @@ bool viewer_recover(Viewer *viewer, Error *error);
 // Returns whether the effects of all keys played so far are complete.
 bool viewer_is_settled(const Viewer *viewer);
 
+// Returns whether keys remain to be played.
+bool viewer_has_keys(const Viewer *viewer);
+
 // Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
-// viewer_save starts to save the latest picture if a save is requested and the picture is complete.
-// viewer_follow_saver reports the written files.
+// Requests to save the latest picture if the user wants that and the picture is complete.
 void viewer_save(Viewer *viewer);
-void viewer_follow_saver(Viewer *viewer);

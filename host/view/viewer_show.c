@@ -6,12 +6,21 @@
 
 #include <string.h>
 
+// Returns whether the worker has explained the clicked pixel.
+static bool is_explained(const Viewer *viewer)
+{
+    return viewer->explained > 0 && viewer->status.done.explains == viewer->explained;
+}
+
 static Figures figures_of(const Viewer *viewer)
 {
     const WorkerStatus *status = &viewer->status;
     const uint64_t *tallies = status->tallies;
     const char *slash = strrchr(viewer->settings.scene_path, '/');
+    const char *missing = scene_missing(&viewer->model->scene).text;
+    const UpAxis up = viewer->model->scene.mesh_up;
     Figures figures = {.scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
+                       .up = up == UP_AUTO ? NULL : up_axis_names[up],
                        .width = viewer->request.width,
                        .height = viewer->request.height,
                        .samples = viewer->settings.samples,
@@ -25,6 +34,9 @@ static Figures figures_of(const Viewer *viewer)
                        .box_count = viewer->views.boxes.count,
                        .busy = status->busy,
                        .notice = viewer->notice,
+                       .missing = missing == NULL ? "" : missing,
+                       .hint = viewer->hint_end > 0 ? "h for help" : "",
+                       .explanation = is_explained(viewer) ? status->explanation : "",
                        .failure = status->scene_failure.text};
     if (figures.rays > 0)
         figures.tests_per_ray = (double)tallies[TALLY_TRIANGLE_TESTS] / (double)figures.rays;
@@ -41,7 +53,8 @@ bool viewer_is_settled(const Viewer *viewer)
     const bool still = worker_is_finished(status, &viewer->request) &&
                        (!viewer->state.traced || status->reached.is_counted);
     return viewer->model != NULL && status->has_tree && status->busy[0] == '\0' &&
-           !viewer->wants_save && !viewer->saver.is_running && (viewer->state.turning || still);
+           !viewer->wants_save && status->done.saves == viewer->request.saves &&
+           (viewer->state.turning || still);
 }
 
 static Frame frame_of(Viewer *viewer)
@@ -59,47 +72,47 @@ static Frame frame_of(Viewer *viewer)
 
 static void draw_text(Viewer *viewer, const Figures *figures)
 {
-    char text[STATUS_TEXT_SIZE];
-    if (!viewer->state.text && !viewer->state.help)
-        return;
-    status_text_overlay(text, sizeof text, &viewer->state, figures);
-    text_view_draw(&viewer->views.text, text, viewer->request.width, viewer->request.height,
-                   window_text_scale(&viewer->window));
+    char line[STATUS_TEXT_SIZE] = "", panel[STATUS_TEXT_SIZE];
+    const TextOverlay overlay = {.line = line,
+                                 .panel = panel,
+                                 .width = viewer->request.width,
+                                 .height = viewer->request.height,
+                                 .density = window_density(&viewer->window)};
+    if (viewer->state.text)
+        status_text_line(line, sizeof line, &viewer->state, figures);
+    status_text_panel(panel, sizeof panel, &viewer->state, figures);
+    text_view_draw(&viewer->views.text, &overlay);
+}
+
+// Copies the text to shown. Returns whether they were different.
+static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
+{
+    const bool differs = strcmp(text, shown) != 0;
+    memcpy(shown, text, STATE_SIZE);
+    return differs;
 }
 
 static void update_title(Viewer *viewer, const Figures *figures)
 {
-    char text[STATE_SIZE];
+    char text[STATE_SIZE] = "";
     status_text_title(text, sizeof text, &viewer->state, figures);
-    if (strcmp(text, viewer->title) == 0)
-        return;
-    window_set_title(&viewer->window, text);
-    memcpy(viewer->title, text, sizeof text);
+    if (is_news(viewer->title, text))
+        window_set_title(&viewer->window, text);
 }
 
-// With -v, prints a changed state to standard error once nothing moves.
-static void print_state(Viewer *viewer, const Figures *figures)
+// Prints a new failure once, and with -v a changed state once nothing moves. The window continues
+// to display both.
+static void print_news(Viewer *viewer, const Figures *figures)
 {
-    char text[STATE_SIZE];
-    if (!viewer->settings.verbose || viewer->state.turning || !viewer_is_settled(viewer))
-        return;
-    status_text_state(text, sizeof text, &viewer->state, figures);
-    if (strcmp(text, viewer->printed_state) == 0)
-        return;
-    fprintf(stderr, "%s\n", text);
-    memcpy(viewer->printed_state, text, sizeof text);
-}
-
-// Prints a new failure once. The overlay continues to display it.
-static void print_failure(Viewer *viewer, const Figures *figures)
-{
-    char text[STATE_SIZE];
+    char text[STATE_SIZE] = "";
+    if (viewer->settings.verbose && !viewer->state.turning && viewer_is_settled(viewer)) {
+        status_text_state(text, sizeof text, &viewer->state, figures);
+        if (is_news(viewer->printed_state, text))
+            fprintf(stderr, "%s\n", text);
+    }
     snprintf(text, sizeof text, "%s", figures->failure);
-    if (strcmp(text, viewer->printed_failure) == 0)
-        return;
-    if (text[0] != '\0')
+    if (is_news(viewer->printed_failure, text) && text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", text);
-    memcpy(viewer->printed_failure, text, sizeof text);
 }
 
 // Returns false if the camera turns and the traced picture is still the previous one. Such frames
@@ -115,10 +128,11 @@ static void count_frame(Viewer *viewer, bool was_settled)
     const bool is_new = is_new_frame(viewer);
     viewer->moving_shown = viewer->status.moving_frames;
     if (!viewer->state.turning)
-        frame_times_pause(&viewer->frame_times);
+        viewer->frame_times.latest = 0;
     else if (is_new)
         frame_times_add(&viewer->frame_times, clock_seconds(), &viewer->failure);
-    if (was_settled && is_new && script_count_frame(&viewer->script))
+    uint32_t *left = &viewer->settings.quit_after;
+    if (was_settled && is_new && !viewer_has_keys(viewer) && *left > 0 && --*left == 0)
         viewer->quits = true;
 }
 
@@ -135,60 +149,24 @@ bool viewer_draw(Viewer *viewer, Error *error)
     draw_text(viewer, &figures);
     update_title(viewer, &figures);
     window_show(&viewer->window);
-    print_state(viewer, &figures);
-    print_failure(viewer, &figures);
+    print_news(viewer, &figures);
     count_frame(viewer, was_settled);
-    return true;
-}
-
-// Copies the latest traced picture, or the displayed picture if none is traced.
-static bool copy_traced(Viewer *viewer, Framebuffer *copy, Error *error)
-{
-    pthread_mutex_lock(&viewer->canvas.mutex);
-    const Layer *layer = canvas_whole(&viewer->canvas);
-    const Framebuffer *whole = layer == NULL ? &viewer->saver.shown : &layer->framebuffer;
-    const bool ok = framebuffer_make(copy, whole->width, whole->height, error);
-    if (ok)
-        memcpy(copy->pixels, whole->pixels,
-               (size_t)whole->width * whole->height * sizeof *whole->pixels);
-    pthread_mutex_unlock(&viewer->canvas.mutex);
-    return ok;
-}
-
-static bool copy_shown(Framebuffer *copy, const Framebuffer *shown, Error *error)
-{
-    if (!framebuffer_make(copy, shown->width, shown->height, error))
-        return false;
-    memcpy(copy->pixels, shown->pixels,
-           (size_t)shown->width * shown->height * sizeof *shown->pixels);
     return true;
 }
 
 void viewer_save(Viewer *viewer)
 {
     Saver *saver = &viewer->saver;
-    Error *error = &viewer->failure;
-    if (!viewer->wants_save || viewer->is_dirty || saver->is_running ||
-        !worker_is_finished(&viewer->status, &viewer->request))
+    WorkerRequest *request = &viewer->request;
+    if (!viewer->wants_save || viewer->is_dirty || !worker_is_finished(&viewer->status, request))
         return;
     const Figures figures = figures_of(viewer);
     viewer->wants_save = false;
-    saver->scene_path = viewer->settings.scene_path;
-    status_text_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
-    const bool ok = target_read(&viewer->views.target, &saver->shown, error) &&
-                    (viewer->state.traced ? copy_traced(viewer, &saver->traced, error)
-                                          : copy_shown(&saver->traced, &saver->shown, error));
-    if (!ok || !saver_start(saver, window_wake, error))
-        saver_finish(saver);
-}
-
-void viewer_follow_saver(Viewer *viewer)
-{
-    if (!saver_is_done(&viewer->saver))
+    if (!target_read(&viewer->views.target, &saver->shown, &viewer->failure))
         return;
-    viewer->is_dirty = true;
-    viewer->failure = viewer->saver.error;
-    snprintf(viewer->notice, sizeof viewer->notice, "%s", viewer->saver.notice);
-    if (viewer->settings.verbose && viewer->notice[0] != '\0')
-        fprintf(stderr, "%s\n", viewer->notice);
+    status_text_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
+    saver->scene_path = viewer->settings.scene_path;
+    request->saver = saver;
+    request->saves++;
+    worker_request(viewer->worker, request);
 }

@@ -8,7 +8,7 @@
 
 static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 
-bool views_open(Views *views, Error *error)
+bool views_open(Views *views, Error *no_font, Error *error)
 {
     *views = (Views){0};
     target_open(&views->target);
@@ -16,7 +16,7 @@ bool views_open(Views *views, Error *error)
            sphere_view_open(&views->spheres, error) &&
            line_view_open(&views->boxes, false, error) &&
            line_view_open(&views->normals, true, error) && ray_view_open(&views->rays, error) &&
-           text_view_open(&views->text, error);
+           text_view_open(&views->text, no_font, error);
 }
 
 void views_close(Views *views)

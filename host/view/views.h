@@ -33,8 +33,8 @@ typedef struct {
 } Frame;
 
 // Makes the objects that need no model, in the current OpenGL context. The caller closes the views,
-// even after a failure.
-bool views_open(Views *views, Error *error);
+// even after a failure. A missing font is no failure, but no_font receives the reason.
+bool views_open(Views *views, Error *no_font, Error *error);
 void views_close(Views *views);
 
 // Copies another model into the OpenGL objects.

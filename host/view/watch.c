@@ -41,13 +41,7 @@ static uint64_t stamp_of_path(const char *path)
     return S_ISDIR(status.st_mode) ? stamp_of_folder(path) : stamp_of_status(&status);
 }
 
-void watch_begin(Watch *watch)
-{
-    for (size_t i = 0; i < watch->files.count; i++)
-        watch->files.data[i].is_stale = true;
-}
-
-static Watched *find_file(Watch *watch, const char *path)
+static const Watched *find_file(const Watch *watch, const char *path)
 {
     for (size_t i = 0; i < watch->files.count; i++)
         if (strcmp(watch->files.data[i].path, path) == 0)
@@ -55,15 +49,12 @@ static Watched *find_file(Watch *watch, const char *path)
     return NULL;
 }
 
-bool watch_add(Watch *watch, const char *path, Error *error)
+static bool add_file(Watch *watch, const char *path, const Watch *before, Error *error)
 {
-    Watched *known = find_file(watch, path);
-    if (known != NULL) {
-        known->is_stale = false;
-        return true;
-    }
+    const Watched *known = find_file(before, path);
     const size_t size = strlen(path) + 1;
-    const Watched file = {.path = memory_raw(size, 1, error), .accepted = stamp_of_path(path)};
+    const Watched file = {.path = memory_raw(size, 1, error),
+                          .accepted = known != NULL ? known->accepted : stamp_of_path(path)};
     if (file.path == NULL || !array_push(&watch->files, file, error)) {
         free(file.path);
         return false;
@@ -72,16 +63,15 @@ bool watch_add(Watch *watch, const char *path, Error *error)
     return true;
 }
 
-void watch_end(Watch *watch)
+bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error)
 {
-    size_t kept = 0;
-    for (size_t i = 0; i < watch->files.count; i++) {
-        if (watch->files.data[i].is_stale)
-            free(watch->files.data[i].path);
-        else
-            watch->files.data[kept++] = watch->files.data[i];
-    }
-    watch->files.count = kept;
+    Watch before = *watch;
+    bool ok = true;
+    *watch = (Watch){.seen = before.seen};
+    for (size_t i = 0; ok && i < count; i++)
+        ok = add_file(watch, paths[i], &before, error);
+    watch_free(&before);
+    return ok;
 }
 
 bool watch_poll(Watch *watch)
@@ -106,8 +96,8 @@ bool watch_poll(Watch *watch)
 
 void watch_free(Watch *watch)
 {
-    watch_begin(watch);
-    watch_end(watch);
+    for (size_t i = 0; i < watch->files.count; i++)
+        free(watch->files.data[i].path);
     free(watch->files.memory);
     *watch = (Watch){0};
 }

@@ -7,21 +7,28 @@
 
 #include <GLFW/glfw3.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// The distance in screen coordinates within which a press and a release are a click.
+#define CLICK_DISTANCE 3
 
 typedef struct {
     int major, minor, profile;
 } Version;
 
-bool window_connect(Error *error)
+static bool fail(const char *failure, Error *error)
 {
     const char *reason = NULL;
-    if (glfwInit())
-        return true;
     glfwGetError(&reason);
-    return error_set(error, "no window can be opened (%s): write the picture with -o FILE",
+    return error_set(error, "%s can be opened (%s): write the picture with -o FILE", failure,
                      reason != NULL ? reason : "GLFW does not say why");
+}
+
+bool window_connect(Error *error)
+{
+    return glfwInit() || fail("no window", error);
 }
 
 void window_disconnect(void)
@@ -43,30 +50,67 @@ static void take_character(GLFWwindow *handle, unsigned character)
         add_event(handle, (Event){.kind = EVENT_KEY, .key = (int)character});
 }
 
-static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
+// Returns the key of a state, or 0. Ctrl with a letter is no character, so it is found by name.
+static int find_key(int key, int code, int modifiers)
 {
-    static const int keys[][2] = {{GLFW_KEY_ESCAPE, KEY_ESCAPE},
-                                  {GLFW_KEY_LEFT, KEY_LEFT},
-                                  {GLFW_KEY_RIGHT, KEY_RIGHT},
-                                  {GLFW_KEY_UP, KEY_UP},
-                                  {GLFW_KEY_DOWN, KEY_DOWN}};
-    (void)code, (void)modifiers;
+    static const int keys[][2] = {{GLFW_KEY_ESCAPE, KEY_ESCAPE},   {GLFW_KEY_LEFT, KEY_LEFT},
+                                  {GLFW_KEY_RIGHT, KEY_RIGHT},     {GLFW_KEY_UP, KEY_UP},
+                                  {GLFW_KEY_DOWN, KEY_DOWN},       {GLFW_KEY_F1, 'h'},
+                                  {GLFW_KEY_F11, KEY_FULL_SCREEN}, {GLFW_KEY_F12, 's'}};
+    const char *name = modifiers & GLFW_MOD_CONTROL ? glfwGetKeyName(key, code) : NULL;
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (keys[i][0] == key && action != GLFW_RELEASE)
-            add_event(handle, (Event){.kind = EVENT_KEY, .key = keys[i][1]});
+        if (keys[i][0] == key)
+            return keys[i][1];
+    return name != NULL && (name[0] == 's' || name[0] == 'q') ? name[0] : 0;
 }
 
-// Stores the effect of a drag with the pressed buttons and keys. Returns false if no button is
-// pressed.
+// Only arrows repeat while they are held, because other keys switch something.
+static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
+{
+    const int found = find_key(key, code, modifiers);
+    const bool is_arrow = found >= KEY_LEFT && found <= KEY_DOWN;
+    if (found != 0 && (action == GLFW_PRESS || (action == GLFW_REPEAT && is_arrow)))
+        add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
+}
+
+// Stores the effect of a drag with the buttons and the keys pressed at its start, as in F3D: left
+// turns, middle or Shift pans and right zooms. Ctrl with the middle button zooms as in Blender.
+// Returns false if no button is pressed.
 static bool find_drag(GLFWwindow *handle, EventKind *kind)
 {
     const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
     const bool middle = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
     const bool right = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    const bool shift = glfwGetKey(handle, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
-                       glfwGetKey(handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
-    *kind = middle || (left && shift) ? EVENT_PAN : left ? EVENT_TURN : EVENT_ZOOM;
+    const Window *window = glfwGetWindowUserPointer(handle);
+    const bool shift = window->modifiers & GLFW_MOD_SHIFT;
+    const bool control = window->modifiers & GLFW_MOD_CONTROL;
+    *kind = middle && control           ? EVENT_ZOOM
+            : middle || (left && shift) ? EVENT_PAN
+            : left                      ? EVENT_TURN
+                                        : EVENT_ZOOM;
     return left || middle || right;
+}
+
+// Adds a click at the pointer, in pixels.
+static void add_click(GLFWwindow *handle)
+{
+    const Window *window = glfwGetWindowUserPointer(handle);
+    int width, height, pixel_width, pixel_height;
+    glfwGetWindowSize(handle, &width, &height);
+    glfwGetFramebufferSize(handle, &pixel_width, &pixel_height);
+    add_event(handle, (Event){.kind = EVENT_CLICK,
+                              .right = floor(window->mouse_x * pixel_width / fmax(width, 1)),
+                              .down = floor(window->mouse_y * pixel_height / fmax(height, 1))});
+}
+
+// The pointer's position is that of the latest motion, because GLFW's may be ahead of the events.
+static void take_button(GLFWwindow *handle, int button, int action, int modifiers)
+{
+    Window *window = glfwGetWindowUserPointer(handle);
+    if (action == GLFW_RELEASE && window->may_click)
+        add_click(handle);
+    window->modifiers = modifiers;
+    window->may_click = action == GLFW_PRESS && button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0;
 }
 
 static void take_motion(GLFWwindow *handle, double x, double y)
@@ -74,6 +118,9 @@ static void take_motion(GLFWwindow *handle, double x, double y)
     EventKind kind;
     Window *window = glfwGetWindowUserPointer(handle);
     const double right = x - window->mouse_x, down = y - window->mouse_y;
+    if (window->may_click && fmax(fabs(right), fabs(down)) <= CLICK_DISTANCE)
+        return;
+    window->may_click = false;
     window->mouse_x = x;
     window->mouse_y = y;
     if (find_drag(handle, &kind))
@@ -113,6 +160,7 @@ static void listen(Window *window)
     glfwSetWindowUserPointer(window->handle, window);
     glfwSetCharCallback(window->handle, take_character);
     glfwSetKeyCallback(window->handle, take_key);
+    glfwSetMouseButtonCallback(window->handle, take_button);
     glfwSetCursorPosCallback(window->handle, take_motion);
     glfwSetScrollCallback(window->handle, take_scroll);
     glfwSetDropCallback(window->handle, take_drop);
@@ -150,6 +198,7 @@ static GLFWwindow *create(const Version *version, const char *title, uint32_t wi
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
     return glfwCreateWindow((int)width, (int)height, title, NULL, NULL);
 }
 
@@ -157,18 +206,12 @@ bool window_open(Window *window, const char *title, uint32_t width, uint32_t hei
 {
     static const Version versions[] = {{3, 3, GLFW_OPENGL_CORE_PROFILE},
                                        {3, 1, GLFW_OPENGL_ANY_PROFILE}};
-    const char *reason = NULL;
     *window = (Window){.is_touched = true};
     fit_screen(&width, &height);
     for (size_t i = 0; i < sizeof versions / sizeof versions[0] && window->handle == NULL; i++)
         window->handle = create(&versions[i], title, width, height);
-    if (window->handle == NULL) {
-        glfwGetError(&reason);
-        return error_set(error,
-                         "no window with OpenGL 3.1 can be opened (%s): write the picture "
-                         "with -o FILE",
-                         reason != NULL ? reason : "GLFW does not say why");
-    }
+    if (window->handle == NULL)
+        return fail("no window with OpenGL 3.1", error);
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(1);
     listen(window);
@@ -224,11 +267,29 @@ void window_measure(const Window *window, uint32_t *width, uint32_t *height)
     *height = is_minimised ? 0 : (uint32_t)pixels[1];
 }
 
-uint32_t window_text_scale(const Window *window)
+float window_density(const Window *window)
 {
     float across, down;
     glfwGetWindowContentScale(window->handle, &across, &down);
-    return across > 1.5f ? (uint32_t)(across + 0.5f) : 1;
+    return fmaxf(across, 1);
+}
+
+void window_set_full_screen(Window *window, bool is_full_screen)
+{
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    int *place = window->place;
+    if (window->is_full_screen == is_full_screen || monitor == NULL)
+        return;
+    window->is_full_screen = is_full_screen;
+    if (is_full_screen) {
+        const GLFWvidmode *mode = glfwGetVideoMode(monitor);
+        glfwGetWindowPos(window->handle, &place[0], &place[1]);
+        glfwGetWindowSize(window->handle, &place[2], &place[3]);
+        glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height,
+                             mode->refreshRate);
+    } else {
+        glfwSetWindowMonitor(window->handle, NULL, place[0], place[1], place[2], place[3], 0);
+    }
 }
 
 void window_set_title(Window *window, const char *title)

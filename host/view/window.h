@@ -13,7 +13,11 @@ typedef struct {
     int event_count;
     char *dropped;           // path of a file, or NULL; owned
     double mouse_x, mouse_y; // pointer position at the latest event
+    int modifiers;           // GLFW's bits of the keys pressed with the latest button
+    bool may_click;          // the left button is pressed, and the pointer has hardly moved
     bool is_touched;         // the window must be drawn again
+    bool is_full_screen;
+    int place[4]; // position and size outside full screen
 } Window;
 
 // Connects to the display. On failure, the message suggests -o FILE.
@@ -40,8 +44,11 @@ char *window_take_drop(Window *window);
 // Stores the window's size in pixels, or zeros while the window is minimized.
 void window_measure(const Window *window, uint32_t *width, uint32_t *height);
 
-// Returns how many pixels wide a dot of the font must be for legible text.
-uint32_t window_text_scale(const Window *window);
+// Returns the screen's density in pixels per 1/96 inch, at least 1.
+float window_density(const Window *window);
+
+// Switches to full screen on the primary monitor, or back.
+void window_set_full_screen(Window *window, bool is_full_screen);
 
 void window_set_title(Window *window, const char *title);
 void window_show(Window *window); // displays the drawn frame

@@ -25,6 +25,10 @@ static bool choose_job(Worker *worker, Job *job)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
     *job = (Job){.kind = JOB_STOP, .request = *request};
+    if (request->saves != done->saves) {
+        job->kind = JOB_SAVE;
+        return true;
+    }
     if (worker->stops)
         return true;
     if (request->loads != done->loads) {
@@ -33,6 +37,10 @@ static bool choose_job(Worker *worker, Job *job)
     }
     if (request->uses_bvh != done->uses_bvh || request->renewals != done->renewals) {
         job->kind = JOB_TAKE;
+        return true;
+    }
+    if (request->explains != done->explains) {
+        job->kind = JOB_EXPLAIN;
         return true;
     }
     job->pass = next_pass(worker);
@@ -68,6 +76,12 @@ static void *work(void *context)
             break;
         case JOB_TAKE:
             jobs_take(worker, &job);
+            break;
+        case JOB_EXPLAIN:
+            jobs_explain(worker, &job);
+            break;
+        case JOB_SAVE:
+            jobs_save(worker, &job);
             break;
         case JOB_ENCODE:
             jobs_encode(worker, &job);
@@ -142,7 +156,8 @@ bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request
 {
     const WorkerRequest *done = &status->done;
     const bool is_read = done->loads == request->loads && done->renewals == request->renewals &&
-                         done->uses_bvh == request->uses_bvh;
+                         done->uses_bvh == request->uses_bvh &&
+                         done->explains == request->explains && done->saves == request->saves;
     const PlanReached *reached = &status->reached;
     const bool is_traced = reached->subject == request->subject && reached->divisor == 1 &&
                            reached->samples == request->samples && done->gain == request->gain;

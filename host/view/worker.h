@@ -5,6 +5,7 @@
 #pragma once
 
 #include "view/draw/canvas.h"
+#include "view/saver.h"
 #include "view/tracer.h"
 
 // A request from the window to the worker thread.
@@ -20,9 +21,15 @@ typedef struct {
     double gain;
     uint64_t loads;    // number of requested scene reads, including the first
     uint64_t renewals; // number of requested kernel builds after the first
+    uint64_t explains; // number of requested explanations
+    uint32_t pixel[2]; // the pixel to explain
+    uint64_t saves;    // number of requested saves of the latest picture
+    Saver *saver;      // belongs to the worker until the save is done
 } WorkerRequest;
 
 typedef enum { FAULT_NONE, FAULT_SCENE, FAULT_DEVICE } WorkerFault;
+
+#define EXPLANATION_SIZE 4096
 
 // The worker's status.
 typedef struct {
@@ -35,11 +42,12 @@ typedef struct {
     const char *busy;    // the current operation; empty while tracing or idle
     WorkerRequest done;  // the request values whose work is complete
     PlanReached reached;
-    double progress;               // finished fraction of the current pass
-    double frame_seconds;          // duration of the latest pass
-    uint64_t moving_frames;        // number of pictures traced while the camera moved
-    uint64_t moving_coarse;        // number of moving_frames at reduced resolution
-    uint64_t tallies[TALLY_KINDS]; // valid if reached.is_counted
+    double progress;                    // finished fraction of the current pass
+    double frame_seconds;               // duration of the latest pass
+    uint64_t moving_frames;             // number of pictures traced while the camera moved
+    uint64_t moving_coarse;             // number of moving_frames at reduced resolution
+    uint64_t tallies[TALLY_KINDS];      // valid if reached.is_counted
+    char explanation[EXPLANATION_SIZE]; // of the latest pixel, or why there is none
 } WorkerStatus;
 
 typedef struct Worker Worker;
@@ -63,6 +71,6 @@ Model *worker_model(Worker *worker);
 // Returns whether the request is fulfilled: nothing is left to read or trace.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
-// Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop
-// frees nothing and returns false. The process must then end.
+// Stops and frees the worker, after a requested save. If the worker does not stop within this many
+// seconds, worker_stop frees nothing and returns false. The process must then end.
 bool worker_stop(Worker *worker, double seconds);

@@ -20,7 +20,7 @@ struct Worker {
     double woken;
 };
 
-typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_ENCODE, JOB_PASS } JobKind;
+typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_EXPLAIN, JOB_SAVE, JOB_ENCODE, JOB_PASS } JobKind;
 
 typedef struct {
     JobKind kind;
@@ -33,5 +33,7 @@ typedef struct {
 bool jobs_begin(Worker *worker);
 void jobs_load(Worker *worker, const Job *job);
 void jobs_take(Worker *worker, const Job *job);
+void jobs_explain(Worker *worker, const Job *job);
+void jobs_save(Worker *worker, const Job *job);
 void jobs_encode(Worker *worker, const Job *job);
 void jobs_trace(Worker *worker, const Job *job);

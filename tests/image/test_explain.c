@@ -19,10 +19,11 @@ static uint32_t random_below(uint32_t *state, uint32_t bound)
     return (*state >> 8) % bound;
 }
 
-static void trace(Explainer *explainer, uint32_t column, uint32_t row, ExplainedSample *sample)
+static void trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
+                  ExplainedSample *sample)
 {
     Error error = {0};
-    if (!explainer_trace(explainer, column, row, sample, &error))
+    if (!explainer_trace(explainer, pixel, index, sample, &error))
         fail_msg("%s", error.text);
 }
 
@@ -84,17 +85,14 @@ static void check_pixels(Explainer *explainer, const Framebuffer *picture, void 
     (void)context;
     for (int i = 0; i < PIXELS; i++) {
         float color[3];
-        uint64_t sums[3] = {0};
         const uint32_t x = random_below(&state, picture->width);
         const uint32_t y = random_below(&state, picture->height);
         for (uint32_t place = 0; place < side * side; place++) {
             ExplainedSample sample;
-            trace(explainer, x * side + place % side, y * side + place / side, &sample);
+            trace(explainer, (uint32_t[]){x, y}, place, &sample);
             check_sample(explainer, &sample);
-            for (int axis = 0; axis < 3; axis++)
-                sums[axis] += (uint64_t)sample.steps[axis];
         }
-        explainer_mix(explainer, sums, color);
+        explainer_mix(explainer, color);
         assert_memory_equal(color, picture->pixels[(size_t)y * picture->width + x], sizeof color);
     }
 }
@@ -174,7 +172,7 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
     for (uint32_t y = 0; y < picture->height; y += 3)
         for (uint32_t x = 0; x < picture->width; x += 3) {
             ExplainedSample sample;
-            trace(explainer, x, y, &sample);
+            trace(explainer, (uint32_t[]){x, y}, 0, &sample);
             const OraclePath path = oracle_follow(&view, sample.rays[0].direction);
             judge_distance(bounds, explainer, &sample.rays[0], &path);
         }

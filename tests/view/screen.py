@@ -2,6 +2,7 @@
 """A private display for tests, its contents, and clrt's window on it, controlled by real events."""
 
 import array
+import ctypes
 import mmap
 import os
 import pathlib
@@ -60,6 +61,19 @@ class Screen:
         byte."""
         rows = (self.start + row * self.stride for row in range(height))
         return b"".join(self.memory[row:row + 4 * width] for row in rows)
+
+    def set_density(self, density):
+        """Sets the density that windows opened later find, in multiples of 96 pixels per inch."""
+        x = ctypes.CDLL("libX11.so.6")
+        x.XOpenDisplay.restype = ctypes.c_void_p
+        x.XDefaultRootWindow.restype = ctypes.c_ulong
+        display = ctypes.c_void_p(x.XOpenDisplay(self.name.encode()))
+        text = f"Xft.dpi:\t{96 * density}\n".encode()
+        resource_manager, string = 23, 31  # predefined atoms
+        x.XChangeProperty(display, ctypes.c_ulong(x.XDefaultRootWindow(display)),
+                          ctypes.c_ulong(resource_manager), ctypes.c_ulong(string), 8, 0, text,
+                          len(text))
+        x.XCloseDisplay(display)
 
     def do(self, *words):
         subprocess.run(["xdotool", *map(str, words)], env=self.environment(), check=True,
@@ -120,10 +134,11 @@ class Window:
         self.screen.do("key", key)
         return self.wait(*parts) if parts else None
 
-    def drag(self, button, right, down):
+    def drag(self, button, right, down, key=None):
         x, y = self.size[0] // 2, self.size[1] // 2
-        self.screen.do("mousemove", x, y, "mousedown", button, "mousemove", x + right, y + down,
-                       "mouseup", button)
+        before, after = (["keydown", key], ["keyup", key]) if key else ([], [])
+        self.screen.do("mousemove", x, y, *before, "mousedown", button, "mousemove", x + right,
+                       y + down, "mouseup", button, *after)
 
     def read(self):
         """Returns the window's content once it no longer changes."""
@@ -161,12 +176,11 @@ def render(scene, *options, size=(320, 240)):
         return planes_of_pfm(pathlib.Path(path).read_bytes(), size)
 
 
-def opened(screen, scene):
+def opened(screen, scene, *options, **more):
     """Returns a window that shows the ray-traced scene without text."""
-    window = Window(screen, scene)
-    window.wait("OpenGL, view 1")
+    window = Window(screen, scene, *options, **more)
+    window.wait("ray traced, view 1", "text on")
     window.press("t", "text off")
-    window.press("r", "ray traced")
     return window
 
 

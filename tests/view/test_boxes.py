@@ -9,7 +9,7 @@ import pathlib
 import subprocess
 import tempfile
 
-from screen import COURSE, ROOT, Screen, Window, is_blue, is_red, planes_of, run_tests
+from screen import COURSE, ROOT, Screen, Window, is_blue, is_red, opened, planes_of, run_tests
 
 SIDE = 4  # clusters along a side of the scene
 
@@ -92,9 +92,7 @@ def as_many_boxes_are_seen_as_are_told(screen):
         scene = write_clusters(pathlib.Path(folder))
         for options in ([], ["--bvh", "midpoint"]):
             tree = statistics(scene, *options)
-            window = Window(screen, scene, *options, size=size)
-            window.wait("OpenGL, view 1")
-            window.press("t", "text off")
+            window = opened(screen, scene, *options, size=size)
             window.press("B", f"boxes of leaves: {tree['leaves']},")
             seen = count_shapes(window.read(), size, is_blue)
             assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"

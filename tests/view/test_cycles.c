@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Opens and closes the viewer repeatedly in one process. Its memory, files and threads must not
-// grow. In builds with AddressSanitizer, no byte may leak.
+// Opens and closes the viewer repeatedly in one process, also without fonts. Its memory, files and
+// threads must not grow. In builds with AddressSanitizer, no byte may leak.
+#include "base/file.h"
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
 #include "view/viewer.h"
@@ -9,6 +10,7 @@
 #include <dirent.h>
 #include <malloc.h>
 #include <stdio.h>
+#include <string.h>
 
 #ifdef __SANITIZE_ADDRESS__
 #define CYCLES 200
@@ -68,6 +70,27 @@ bool __wrap_window_open(Window *window, const char *title, uint32_t width, uint3
     return __real_window_open(window, title, width, height, error);
 }
 
+static int fonts_missed = -1; // number of fonts that were not found; negative: fonts are found
+bool __real_file_read(File *file, const char *path, Error *error);
+bool __wrap_file_read(File *file, const char *path, Error *error);
+
+bool __wrap_file_read(File *file, const char *path, Error *error)
+{
+    if (fonts_missed < 0 || strncmp(path, "/usr/share/fonts/", 17) != 0)
+        return __real_file_read(file, path, error);
+    fonts_missed++;
+    return error_set(error, "the test hides all fonts");
+}
+
+static void a_window_without_a_font_shows_pictures(void **state)
+{
+    (void)state;
+    fonts_missed = 0;
+    show_once("hrR");
+    assert_true(fonts_missed > 1);
+    fonts_missed = -1;
+}
+
 static void a_lost_context_is_made_anew(void **state)
 {
     (void)state;
@@ -122,6 +145,7 @@ static void many_windows_leave_nothing_behind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_window_without_a_font_shows_pictures),
         cmocka_unit_test(a_lost_context_is_made_anew),
         cmocka_unit_test(many_windows_leave_nothing_behind),
     };

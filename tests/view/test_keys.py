@@ -8,189 +8,201 @@ import pathlib
 import subprocess
 import tempfile
 
-from screen import ROOT, Screen, Window, count_pixels, is_blue, is_red, run_tests
+from screen import ROOT, Screen, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
 
 SCENE = ROOT / "scenes" / "reflections.scn"
 
 
-def opened(screen, *options, **more):
-    """Returns a window without text over its picture."""
-    window = Window(screen, SCENE, *options, **more)
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    return window
+def in_both_views(test):
+    """Runs the test with a window without text, first in the ray-traced and then in the OpenGL
+    view. The test must leave the state as it was."""
+    def run(screen):
+        window = opened(screen, SCENE)
+        for mode in ("ray traced", "OpenGL"):
+            test(window, mode)
+            window.press("r", "view 1, AA off, BVH on, help")
+        window.close()
+    run.__name__ = test.__name__
+    return run
 
 
-def r_switches_between_opengl_and_rays(screen):
-    window = opened(screen)
-    drawn = window.read()
-    window.press("r", "ray traced, view 1")
+def it_opens_with_rays_and_r_switches_to_opengl(screen):
+    window = opened(screen, SCENE)
     traced = window.read()
-    assert traced != drawn, "both views look the same"
     window.press("r", "OpenGL, view 1")
-    window.until(lambda shown: shown == drawn, "shows the OpenGL view again")
+    assert window.read() != traced, "both views look the same"
+    window.press("r", "ray traced, view 1")
+    window.until(lambda shown: shown == traced, "shows the rays again")
     window.close()
 
 
-def a_smooths_the_edges_of_both_views(screen):
-    window = opened(screen)
-    for view in ("OpenGL", "ray traced"):
-        rough = window.read()
-        window.press("a", view, "AA 2x2")
-        smooth = window.read()
-        apart = sum(one != other for one, other in zip(*map(lambda shown: shown[1::4],
-                                                            (rough, smooth))))
-        assert 200 < apart < 20000, f"{apart} pixels of the {view} view changed"
-        window.press("a", view, "AA off")
-        window.until(lambda shown: shown == rough, "goes back")
-        window.press("r")
-        window.wait("AA off")
-    window.close()
+@in_both_views
+def a_smooths_the_edges(window, mode):
+    rough = window.read()
+    window.press("a", mode, "AA 2x2")
+    apart = sum(one != other for one, other in zip(window.read()[1::4], rough[1::4]))
+    assert 200 < apart < 20000, f"{apart} pixels of the {mode} view changed"
+    window.press("a", mode, "AA off")
+    window.until(lambda shown: shown == rough, "goes back")
 
 
-def digits_choose_the_scenes_cameras(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
-        shown = set()
-        for view in "234561":
-            window.press(view, mode, f"view {view},")
-            shown.add(window.read())
-        assert len(shown) == 6, f"{len(shown)} different pictures of six cameras"
-        window.press("r")
-        window.wait("view 1")
-    window.close()
+@in_both_views
+def digits_choose_the_scenes_cameras(window, mode):
+    shown = set()
+    for view in "234561":
+        window.press(view, mode, f"view {view},")
+        shown.add(window.read())
+    assert len(shown) == 6, f"{len(shown)} different pictures of six cameras"
 
 
 def b_turns_the_tree_off_and_draws_the_same_picture(screen):
-    window = opened(screen)
-    window.press("r", "ray traced", "BVH on")
+    window = opened(screen, SCENE)
     before = window.read()
     window.press("b", "BVH off")
     assert window.read() == before, "brute force draws another picture"
-    window.press("b", "BVH on")
     window.close()
 
 
-def boxes_are_blue_at_the_leaves_and_red_above(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
-        plain = window.read()
-        window.press("B", mode, "boxes of leaves: ")
-        shown = window.read()
-        assert count_pixels(shown, is_blue) > 200 and count_pixels(shown, is_red) == 0, "leaves"
-        window.press("bracketright", "boxes at level 1: 1")
-        root = window.read()
-        assert count_pixels(root, is_red) > 200 and count_pixels(root, is_blue) == 0, "root"
-        window.press("bracketright", "boxes at level 2: 2")
-        assert window.read() != root, "level 2 looks like level 1"
-        window.press("bracketleft", "boxes at level 1: 1")
-        assert window.read() == root, "level 1 looks different the second time"
-        window.press("B", mode, "BVH on, help")
-        assert window.read() == plain, "boxes stay"
-        window.press("r")
-        window.wait("BVH on, help")
-    window.close()
-
-
-def n_shows_normals_in_red(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
-        assert count_pixels(window.read(), is_red) == 0
-        window.press("n", mode, "normals")
-        assert count_pixels(window.read(), is_red) > 50, "no red lines"
-        window.press("n", mode, "BVH on, help")
-        window.press("r")
-        window.wait("BVH on, help")
-    window.close()
-
-
-def plus_and_minus_change_the_exposure(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
-        plain = sum(window.read()[1::4])
-        window.press("minus", mode, "exposure -0.5")
-        assert sum(window.read()[1::4]) < plain, "it is not darker"
-        window.press("plus", mode, "BVH on, help")
-        window.press("plus", mode, "exposure +0.5")
-        assert sum(window.read()[1::4]) > plain, "it is not brighter"
-        window.press("minus", "BVH on, help")
-        assert sum(window.read()[1::4]) == plain, "it is not as before"
-        window.press("r")
-        window.wait("BVH on, help")
-    window.close()
-
-
-def h_and_t_show_and_hide_text(screen):
-    window = Window(screen, SCENE)
-    window.wait("help off, text on")
-    line = window.read()
-    window.press("h", "help on")
-    help_text = window.read()
-    window.press("h", "help off")
-    window.press("t", "text off")
+@in_both_views
+def boxes_are_blue_at_the_leaves_and_red_above(window, mode):
     plain = window.read()
-    assert len({line, help_text, plain}) == 3, "texts look alike"
-    lower = 4 * 320 * 120
-    assert line[lower:] == plain[lower:], "the line covers more than the top"
-    assert help_text[lower:] != plain[lower:], "the help is only a line"
-    window.close()
+    window.press("bracketright", mode, "boxes at level 1: 1")
+    root = window.read()
+    assert count_pixels(root, is_red) > 200 and count_pixels(root, is_blue) == 0, "root"
+    window.press("bracketright", "boxes at level 2: 2")
+    assert window.read() != root, "level 2 looks like level 1"
+    window.press("bracketleft", "boxes at level 1: 1")
+    assert window.read() == root, "level 1 looks different the second time"
+    window.press("bracketleft", mode, "boxes of leaves: ")
+    shown = window.read()
+    assert count_pixels(shown, is_blue) > 200 and count_pixels(shown, is_red) == 0, "leaves"
+    window.press("B", mode, "BVH on, help")
+    assert window.read() == plain, "boxes stay"
+    window.press("B", mode, "boxes of leaves: ")
+    assert window.read() == shown, "B shows something other than leaves"
+    window.press("B", mode, "BVH on, help")
 
 
-def o_turns_the_camera_by_itself(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
+@in_both_views
+def n_shows_normals_in_red(window, mode):
+    assert count_pixels(window.read(), is_red) == 0
+    window.press("n", mode, "normals")
+    assert count_pixels(window.read(), is_red) > 50, "no red lines"
+    window.press("n", mode, "BVH on, help")
+
+
+@in_both_views
+def plus_and_minus_change_the_exposure(window, mode):
+    plain = sum(window.read()[1::4])
+    window.press("minus", mode, "exposure -0.5")
+    assert sum(window.read()[1::4]) < plain, "it is not darker"
+    window.press("plus", mode, "BVH on, help")
+    window.press("plus", mode, "exposure +0.5")
+    assert sum(window.read()[1::4]) > plain, "it is not brighter"
+    window.press("minus", "BVH on, help")
+    assert sum(window.read()[1::4]) == plain, "it is not as before"
+
+
+@in_both_views
+def o_turns_the_camera_by_itself(window, mode):
+    before = window.read()
+    window.press("o")
+    first = window.until(lambda shown: shown != before, "turns")
+    window.until(lambda shown: shown not in (before, first), "turns on")
+    window.press("o", mode, "view 1 moved")
+    window.press("1", mode, "view 1,")
+
+
+@in_both_views
+def the_mouse_turns_and_zooms(window, mode):
+    window.drag(1, 40, -20)
+    window.wait(mode, "moved", "azimuth -35.00, rotation 15.00, distance 6.5")
+    turned = window.read()
+    window.drag(3, 0, 10)
+    window.wait(mode, "azimuth -35.00, rotation 15.00, distance 8")
+    assert window.read() != turned, "zooming shows nothing"
+    window.screen.do("click", 4)
+    window.wait(mode, "distance 7.2")
+    window.drag(2, 0, -8, "ctrl")
+    window.wait(mode, "azimuth -35.00, rotation 15.00, distance 6,")
+    window.press("Left", mode, "rotation 20.00")
+    window.press("Up", mode, "azimuth -30.00")
+    window.press("1", mode, "view 1,")
+
+
+@in_both_views
+def the_middle_button_or_shift_moves_sideways(window, mode):
+    shown = set()
+    for button, key in ((2, None), (1, "shift"), (2, "shift")):
         before = window.read()
-        window.press("o")
-        first = window.until(lambda shown: shown != before, "turns")
-        window.until(lambda shown: shown not in (before, first), "turns on")
-        window.press("o", mode, "view 1 moved")
-        window.press("r")
-        window.wait("view 1 moved")
+        window.drag(button, 40, 10, key)
+        window.wait(mode, "moved", "azimuth -40.00, rotation 25.00, distance 6.5")
+        shown.add(window.read())
+        window.press("1", mode, "view 1,")
+        assert before not in shown, "nothing has moved"
+    assert len(shown) == 1, "Shift does something else"
+
+
+@in_both_views
+def a_click_explains_the_pixel_until_the_next_key(window, mode):
+    window.press("Right", mode, "moved")
+    before = window.read()
+    window.screen.do("mousemove", 150, 130, "click", 1)
+    assert window.wait("pixel ") == "pixel 150,130 of 320 x 240"
+    material = window.wait("meets").split()
+    assert material[1] in ("sphere", "triangle") and "material" in material, material
+    color = window.wait("the pixel's color").split("8 bits ")[1]
+    place = 130 * 320 + 150
+    if mode == "ray traced":
+        seen = " ".join(str(plane[place]) for plane in reversed(planes_of(before)))
+        assert color == seen, f"the pixel is {seen}, but {color} is explained"
+    window.until(lambda shown: shown != before, "shows the explanation")
+    window.drag(1, 1, 1)  # a click with a shaking hand
+    assert window.wait("pixel ") == "pixel 160,120 of 320 x 240"
+    window.press("F1", "help on")
+    window.press("F1", "help off")
+    window.until(lambda shown: shown == before, "hides the explanation")
+    window.press("1", mode, "view 1,")
+
+
+def u_turns_the_up_axis_of_a_mesh_without_a_scene(screen):
+    window = opened(screen, ROOT / "scenes" / "cone.ply")
+    first, shown = window.read(), set()
+    for up in ("-x", "-y", "-z", "x", "y", "z"):
+        window.press("u", f"BVH on, up {up}, help")
+        shown.add(window.read())
+    assert len(shown) == 6 and first in shown, "six axes show other pictures"
+    window.close()
+    window = opened(screen, SCENE)
+    window.press("u")
+    window.press("a", "AA 2x2, BVH on, help")
     window.close()
 
 
-def the_mouse_turns_and_zooms(screen):
-    window = opened(screen)
-    for mode in ("OpenGL", "ray traced"):
-        window.drag(1, 40, -20)
-        window.wait(mode, "moved", "azimuth -35.00, rotation 15.00, distance 6.5")
-        turned = window.read()
-        window.drag(3, 0, 10)
-        window.wait(mode, "azimuth -35.00, rotation 15.00, distance 8")
-        assert window.read() != turned, "zooming shows nothing"
-        screen.do("click", 4)
-        window.wait(mode, "distance 7.2")
-        window.press("Left", mode, "rotation 20.00")
-        window.press("Up", mode, "azimuth -30.00")
-        window.press("1", mode, "view 1,")
-        window.press("r")
-        window.wait("view 1,")
+def keys_for_the_help_agree(screen):
+    window = opened(screen, SCENE)
+    plain, shown = window.read(), set()
+    for key in ("h", "question", "F1"):
+        window.press(key, "help on")
+        shown.add(window.read())
+        window.press(key, "help off")
+    assert len(shown) == 1 and plain not in shown, "the help looks different"
     window.close()
 
 
-def the_middle_button_or_shift_moves_sideways(screen):
-    window = opened(screen)
-    place = ("moved", "azimuth -40.00, rotation 25.00, distance 6.5")
-    for mode in ("OpenGL", "ray traced"):
-        before = window.read()
-        window.drag(2, 40, 10)
-        window.wait(mode, *place)
-        aside = window.read()
-        assert aside != before, "nothing has moved"
-        window.press("1", mode, "view 1,")
-        screen.do("keydown", "shift")
-        window.drag(1, 40, 10)
-        screen.do("keyup", "shift")
-        window.wait(mode, *place)
-        assert window.read() == aside, "Shift does something else"
-        window.press("1", mode, "view 1,")
-        window.press("r")
-        window.wait("view 1,")
+def f11_fills_the_screen_and_escape_goes_back(screen):
+    window = opened(screen, SCENE)
+    before = window.read()
+    window.press("F11", "full screen", "1024x768")
+    window.press("Escape", "BVH on, help", "320x240")
+    window.press("F11", "full screen", "1024x768")
+    window.press("F11", "BVH on, help", "320x240")
+    window.until(lambda shown: shown == before, "is as before")
     window.close()
 
 
 def c_prints_the_camera(screen):
-    window = opened(screen)
+    window = opened(screen, SCENE)
     window.press("c")
     assert window.process.stdout.readline() == "azimuth -40.00, rotation 25.00, distance 6.5\n"
     line = window.process.stdout.readline()
@@ -198,20 +210,30 @@ def c_prints_the_camera(screen):
     window.close()
 
 
-def s_saves_the_picture(screen):
+def s_f12_and_ctrl_s_save_the_picture(screen):
     with tempfile.TemporaryDirectory() as folder:
-        window = opened(screen, folder=folder)
-        window.press("s", "saved reflections-1.")
-        window.press("s", "saved reflections-2.")
-        window.close()
+        window = opened(screen, SCENE, folder=folder)
+        for number, key in enumerate(("s", "F12", "ctrl+s"), start=1):
+            window.press(key, f"saved reflections-{number}.png and .")
+        window.press("s")
+        window.close()  # the file is complete nevertheless
         endings = {file.suffix for file in pathlib.Path(folder).glob("reflections-2.*")}
-    assert endings in ({".png", ".exr"}, {".png", ".pfm"}, {".pfm"}), endings
+        assert endings in ({".png", ".exr"}, {".png", ".pfm"}), endings
+
+
+def a_failed_save_says_why(screen):
+    with tempfile.TemporaryDirectory() as parent:
+        folder = pathlib.Path(parent) / "gone"
+        folder.mkdir()
+        window = opened(screen, SCENE, folder=folder)
+        folder.rmdir()
+        window.press("s", "clrt: reflections-1.png: ")
+        window.close()
 
 
 def s_holds_a_turning_camera_still(screen):
     with tempfile.TemporaryDirectory() as folder:
-        window = opened(screen, folder=folder)
-        window.press("r", "ray traced")
+        window = opened(screen, SCENE, folder=folder)
         window.press("o")
         window.press("s", "saved reflections-1.")
         window.press("o", "moved")
@@ -223,9 +245,7 @@ def r_in_capitals_reads_everything_again(screen):
         scene = pathlib.Path(folder) / "one.scn"
         scene.write_text("material 0\nsphere 0 0 0.5 1\n")
         before = scene.stat()
-        window = Window(screen, scene)
-        window.wait("OpenGL")
-        window.press("t", "text off")
+        window = opened(screen, scene)
         large = window.read()
         # Changes the file invisibly: in place, with the same size and time.
         scene.write_text("material 0\nsphere 0 0 0.5 2\n")
@@ -235,14 +255,14 @@ def r_in_capitals_reads_everything_again(screen):
         window.close()
 
 
-def q_and_escape_quit(screen):
-    for key in ("q", "Escape"):
-        window = opened(screen)
+def q_ctrl_q_and_escape_quit(screen):
+    for key in ("q", "ctrl+q", "Escape"):
+        window = opened(screen, SCENE)
         screen.do("key", key)
         window.end()
 
 
-def keys_are_played_in_order_and_frames_counted(screen):
+def keys_are_played_in_order_from_opengl_and_frames_counted(screen):
     window = Window(screen, SCENE, "--keys", "raB]", "--quit-after", "3")
     for part in ("OpenGL, view 1", "ray traced, view 1, AA off", "AA 2x2", "boxes of leaves",
                  "boxes at level 1"):
@@ -275,13 +295,16 @@ def without_a_display_it_says_so(screen):
 
 
 if __name__ == "__main__":
-    run_tests([r_switches_between_opengl_and_rays, a_smooths_the_edges_of_both_views,
+    run_tests([it_opens_with_rays_and_r_switches_to_opengl, a_smooths_the_edges,
                digits_choose_the_scenes_cameras, b_turns_the_tree_off_and_draws_the_same_picture,
                boxes_are_blue_at_the_leaves_and_red_above, n_shows_normals_in_red,
-               plus_and_minus_change_the_exposure, h_and_t_show_and_hide_text,
-               o_turns_the_camera_by_itself, the_mouse_turns_and_zooms,
-               the_middle_button_or_shift_moves_sideways, c_prints_the_camera, s_saves_the_picture,
-               s_holds_a_turning_camera_still, r_in_capitals_reads_everything_again, q_and_escape_quit,
-               keys_are_played_in_order_and_frames_counted, stats_tell_the_times_of_frames,
-               options_choose_what_the_window_opens_with, without_a_display_it_says_so],
-              Screen())
+               plus_and_minus_change_the_exposure, o_turns_the_camera_by_itself,
+               the_mouse_turns_and_zooms, the_middle_button_or_shift_moves_sideways,
+               a_click_explains_the_pixel_until_the_next_key,
+               u_turns_the_up_axis_of_a_mesh_without_a_scene, keys_for_the_help_agree,
+               f11_fills_the_screen_and_escape_goes_back, c_prints_the_camera,
+               s_f12_and_ctrl_s_save_the_picture, a_failed_save_says_why, s_holds_a_turning_camera_still,
+               r_in_capitals_reads_everything_again, q_ctrl_q_and_escape_quit,
+               keys_are_played_in_order_from_opengl_and_frames_counted,
+               stats_tell_the_times_of_frames, options_choose_what_the_window_opens_with,
+               without_a_display_it_says_so], Screen())

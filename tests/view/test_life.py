@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import time
 
-from screen import ROOT, Screen, Window, planes_of, render, run_tests
+from screen import ROOT, Screen, Window, opened, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
 GONE_SECONDS = 0.1  # in addition to the seconds for closing an idle window on this machine
@@ -29,33 +29,35 @@ def a_million_triangles_open_orbit_and_close(screen):
         return
     with tempfile.TemporaryDirectory() as folder:
         scene = write_large(pathlib.Path(folder))
-        window = Window(screen, scene, size=(400, 300))
         start = time.monotonic()
-        window.wait("OpenGL, view 1")
+        window = opened(screen, scene, size=(400, 300))
         print(f"         opened after {time.monotonic() - start:.2f} s")
-        window.press("t", "text off")
-        for mode in ("OpenGL", "ray traced"):
+        for mode in ("ray traced", "OpenGL"):
             before = window.read()
             window.drag(1, 30, 10)
             window.wait(mode, "moved")
             assert window.read() != before, f"{mode}: nothing moves"
             window.press("1", mode, "view 1,")
-            window.press("r")
-            window.wait("view 1,")
-        window.press("r", "ray traced")
+            window.press("r", "view 1,")
         expected = render(scene, size=(400, 300))
         window.until(lambda shown: planes_of(shown) == expected, "shows what -o writes")
         window.close()
 
 
+def is_picture(shown):
+    return len(set(shown[1::4])) > 100
+
+
 def seconds_to_close(screen, scene, *options, is_tracing):
     """Returns the seconds from the key press to the end of the process."""
-    window = Window(screen, scene, *options, size=(500, 400))
-    window.wait("OpenGL, view 1")
+    keys = [] if is_tracing else ["--keys", ""]
+    window = Window(screen, scene, *options, *keys, size=(500, 400))
     if is_tracing:
-        window.press("r")
+        window.until(is_picture, "shows a picture")
         time.sleep(1.5)
         assert not any("ray traced" in line for line in list(window.lines.queue)), "it is finished"
+    else:
+        window.wait("OpenGL, view 1")
     screen.do("key", "q")
     start = time.monotonic()
     window.end()
@@ -78,10 +80,7 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen):
 def camera_moves_while_a_picture_is_traced(screen):
     """Coarse pictures of a moved camera appear long before the full picture would be finished."""
     window = Window(screen, ROOT / "scenes" / "reflections.scn", "--aa=64", size=(500, 400))
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    window.press("r")
-    before = window.until(lambda shown: len(set(shown[1::4])) > 100, "shows a picture")
+    before = window.until(is_picture, "shows a picture")
     for step in range(5):
         start = time.monotonic()
         window.drag(1, 20, 3)
@@ -93,10 +92,7 @@ def camera_moves_while_a_picture_is_traced(screen):
 
 
 def a_minimised_and_a_tiny_window_go_on(screen):
-    window = Window(screen, ROOT / "scenes" / "reflections.scn")
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    window.press("r", "ray traced")
+    window = opened(screen, ROOT / "scenes" / "reflections.scn")
     before = window.read()
     screen.do("search", "--name", "clrt", "windowunmap", "--sync")
     screen.do("search", "--name", "clrt", "windowmap", "--sync")
@@ -105,6 +101,8 @@ def a_minimised_and_a_tiny_window_go_on(screen):
     screen.do("search", "--name", "clrt", "windowsize", *window.size)
     window.wait("7x3")
     screen.do("mousemove", 1, 1)
+    window.press("t", "text on", "7x3")
+    window.press("h", "help on", "7x3")
     window.close()
 
 

@@ -9,7 +9,7 @@ import math
 import pathlib
 import tempfile
 
-from screen import COURSE, ROOT, Screen, Window, run_tests
+from screen import COURSE, ROOT, Screen, opened, run_tests
 
 SIZE = (512, 512)
 NAMES = ("silhouette", "matte", "blinn_phong", "reflections", "simple", "cow", "buddha")
@@ -83,16 +83,14 @@ def agree(screen, path):
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / path.name
         scene.write_text(text)
-        window = Window(screen, scene, size=SIZE)
-        window.wait("OpenGL, view 1")
-        window.press("t", "text off")
+        window = opened(screen, scene, size=SIZE)
         for view in "123456"[:count_views(text)]:
             if view != "1":
-                window.press(view, "OpenGL", f"view {view},")
-            drawn = window.read()
-            window.press("r", "ray traced")
+                window.press(view, "ray traced", f"view {view},")
             traced = window.read()
             window.press("r", "OpenGL")
+            drawn = window.read()
+            window.press("r", "ray traced")
             apart.append(compare(path.stem, view, drawn, traced))
         window.close()
     print(f"         {path.stem}: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
@@ -146,12 +144,10 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen):
         scene = pathlib.Path(folder) / "ball.scn"
         scene.write_text("background 0 0 0\nambient 0\nmaterial 1\nlight -3 1 -2 1e6\n"
                          "ply_file ball.ply\ncamera 0.4 -2.1 0.6 0 0 0 60\n")
-        window = Window(screen, scene, size=SIZE)
-        window.wait("OpenGL, view 1")
-        window.press("t", "text off")
-        drawn = window.read()
-        window.press("r", "ray traced")
+        window = opened(screen, scene, size=SIZE)
         traced = window.read()
+        window.press("r", "OpenGL")
+        drawn = window.read()
         window.close()
     apart = compare("ball", "1", drawn, traced)
     print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")

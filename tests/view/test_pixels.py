@@ -10,7 +10,7 @@ import tempfile
 import os
 import zlib
 
-from screen import COURSE, ROOT, Screen, Window, planes_of, render, run_tests
+from screen import COURSE, ROOT, Screen, opened, planes_of, render, run_tests
 
 SIZE = (512, 512)
 
@@ -18,14 +18,6 @@ SIZE = (512, 512)
 def expect_same(window, scene, *options):
     expected = render(scene, *options, size=window.size)
     window.until(lambda shown: planes_of(shown) == expected, f"shows what -o {options} writes")
-
-
-def opened(screen, scene, *options, **more):
-    window = Window(screen, scene, *options, **more)
-    window.wait("OpenGL, view 1")
-    window.press("t", "text off")
-    window.press("r", "ray traced", "AA off")
-    return window
 
 
 def every_view_of_the_courses_scenes_is_the_same(screen):
@@ -130,9 +122,6 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
         window = opened(screen, scene, size=size, folder=folder)
         window.press("s", "saved")
         window.close()
-        if not (folder / "reflections-1.png").exists():
-            print("skipped: this build writes no PNG")
-            return
         png = (folder / "reflections-1.png").read_bytes()
         assert planes_of_png(png, size) == render(scene, size=size), "the PNG differs"
         for ending in ("exr", "pfm"):

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tests the parts of the viewer that need neither window nor device. They are the plan of passes,
-// boxes, played keys, changed files, and pictures in two layers.
+// boxes, changed files, and pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
 #include "view/draw/boxes.h"
 #include "view/draw/canvas.h"
 #include "view/plan.h"
-#include "view/script.h"
 #include "view/watch.h"
 
 #include <fcntl.h>
@@ -142,23 +141,6 @@ static void a_tree_of_nothing_or_one_leaf_has_no_inner_boxes(void **state)
     boxes_free(&boxes);
 }
 
-static void frames_count_once_all_keys_are_played(void **state)
-{
-    (void)state;
-    Script script = {"ab", 2};
-    assert_true(script_is_running(&script));
-    assert_false(script_count_frame(&script));
-    assert_int_equal(script_take_key(&script), 'a');
-    assert_false(script_count_frame(&script));
-    assert_int_equal(script_take_key(&script), 'b');
-    assert_int_equal(script_take_key(&script), 0);
-    assert_false(script_count_frame(&script));
-    assert_true(script_count_frame(&script));
-    Script none = {NULL, 0};
-    assert_false(script_is_running(&none));
-    assert_false(script_count_frame(&none));
-}
-
 static void write_text(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
@@ -200,8 +182,8 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     Error error = {0};
     WatchedFolder watched = watched_make();
     write_text(watched.path, "one");
-    assert_true(watch_add(&watched.watch, watched.path, &error) &&
-                watch_add(&watched.watch, watched.folder, &error));
+    const char *const paths[] = {watched.path, watched.folder};
+    assert_true(watch_set(&watched.watch, paths, 2, &error));
     for (int look = 0; look < 3; look++)
         assert_false(watch_poll(&watched.watch));
     set_time(watched.path, 1);
@@ -223,13 +205,9 @@ static void watching_other_files_too_loses_no_change(void **state)
     Error error = {0};
     WatchedFolder watched = watched_make();
     write_text(watched.path, "one");
-    assert_true(watch_add(&watched.watch, watched.path, &error) &&
-                watch_add(&watched.watch, "gone", &error));
+    assert_true(watch_set(&watched.watch, (const char *[]){watched.path, "gone"}, 2, &error));
     set_time(watched.path, 1);
-    watch_begin(&watched.watch);
-    assert_true(watch_add(&watched.watch, watched.path, &error) &&
-                watch_add(&watched.watch, "other", &error));
-    watch_end(&watched.watch);
+    assert_true(watch_set(&watched.watch, (const char *[]){"other", watched.path}, 2, &error));
     assert_int_equal(watched.watch.files.count, 2);
     assert_false(watch_poll(&watched.watch));
     assert_true(watch_poll(&watched.watch));
@@ -241,7 +219,8 @@ static void a_folder_is_watched_for_what_is_in_it(void **state)
     (void)state;
     Error error = {0};
     WatchedFolder watched = watched_make();
-    assert_true(watch_add(&watched.watch, watched.folder, &error));
+    const char *const paths[] = {watched.folder};
+    assert_true(watch_set(&watched.watch, paths, 1, &error));
     assert_false(watch_poll(&watched.watch));
     write_text(watched.path, "new");
     assert_false(watch_poll(&watched.watch));
@@ -261,7 +240,7 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     assert_null(canvas_unfinished(&canvas)); // the picture is to be shown only when complete
     first->framebuffer.pixels[3][1] = 0.5f;
     canvas_add_tiles(&canvas, first, 2, 1);
-    canvas_finish(&canvas, first);
+    canvas_end(&canvas, first, true);
     assert_ptr_equal(canvas_whole(&canvas), first);
     assert_int_equal(first->bytes[3 * 3 + 1], 128);
     canvas_encode_again(&canvas, 4);
@@ -272,10 +251,10 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     canvas_add_tiles(&canvas, second, 1, 1);
     assert_int_equal(second->tiles_done, 1);
     assert_ptr_equal(canvas_whole(&canvas), first);
-    canvas_drop(&canvas, second);
+    canvas_end(&canvas, second, false);
     assert_null(canvas_unfinished(&canvas));
     second = canvas_begin(&canvas, &settings, false, &error);
-    canvas_finish(&canvas, second);
+    canvas_end(&canvas, second, true);
     assert_ptr_equal(canvas_whole(&canvas), second);
     canvas_close(&canvas);
 }
@@ -290,7 +269,6 @@ int main(void)
         cmocka_unit_test(brute_force_is_expected_to_be_dear),
         cmocka_unit_test(every_level_has_a_box_for_each_of_its_nodes),
         cmocka_unit_test(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes),
-        cmocka_unit_test(frames_count_once_all_keys_are_played),
         cmocka_unit_test(changed_files_are_told_once_and_when_they_stand_still),
         cmocka_unit_test(watching_other_files_too_loses_no_change),
         cmocka_unit_test(a_folder_is_watched_for_what_is_in_it),

@@ -22,7 +22,7 @@ static Fixture opened(const char *text)
         fail_msg("%s", error.text);
     fixture.facts = (StateScene){fixture.scene.viewpoints.data, fixture.scene.viewpoints.count,
                                  fixture.scene.has_course_views, 3};
-    fixture.state = state_begin(&fixture.facts, 1, false, true);
+    fixture.state = state_begin(&fixture.facts, (State){.view = 1, .uses_bvh = true});
     return fixture;
 }
 
@@ -166,7 +166,7 @@ static void every_switch_has_a_key_that_turns_it_back(void **state)
 {
     (void)state;
     Fixture fixture = opened("");
-    press(&fixture, "rabBnho");
+    press(&fixture, "rabBn?o");
     const State on = fixture.state;
     assert_true(on.traced && on.smooth && !on.uses_bvh && on.boxes && on.normals && on.help);
     assert_true(on.turning && on.text);
@@ -181,9 +181,10 @@ static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
 {
     (void)state;
     Fixture fixture = opened("");
+    press(&fixture, "[");
+    assert_false(fixture.state.boxes);
     press(&fixture, "]]");
-    assert_int_equal(fixture.state.level, 0); // boxes are hidden
-    press(&fixture, "B]]");
+    assert_true(fixture.state.boxes);
     assert_int_equal(fixture.state.level, 2);
     press(&fixture, "]]]]");
     assert_int_equal(fixture.state.level, 3);
@@ -221,7 +222,22 @@ static void commands_are_given_and_change_nothing(void **state)
     assert_int_equal(press(&fixture, "q"), COMMAND_QUIT);
     assert_int_equal(press(&fixture, "\033"), COMMAND_QUIT);
     assert_int_equal(press(&fixture, "zZ7"), 0);
+    const Event click = {.kind = EVENT_CLICK, .right = 3, .down = 4};
+    assert_int_equal(state_apply(&fixture.state, &click, &fixture.facts), COMMAND_EXPLAIN);
     assert_memory_equal(&before, &fixture.state, sizeof before);
+    scene_free(&fixture.scene);
+}
+
+static void escape_leaves_full_screen_before_the_window(void **state)
+{
+    (void)state;
+    Fixture fixture = opened("");
+    const Event full = {.kind = EVENT_KEY, .key = KEY_FULL_SCREEN};
+    assert_int_equal(state_apply(&fixture.state, &full, &fixture.facts), 0);
+    assert_true(fixture.state.full_screen);
+    assert_int_equal(press(&fixture, "\033"), 0);
+    assert_false(fixture.state.full_screen);
+    assert_int_equal(press(&fixture, "\033"), COMMAND_QUIT);
     scene_free(&fixture.scene);
 }
 
@@ -274,10 +290,13 @@ static void another_scene_is_seen_through_its_first_camera(void **state)
 static void the_printed_camera_is_read_back_to_the_bit(void **state)
 {
     (void)state;
-    char text[STATUS_TEXT_SIZE];
+    char text[STATUS_TEXT_SIZE] = "";
+    FILE *stream = fmemopen(text, sizeof text, "w");
     Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
     happen(&fixture, EVENT_TURN, 17, 31);
-    status_text_camera(text, sizeof text, &fixture.state);
+    assert_non_null(stream);
+    status_text_camera(&fixture.state, stream);
+    fclose(stream);
     assert_memory_equal(text, "azimuth ", 8);
     Fixture back = opened(strchr(text, '\n'));
     assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
@@ -290,7 +309,7 @@ static void the_title_tells_view_and_progress(void **state)
     (void)state;
     char text[256];
     Fixture fixture = opened("");
-    Figures figures = {.scene_name = "a.scn", .busy = "", .notice = "", .failure = ""};
+    Figures figures = {.scene_name = "a.scn", .busy = ""};
     status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - OpenGL - clrt");
     press(&fixture, "r");
@@ -303,7 +322,7 @@ static void the_title_tells_view_and_progress(void **state)
     scene_free(&fixture.scene);
 }
 
-static void the_overlay_tells_figures_failures_and_help(void **state)
+static void the_line_tells_messages_first_and_the_panel_failures_and_help(void **state)
 {
     (void)state;
     char text[STATUS_TEXT_SIZE];
@@ -316,16 +335,24 @@ static void the_overlay_tells_figures_failures_and_help(void **state)
                        .tests_per_ray = 2.5,
                        .busy = "",
                        .notice = "saved",
-                       .failure = "a.scn:1: bad"};
-    press(&fixture, "rah");
-    status_text_overlay(text, sizeof text, &fixture.state, &figures);
-    assert_non_null(strstr(text, "ray traced, view 1, AA 2x2, BVH on, azimuth -40.00"));
-    assert_non_null(strstr(text, "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests a ray"));
-    assert_non_null(strstr(text, "\nsaved\na.scn:1: bad\n"));
-    assert_non_null(strstr(text, status_text_help()));
+                       .missing = "no lights",
+                       .hint = "h for help",
+                       .failure = "a.scn:1: bad",
+                       .explanation = "pixel 1,2\n"};
+    press(&fixture, "ra");
+    status_text_line(text, sizeof text, &fixture.state, &figures);
+    assert_string_equal(text, "saved, h for help, no lights, ray traced, view 1, AA 2x2, BVH on, "
+                              "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests a ray, "
+                              "azimuth -40.00, rotation 25.00, distance 6.5");
     char small[16];
-    status_text_overlay(small, sizeof small, &fixture.state, &figures);
-    assert_string_equal(small, "ray traced, vie"); // long text is truncated
+    status_text_line(small, sizeof small, &fixture.state, &figures);
+    assert_string_equal(small, "saved, h for he"); // long text is truncated
+    status_text_panel(text, sizeof text, &fixture.state, &figures);
+    assert_string_equal(text, "a.scn:1: bad\npixel 1,2\n");
+    press(&fixture, "th");
+    status_text_panel(text, sizeof text, &fixture.state, &figures);
+    assert_memory_equal(text, "pixel 1,2\n", 10);
+    assert_string_equal(text + 10, status_text_help());
     scene_free(&fixture.scene);
 }
 
@@ -343,12 +370,13 @@ int main(void)
         cmocka_unit_test(levels_go_from_the_leaves_to_the_deepest_inner_nodes),
         cmocka_unit_test(exposure_goes_by_half_stops),
         cmocka_unit_test(commands_are_given_and_change_nothing),
+        cmocka_unit_test(escape_leaves_full_screen_before_the_window),
         cmocka_unit_test(turning_moves_the_camera_with_time_alone),
         cmocka_unit_test(a_scene_read_again_moves_only_a_camera_at_its_place),
         cmocka_unit_test(another_scene_is_seen_through_its_first_camera),
         cmocka_unit_test(the_printed_camera_is_read_back_to_the_bit),
         cmocka_unit_test(the_title_tells_view_and_progress),
-        cmocka_unit_test(the_overlay_tells_figures_failures_and_help),
+        cmocka_unit_test(the_line_tells_messages_first_and_the_panel_failures_and_help),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

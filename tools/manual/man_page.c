@@ -134,7 +134,7 @@ static void write_keys(FILE *stream)
         fputs("This build has no window.\n", stream);
         return;
     }
-    fputs(".Bl -tag -width \"right drag, wheel\" -compact\n", stream);
+    fputs(".Bl -tag -width \"middle or Shift drag\" -compact\n", stream);
     char *rest = text;
     for (char *line = strsep(&rest, "\n"); line != NULL; line = strsep(&rest, "\n")) {
         line += strspn(line, " ");

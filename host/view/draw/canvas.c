@@ -103,17 +103,12 @@ void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double 
     pthread_mutex_unlock(&canvas->mutex);
 }
 
-void canvas_finish(Canvas *canvas, Layer *layer)
+void canvas_end(Canvas *canvas, Layer *layer, bool is_whole)
 {
     pthread_mutex_lock(&canvas->mutex);
-    layer->is_whole = true;
-    pthread_mutex_unlock(&canvas->mutex);
-}
-
-void canvas_drop(Canvas *canvas, Layer *layer)
-{
-    pthread_mutex_lock(&canvas->mutex);
-    layer->pass = 0;
+    layer->is_whole = is_whole;
+    if (!is_whole)
+        layer->pass = 0;
     pthread_mutex_unlock(&canvas->mutex);
 }
 

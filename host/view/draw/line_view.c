@@ -18,12 +18,10 @@ bool line_view_open(LineView *view, bool is_diagonal, Error *error)
     view->corners = cube_make_edges(0);
     glGenBuffers(1, &view->boxes);
     glBindBuffer(GL_ARRAY_BUFFER, view->boxes);
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Box), (void *)offsetof(Box, low));
-    glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, sizeof(Box), (void *)offsetof(Box, high));
-    for (GLuint attribute = 1; attribute <= 2; attribute++) {
-        glEnableVertexAttribArray(attribute);
-        glVertexAttribDivisor(attribute, 1);
-    }
+    shader_set_attribute(1, 3, sizeof(Box), offsetof(Box, low));
+    shader_set_attribute(2, 3, sizeof(Box), offsetof(Box, high));
+    glVertexAttribDivisor(1, 1);
+    glVertexAttribDivisor(2, 1);
     glBindVertexArray(0);
     return true;
 }

@@ -69,6 +69,12 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
+void shader_set_attribute(GLuint attribute, GLint floats, size_t size, size_t offset)
+{
+    glVertexAttribPointer(attribute, floats, GL_FLOAT, GL_FALSE, (GLsizei)size, (void *)offset);
+    glEnableVertexAttribArray(attribute);
+}
+
 // Makes a buffer of cube corners. Bit n of a corner's number is its coordinate along axis n.
 static GLuint make_cube(GLuint attribute, const unsigned char *corners, int count, float low)
 {
@@ -81,8 +87,7 @@ static GLuint make_cube(GLuint attribute, const unsigned char *corners, int coun
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof vertices[0]), vertices,
                  GL_STATIC_DRAW);
-    glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 0, NULL);
-    glEnableVertexAttribArray(attribute);
+    shader_set_attribute(attribute, 3, sizeof vertices[0], 0);
     return buffer;
 }
 

@@ -19,6 +19,10 @@ void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
+// Describes and enables an attribute of the current vertex array and buffer: its number of floats,
+// its vertices' size in bytes and its offset in each.
+void shader_set_attribute(GLuint attribute, GLint floats, size_t size, size_t offset);
+
 // Cubes: faces from -1 to 1, edges from 0 to 1.
 #define CUBE_FACE_VERTICES 36
 #define CUBE_EDGE_VERTICES 24 // followed by the two of a diagonal

@@ -26,9 +26,8 @@ bool sphere_view_open(SphereView *view, Error *error)
     glGenBuffers(1, &view->spheres);
     glBindBuffer(GL_ARRAY_BUFFER, view->spheres);
     for (GLuint vector = 0; vector < 4; vector++) {
-        glVertexAttribPointer(vector + 1, 4, GL_FLOAT, GL_FALSE, SPHERE_NUMBERS * sizeof(float),
-                              (void *)(vector * 4 * sizeof(float)));
-        glEnableVertexAttribArray(vector + 1);
+        shader_set_attribute(vector + 1, 4, SPHERE_NUMBERS * sizeof(float),
+                             vector * 4 * sizeof(float));
         glVertexAttribDivisor(vector + 1, 1);
     }
     glBindVertexArray(0);

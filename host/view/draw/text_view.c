@@ -1,38 +1,108 @@
 // SPDX-License-Identifier: MIT
-// stb_easy_font converts letters to rectangles.
+// stb_truetype draws a packaged font into a texture. A panel is laid out repeatedly with a smaller
+// font, until it fits the window.
+#define STB_TRUETYPE_IMPLEMENTATION
 #include "view/draw/text_view.h"
 
-#include <stb/stb_easy_font.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
-#define TEXT_SIZE     8192
-#define QUADS_MAX     16384
-#define MARGIN        4
-#define LINE_HEIGHT   12
-#define QUAD_CORNERS  4
-#define QUAD_VERTICES 6
+#define SIZE         17.0f // of the font, from ascent to descent, at density 1
+#define SMALLEST     8.0f
+#define SHRINKING    0.94f
+#define LINE_STEP    1.2f // the sizes below are multiples of the font's size
+#define BASELINE     0.9f
+#define MARGIN       0.4f
+#define GAP          1.2f // between columns
+#define TEXTURE_SIDE 14   // a texture of this width and height holds all characters
+#define FOLDER       "/usr/share/fonts/truetype/"
 
-typedef struct {
-    float x, y, z;
-    unsigned char color[4];
-} Vertex;
+// Fixed paths spare a dependency on fontconfig. tools/setup installs the first font.
+static const char *const font_paths[] = {
+    FOLDER "dejavu/DejaVuSans.ttf", FOLDER "liberation/LiberationSans-Regular.ttf",
+    FOLDER "noto/NotoSans-Regular.ttf", FOLDER "freefont/FreeSans.ttf"};
 
-bool text_view_open(TextView *view, Error *error)
+static const float ground[4] = {0.055f, 0.063f, 0.094f, 0.78f}, plain[4] = {1, 1, 1, 1},
+                   marked[4] = {1, 0.816f, 0.47f, 1};
+
+static bool open_font(Font *font, const char *path)
 {
-    static const char *const attributes[] = {"position", "tint", NULL};
+    Error cause = {0};
+    stbtt_fontinfo info;
+    if (!file_read(&font->file, path, &cause))
+        return false;
+    if (!stbtt_InitFont(&info, (unsigned char *)font->file.bytes, 0)) {
+        file_free(&font->file);
+        return false;
+    }
+    for (int i = 0; i < FONT_CHARACTERS; i++) {
+        int advance, bearing;
+        stbtt_GetCodepointHMetrics(&info, ' ' + i, &advance, &bearing);
+        font->advances[i] = stbtt_ScaleForPixelHeight(&info, 1) * (float)advance;
+    }
+    return true;
+}
+
+static bool find_font(Font *font, Error *error)
+{
+    for (size_t i = 0; i < sizeof font_paths / sizeof *font_paths; i++)
+        if (open_font(font, font_paths[i]))
+            return true;
+    return error_set(error, "no font is found, so the window shows no text: install the package "
+                            "fonts-dejavu-core");
+}
+
+static void set_size(Font *font, float size)
+{
+    Error error = {0};
+    const int side = TEXTURE_SIDE * (int)ceilf(size);
+    unsigned char *texels = memory_zeroed((size_t)side * (size_t)side, 1, &error);
+    if (texels == NULL)
+        return;
+    stbtt_BakeFontBitmap((unsigned char *)font->file.bytes, 0, size, texels, side, side, ' ',
+                         FONT_CHARACTERS, font->glyphs);
+    texels[0] = 255;
+    glBindTexture(GL_TEXTURE_2D, font->texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, side, side, 0, GL_RED, GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    free(texels);
+    font->side = side;
+    font->size = size;
+}
+
+// Returns a character's number in the font. Other characters look like a question mark.
+static int number_of(char character)
+{
+    return (character >= ' ' && character <= '~' ? character : '?') - ' ';
+}
+
+static float width_of(const Font *font, const char *text, size_t length)
+{
+    float width = 0;
+    for (size_t i = 0; i < length; i++)
+        width += font->advances[number_of(text[i])];
+    return width;
+}
+
+bool text_view_open(TextView *view, Error *no_font, Error *error)
+{
+    static const char *const attributes[] = {"position", "texel", "tint", NULL};
     *view = (TextView){.program = shader_build(shader_text, attributes, error)};
     if (view->program == 0)
         return false;
+    find_font(&view->font, no_font);
+    glGenTextures(1, &view->font.texture);
     glGenVertexArrays(1, &view->array);
     glGenBuffers(1, &view->vertices);
     glBindVertexArray(view->array);
     glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex), (void *)offsetof(Vertex, x));
-    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Vertex),
-                          (void *)offsetof(Vertex, color));
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(1);
+    shader_set_attribute(0, 2, sizeof(TextVertex), offsetof(TextVertex, x));
+    shader_set_attribute(1, 2, sizeof(TextVertex), offsetof(TextVertex, u));
+    shader_set_attribute(2, 4, sizeof(TextVertex), offsetof(TextVertex, color));
     glBindVertexArray(0);
     return true;
 }
@@ -42,109 +112,180 @@ void text_view_close(TextView *view)
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->array);
     glDeleteBuffers(1, &view->vertices);
+    glDeleteTextures(1, &view->font.texture);
+    file_free(&view->font.file);
+    free(view->corners.memory);
     *view = (TextView){0};
 }
 
-// Replaces characters that the ASCII font lacks.
-static void copy_printable(char copy[TEXT_SIZE], const char *text)
+// Without memory, text is missing.
+static void add_quad(TextView *view, const stbtt_aligned_quad *quad, const float color[4])
 {
-    size_t length = 0;
-    for (; text[length] != '\0' && length < TEXT_SIZE - 1; length++)
-        copy[length] = text[length] == '\n' || (text[length] >= ' ' && text[length] <= '~')
-                           ? text[length]
-                           : '?';
-    copy[length] = '\0';
-}
-
-// Returns whether the text from line to end is wider than width dots.
-static bool is_wider(char *line, char *end, int width)
-{
-    const char kept = *end;
-    *end = '\0';
-    const bool wider = stb_easy_font_width(line) > width;
-    *end = kept;
-    return wider;
-}
-
-// Breaks lines at spaces, so that they are at most width dots wide if possible.
-static void break_lines(char *text, int width)
-{
-    char *line = text, *blank = NULL;
-    for (char *place = text; *place != '\0'; place++) {
-        if (*place == '\n') {
-            line = place + 1;
-            blank = NULL;
-        } else if (*place == ' ') {
-            blank = place;
-        } else if (blank != NULL && is_wider(line, place + 1, width)) {
-            *blank = '\n';
-            line = blank + 1;
-            blank = NULL;
-        }
+    static const int places[6] = {0, 1, 2, 2, 1, 3};
+    Error error = {0};
+    for (int i = 0; i < 6; i++) {
+        const bool right = places[i] & 1, low = places[i] & 2;
+        TextVertex corner = {right ? quad->x1 : quad->x0,
+                             low ? quad->y1 : quad->y0,
+                             right ? quad->s1 : quad->s0,
+                             low ? quad->t1 : quad->t0,
+                             {color[0], color[1], color[2], color[3]}};
+        (void)array_push(&view->corners, corner, &error);
     }
 }
 
-static int count_lines(const char *text)
+// The position of the next character, and what happens to it.
+typedef struct {
+    TextView *view;
+    float size;   // of the font, in pixels
+    float x, y;   // of the upper left corner
+    float right;  // where lines end
+    float widest; // the largest x so far
+    bool draws;   // adds characters to the view; otherwise only moves
+    const float *color;
+} Pen;
+
+static void put_characters(Pen *pen, const char *text, size_t length)
 {
-    int count = 1;
-    for (; *text != '\0'; text++)
-        count += *text == '\n';
-    return count;
+    const Font *font = &pen->view->font;
+    for (size_t i = 0; i < length; i++) {
+        stbtt_aligned_quad quad;
+        const int number = number_of(text[i]);
+        float x = pen->x, y = pen->y + BASELINE * pen->size;
+        pen->x += font->advances[number] * pen->size;
+        if (!pen->draws)
+            continue;
+        stbtt_GetBakedQuad(font->glyphs, font->side, font->side, number, &x, &y, &quad, 1);
+        add_quad(pen->view, &quad, pen->color);
+    }
+    pen->widest = fmaxf(pen->widest, pen->x);
 }
 
-// Splits each quad into two scaled triangles. Returns the number of vertices.
-static size_t make_triangles(Vertex *triangles, const Vertex *quads, size_t count, uint32_t scale)
+// Puts the words up to end. Words that do not fit start a line below the first word.
+static void put_words(Pen *pen, const char *text, const char *end)
 {
-    static const int corners[QUAD_VERTICES] = {0, 1, 2, 0, 2, 3};
-    for (size_t quad = 0; quad < count; quad++)
-        for (int i = 0; i < QUAD_VERTICES; i++) {
-            Vertex vertex = quads[QUAD_CORNERS * quad + (size_t)corners[i]];
-            vertex.x *= (float)scale;
-            vertex.y *= (float)scale;
-            triangles[QUAD_VERTICES * quad + (size_t)i] = vertex;
+    const float left = pen->x;
+    while (text < end) {
+        const size_t blanks = strspn(text, " "), word = blanks + strcspn(text + blanks, " \n");
+        size_t skipped = 0;
+        if (pen->x > left &&
+            pen->x + width_of(&pen->view->font, text, word) * pen->size > pen->right) {
+            pen->x = left;
+            pen->y += LINE_STEP * pen->size;
+            skipped = blanks;
         }
-    return QUAD_VERTICES * count;
+        put_characters(pen, text + skipped, word - skipped);
+        text += word;
+    }
 }
 
-static void make_ground(Vertex quad[QUAD_CORNERS], int width, int lines)
+// Returns where the line's first column ends: at two blanks, or at the line's end.
+static const char *column_end(const char *line)
 {
-    const float right = (float)(width + 2 * MARGIN);
-    const float bottom = (float)(lines * LINE_HEIGHT + 2 * MARGIN);
-    const float corners[QUAD_CORNERS][2] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
-    for (int i = 0; i < QUAD_CORNERS; i++)
-        quad[i] = (Vertex){corners[i][0], corners[i][1], 0, {16, 16, 24, 176}};
+    const char *end = line + strcspn(line, "\n"), *gap = strstr(line + strspn(line, " "), "  ");
+    return gap != NULL && gap < end ? gap : end;
 }
 
-static void draw_vertices(const TextView *view, const Vertex *vertices, size_t count)
+// Returns the width of the first column with its gap, at size 1.
+static float column_width(const Font *font, const char *text)
 {
+    float widest = 0;
+    for (; *text != '\0'; text += strcspn(text, "\n"), text += *text == '\n') {
+        const char *end = column_end(text);
+        if (*end == ' ')
+            widest = fmaxf(widest, width_of(font, text, (size_t)(end - text)) + GAP);
+    }
+    return widest;
+}
+
+static void put_text(Pen *pen, const char *text)
+{
+    const float left = pen->x;
+    const float column = left + column_width(&pen->view->font, text) * pen->size;
+    while (*text != '\0') {
+        const char *gap = column_end(text), *end = text + strcspn(text, "\n");
+        pen->x = left;
+        pen->color = gap == end ? plain : marked;
+        put_words(pen, text, gap);
+        pen->x = column;
+        pen->color = plain;
+        put_words(pen, gap + strspn(gap, " "), end);
+        pen->y += LINE_STEP * pen->size;
+        text = end + (*end == '\n');
+    }
+    pen->y += MARGIN / 2 * pen->size;
+}
+
+static void draw_corners(TextView *view)
+{
+    glUseProgram(view->program);
+    glBindTexture(GL_TEXTURE_2D, view->font.texture);
     glBindVertexArray(view->array);
     glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *vertices), vertices, GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(view->corners.count * sizeof(TextVertex)),
+                 view->corners.data, GL_STREAM_DRAW);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)view->corners.count);
     glDisable(GL_BLEND);
     glBindVertexArray(0);
 }
 
-void text_view_draw(const TextView *view, const char *text, uint32_t width, uint32_t height,
-                    uint32_t scale)
+// Draws a text below top, and returns its lower end.
+static float draw_text(TextView *view, const char *text, const TextOverlay *overlay, float top)
 {
-    char lines[TEXT_SIZE];
-    unsigned char white[4] = {255, 255, 255, 255};
-    Vertex *quads = malloc(QUAD_CORNERS * QUADS_MAX * sizeof(Vertex));
-    Vertex *triangles = malloc(QUAD_VERTICES * QUADS_MAX * sizeof(Vertex));
-    if (quads != NULL && triangles != NULL) {
-        copy_printable(lines, text);
-        break_lines(lines, (int)(width / scale) - 2 * MARGIN);
-        make_ground(quads, stb_easy_font_width(lines), count_lines(lines));
-        const int room = (int)((QUADS_MAX - 1) * QUAD_CORNERS * sizeof(Vertex));
-        const int count =
-            stb_easy_font_print(MARGIN, MARGIN + 2, lines, white, quads + QUAD_CORNERS, room);
-        glUseProgram(view->program);
-        glUniform2f(glGetUniformLocation(view->program, "size"), (float)width, (float)height);
-        draw_vertices(view, triangles, make_triangles(triangles, quads, (size_t)count + 1, scale));
+    Pen pen, start = {.view = view, .size = SIZE * overlay->density};
+    for (;; start.size *= SHRINKING) {
+        start.x = MARGIN * start.size;
+        start.y = top + MARGIN / 2 * start.size;
+        start.right = (float)overlay->width - start.x;
+        pen = start;
+        put_text(&pen, text);
+        if ((pen.y <= (float)overlay->height && pen.widest <= start.right) || pen.size < SMALLEST)
+            break;
     }
-    free(quads);
-    free(triangles);
+    if (view->font.size != pen.size)
+        set_size(&view->font, pen.size);
+    const float texel = 0.5f / (float)view->font.side;
+    view->corners.count = 0;
+    add_quad(view,
+             &(stbtt_aligned_quad){0, top, texel, texel, pen.widest + start.x, pen.y, texel, texel},
+             ground);
+    start.draws = true;
+    put_text(&start, text);
+    draw_corners(view);
+    return pen.y;
+}
+
+// Removes phrases after commas from the end, then characters, until the text has this width at
+// size 1.
+static void shorten(const Font *font, char *text, float width)
+{
+    static const char dots[] = "...";
+    while (text[0] != '\0' && width_of(font, text, strlen(text)) > width) {
+        const size_t length = strlen(text);
+        char *comma = strrchr(text, ',');
+        if (comma != NULL)
+            *comma = '\0';
+        else if (length > sizeof dots)
+            memcpy(text + length - sizeof dots, dots, sizeof dots);
+        else
+            text[0] = '\0';
+    }
+}
+
+void text_view_draw(TextView *view, const TextOverlay *overlay)
+{
+    float top = 0;
+    if (view->font.file.bytes == NULL)
+        return;
+    glUseProgram(view->program);
+    glUniform2f(glGetUniformLocation(view->program, "size"), (float)overlay->width,
+                (float)overlay->height);
+    shorten(&view->font, overlay->line,
+            (float)overlay->width / (SIZE * overlay->density) - 2 * MARGIN);
+    if (overlay->line[0] != '\0')
+        top = draw_text(view, overlay->line, overlay, 0);
+    if (overlay->panel[0] != '\0')
+        draw_text(view, overlay->panel, overlay, top);
 }

@@ -22,12 +22,8 @@ bool triangle_view_open(TriangleView *view, Error *error)
     glBindVertexArray(view->array);
     glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->indices);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          (void *)offsetof(Vertex, position));
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          (void *)offsetof(Vertex, normal));
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(1);
+    shader_set_attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
+    shader_set_attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
     glBindVertexArray(0);
     return true;
 }
