@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Welds by an open-addressed hash table of the lowest vertex at each position. Counts sides into a
 // bucket per lower point, then sorts the buckets, of about six sides each.
-#include "check/edges.h"
+#include "mesh/edges.h"
 
 #include "base/array.h"
 
