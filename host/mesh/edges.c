@@ -61,7 +61,7 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++)
             edges->first[side_of(mesh, weld, triangle, corner).low]++;
-    size_t sum = 0;
+    uint32_t sum = 0;
     for (size_t point = 0; point <= mesh->vertex_count; point++) {
         sum += edges->first[point];
         edges->first[point] = sum;
@@ -80,6 +80,10 @@ static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
 {
+    *edges = (Edges){0};
+    if (mesh->triangle_count > UINT32_MAX / 3)
+        return error_set(error, "one mesh has %zu triangles, more than %u", mesh->triangle_count,
+                         UINT32_MAX / 3);
     edges->sides = memory_raw(3 * mesh->triangle_count, sizeof *edges->sides, error);
     edges->first = memory_zeroed(mesh->vertex_count + 1, sizeof *edges->first, error);
     if (edges->sides == NULL || edges->first == NULL) {

@@ -29,9 +29,10 @@ typedef struct {
 // sorted by higher point, opposite point and triangle, so the sides of one edge are consecutive.
 typedef struct {
     EdgeSide *sides; // three per triangle
-    size_t *first;   // vertex_count + 1 entries
+    uint32_t *first; // vertex_count + 1 entries
 } Edges;
 
+// Fails if the mesh has more than 2^32 corners.
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
 void edges_free(Edges *edges);
 

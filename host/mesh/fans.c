@@ -10,9 +10,6 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error)
 {
     const size_t corners = 3 * mesh->triangle_count;
     *fans = (Fans){mesh, weld, NULL};
-    if (corners > UINT32_MAX)
-        return error_set(error, "one mesh has %zu triangles, more than %u", mesh->triangle_count,
-                         UINT32_MAX / 3);
     fans->parents = memory_raw(corners, sizeof *fans->parents, error);
     for (uint32_t corner = 0; fans->parents != NULL && corner < corners; corner++)
         fans->parents[corner] = corner;
@@ -50,4 +47,13 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
     const uint32_t b = fans_root(fans, corner_at(fans, other, point));
     // The lower corner becomes the root, so the root belongs to the fan's first triangle.
     fans->parents[a > b ? a : b] = a > b ? b : a;
+}
+
+// The parent of a corner is lower, so it has its number already.
+uint32_t fans_number(Fans *fans)
+{
+    uint32_t count = 0, *parents = fans->parents;
+    for (size_t corner = 0; corner < 3 * fans->mesh->triangle_count; corner++)
+        parents[corner] = parents[corner] == corner ? count++ : parents[parents[corner]];
+    return count;
 }

@@ -11,7 +11,7 @@ typedef struct {
     uint32_t *parents; // by corner: a corner of the same fan, not above it
 } Fans;
 
-// Makes a fan of each corner. Fails if the mesh has more than 2^32 corners.
+// Makes a fan of each corner of a mesh with edges.
 bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
 void fans_free(Fans *fans);
 
@@ -20,3 +20,7 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
 
 // Returns the lowest corner of the corner's fan.
 uint32_t fans_root(const Fans *fans, uint32_t corner);
+
+// Replaces each parent by the number of the corner's fan. Numbers are in the order of the fans'
+// lowest corners. Returns the number of fans. Only fans_free may follow.
+uint32_t fans_number(Fans *fans);
