@@ -58,7 +58,8 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
 // A mesh that replaces a scene file is visible from both sides.
 static MeshLoadOptions options_of(PlyParse *parse)
 {
-    return (MeshLoadOptions){.object = {.material = 1, .two_sided = true, .smooth = true},
+    return (MeshLoadOptions){.object = {.material = 1, .two_sided = true},
+                             .normals = {NORMALS_SMOOTH, CREASE_DEGREES},
                              .takes_own_materials = true,
                              .parse = parse};
 }
@@ -81,7 +82,8 @@ bool mesh_scene_parse(Scene *scene, const File *file, const char *name, PlyParse
 {
     const MeshLoadOptions options = options_of(parse);
     const double start = clock_seconds();
-    const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &options, error);
+    const bool ok = scene_init(scene, error) && ply_mesh_add(scene, file, name, &options, error) &&
+                    mesh_load_normals(scene, 0, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
     return complete(scene, ok, error);
 }
@@ -90,7 +92,8 @@ bool mesh_scene_read_foreign(Scene *scene, const char *path, PlyParse *parse, Er
 {
     const MeshLoadOptions options = options_of(parse);
     const double start = clock_seconds();
-    const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &options, error);
+    const bool ok = scene_init(scene, error) && foreign_mesh_add(scene, path, &options, error) &&
+                    mesh_load_normals(scene, 0, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
     return complete(scene, ok, error);
 }

@@ -18,10 +18,11 @@ typedef struct {
     Tokens tokens;
     Scene *scene;
     PlyParse *parse_mesh;
-    uint32_t material; // material of the objects that follow, or MATERIAL_OWN
-    MeshObject object; // two_sided and smooth of the objects that follow
-    Vec3 up;           // up vector of the cameras that follow
-    Token waiting_up;  // the latest `up` statement, if no camera follows it yet
+    uint32_t material;     // material of the objects that follow, or MATERIAL_OWN
+    bool two_sided;        // of the objects that follow
+    NormalOptions normals; // of the objects that follow
+    Vec3 up;               // up vector of the cameras that follow
+    Token waiting_up;      // the latest `up` statement, if no camera follows it yet
     Error *error;
 } Parser;
 
@@ -67,11 +68,12 @@ static bool read_define(Parser *parser)
 
 static bool read_mesh_file(Parser *parser, bool is_plain_ply)
 {
-    MeshLoadOptions options = {.object = parser->object,
-                               .is_plain_ply = is_plain_ply,
-                               .takes_own_materials = parser->material == MATERIAL_OWN,
-                               .parse = parser->parse_mesh};
-    options.object.material = plain_material(parser);
+    MeshLoadOptions options = {
+        .object = {.material = plain_material(parser), .two_sided = parser->two_sided},
+        .normals = parser->normals,
+        .is_plain_ply = is_plain_ply,
+        .takes_own_materials = parser->material == MATERIAL_OWN,
+        .parse = parser->parse_mesh};
     return mesh_statement_read(parser->scene, &parser->tokens, &options);
 }
 
@@ -157,12 +159,19 @@ static bool read_choice(Parser *parser, const char *yes, const char *no, bool *c
 
 static bool read_sides(Parser *parser)
 {
-    return read_choice(parser, "two", "one", &parser->object.two_sided);
+    return read_choice(parser, "two", "one", &parser->two_sided);
 }
 
 static bool read_normals(Parser *parser)
 {
-    return read_choice(parser, "smooth", "flat", &parser->object.smooth);
+    bool is_smooth;
+    Tokens *tokens = &parser->tokens;
+    if (!read_choice(parser, "smooth", "flat", &is_smooth))
+        return false;
+    Tokens ahead = *tokens;
+    parser->normals = (NormalOptions){is_smooth ? NORMALS_SMOOTH : NORMALS_FLAT, CREASE_DEGREES};
+    const bool has_angle = is_smooth && tokens_next(&ahead).text != NULL;
+    return !has_angle || tokens_number_within(tokens, &parser->normals.crease_degrees, 0, 180);
 }
 
 static const struct {
@@ -178,7 +187,7 @@ static const struct {
     {"material", "material NUMBER|NAME|own", read_material},
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]", read_mesh},
-    {"normals", "normals smooth|flat", read_normals},
+    {"normals", "normals flat|smooth [DEGREES]", read_normals},
     {"ply_file", "ply_file PATH", read_ply_file},
     {"sides", "sides one|two", read_sides},
     {"size", "size WIDTH HEIGHT", read_size},
@@ -228,7 +237,6 @@ static bool read_statements(Parser *parser)
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
-    parser->object.smooth = true;
     parser->material = MATERIAL_OWN;
     parser->up = vec3(0, 0, 1);
     bool ok = scene_init(parser->scene, parser->error);

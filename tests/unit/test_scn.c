@@ -168,9 +168,9 @@ static void sides_and_normals_are_for_the_objects_that_follow(void **state)
     (void)state;
     Scene scene = parsed("ply_file cube.ply\nsides two\nnormals flat\nmesh cube.ply\n");
     assert_false(scene.objects.data[0].two_sided);
-    assert_true(scene.objects.data[0].smooth);
+    assert_non_null(scene.objects.data[0].mesh.normals);
     assert_true(scene.objects.data[1].two_sided);
-    assert_false(scene.objects.data[1].smooth);
+    assert_null(scene.objects.data[1].mesh.normals);
     scene_free(&scene);
 }
 
@@ -257,6 +257,15 @@ static void values_out_of_range_are_refused(void **state)
                  "1:1: the camera must not look along its 'up' vector: found "
                  "'camera'; the statement is 'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z "
                  "FOV_DEGREES'");
+    expect_error("normals smooth 180.5",
+                 "1:16: expected a number between 0 and 180: found '180.5'; the statement is "
+                 "'normals flat|smooth [DEGREES]'");
+    expect_error("normals smooth soft", "1:16: expected a number: found 'soft'; the statement is "
+                                        "'normals flat|smooth [DEGREES]'");
+    expect_error("normals flat 30", "1:14: expected nothing more: found '30'; the statement is "
+                                    "'normals flat|smooth [DEGREES]'");
+    expect_error("normals round", "1:9: expected 'smooth' or 'flat': found 'round'; the statement "
+                                  "is 'normals flat|smooth [DEGREES]'");
     expect_error("up 0 1 0", "1:1: no camera follows this 'up': found 'up'; the statement is 'up X "
                              "Y Z'");
     expect_error("define a matte\ndefine a matte",

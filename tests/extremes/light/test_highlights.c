@@ -136,7 +136,6 @@ static Scene square(const Vec3 normals[4], Vec3 eye, Vec3 light)
         mesh.normals[i][2] = (float)normals[i].z;
     }
     Scene scene = shape_scene(mesh);
-    scene.objects.data[0].smooth = true;
     scene.objects.data[0].material = 2;
     const Light made = light_white(light, 1);
     const Viewpoint viewpoint = {eye, {0, 0, 0.125}, {0, 1, 0.1}, 40};

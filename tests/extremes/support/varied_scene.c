@@ -22,7 +22,6 @@ static void add_globe(Scene *scene)
     Mesh globe = shape_bumpy(&random, vec3(0, 0, 0));
     add_normals(&globe);
     shape_add(scene, globe, 2);
-    scene->objects.data[scene->objects.count - 1].smooth = true;
 }
 
 Scene varied_scene(void)
