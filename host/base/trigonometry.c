@@ -63,34 +63,17 @@ double cosine_of_degrees(double degrees)
     return sine_ahead(degrees, 1);
 }
 
-static double arctangent_series(double x)
-{
-    const double s = x * x;
-    double sum = 1.0 / 21.0;
-    sum = sum * s - 1.0 / 19.0;
-    sum = sum * s + 1.0 / 17.0;
-    sum = sum * s - 1.0 / 15.0;
-    sum = sum * s + 1.0 / 13.0;
-    sum = sum * s - 1.0 / 11.0;
-    sum = sum * s + 1.0 / 9.0;
-    sum = sum * s - 1.0 / 7.0;
-    sum = sum * s + 1.0 / 5.0;
-    sum = sum * s - 1.0 / 3.0;
-    return x + x * s * sum;
-}
-
-static double half_tangent(double tangent)
-{
-    return tangent / (1 + sqrt(1 + tangent * tangent));
-}
-
 // The difference and the sum are the opposite and the adjacent side of half the angle.
 double angle_between(Vec3 a, Vec3 b)
 {
     const Vec3 difference = vec3_sub(a, b), sum = vec3_add(a, b);
     const double opposite = vec3_dot(difference, difference), adjacent = vec3_dot(sum, sum);
     const bool is_acute = opposite <= adjacent;
-    const double tangent = sqrt(is_acute ? opposite / adjacent : adjacent / opposite);
-    const double angle = 8 * arctangent_series(half_tangent(half_tangent(tangent)));
+    double tangent = sqrt(is_acute ? opposite / adjacent : adjacent / opposite), series = 0;
+    for (int half = 0; half < 2; half++)
+        tangent /= 1 + sqrt(1 + tangent * tangent);
+    for (int odd = 21; odd > 0; odd -= 2)
+        series = 1.0 / odd - tangent * tangent * series;
+    const double angle = 8 * tangent * series;
     return is_acute ? angle : 180 * RADIANS_PER_DEGREE - angle;
 }

@@ -3,7 +3,6 @@
 #include "check/closedness.h"
 
 #include "base/array.h"
-#include "mesh/fans.h"
 
 #include <stdlib.h>
 
@@ -28,17 +27,13 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
 
 static void visit_edges(Closedness *closedness, const Edges *edges, Fans *fans)
 {
-    for (uint32_t point = 0; point < fans->mesh->vertex_count; point++) {
-        size_t place = edges->first[point];
-        while (place < edges->first[point + 1]) {
-            const size_t end = edges_end(edges, point, place);
-            const EdgeSide *sides = &edges->sides[place];
-            judge_edge(closedness, sides, end - place);
-            for (size_t side = 1; side < end - place; side++) {
-                fans_join(fans, point, sides[0].triangle, sides[side].triangle);
-                fans_join(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
-            }
-            place = end;
+    Edge edge = {0};
+    while (edges_next(edges, &edge)) {
+        const EdgeSide *sides = edge.sides;
+        judge_edge(closedness, sides, edge.count);
+        for (size_t side = 1; side < edge.count; side++) {
+            fans_join(fans, edge.low, sides[0].triangle, sides[side].triangle);
+            fans_join(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
         }
     }
 }
@@ -102,6 +97,6 @@ bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld,
                             closedness->crowded.count == 0 && closedness->turned.count == 0 &&
                             closedness->pinched.count == 0;
     closedness->is_inside_out = closedness->is_closed && signed_volume(mesh) < 0;
-    fans_free(&fans);
+    free(fans.parents);
     return ok;
 }

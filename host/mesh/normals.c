@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Corners -> fans across smooth edges -> one normal per fan. The weights are those of Thuermer and
+// Corners -> fans across smooth edges -> one vertex per fan. The weights are those of Thuermer and
 // Wuethrich, "Computing Vertex Normals from Polygonal Facets" (1998): they make normals independent
 // of how flat faces are triangulated.
 #include "mesh/normals.h"
 
 #include "base/array.h"
 #include "base/limits.h"
-#include "mesh/fans.h"
+#include "mesh/edges.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,8 @@
 // Keeps rounding from separating coplanar and opposite faces.
 #define COSINE_SLACK 0x1p-40
 
-// A face has no normal if the sines of its angles are all smaller: rounded coordinates turn such
-// slivers by any angle.
+// A face is a sliver if the sines of its angles have a smaller sum: rounded coordinates turn its
+// normal by any angle.
 #define SINE_LEAST 0x1p-20
 
 // Smaller sums of faces are rounding errors of faces that cancel each other.
@@ -30,81 +30,56 @@ typedef struct {
 } Face;
 
 typedef struct {
+    Vec3 normal;
+    uint32_t old; // a vertex at the same position
+} Vertex;
+
+typedef struct {
     const Mesh *mesh;
     double cosine; // smallest cosine between the normals of faces that a smooth edge joins
     Face *faces;   // by triangle
-    Fans fans;     // later: by corner, the new vertex
-    Vec3 *means;   // by fan: normal of unit length, or zero
-    uint32_t fan_count;
+    Fans fans;     // later: by corner, the vertex
+    ARRAY(Vertex) vertices;
 } Smoothing;
 
-static bool has_normal(const Mesh *mesh, uint32_t vertex)
+static Vec3 given_normal(const Mesh *mesh, uint32_t vertex)
 {
-    const float *n = mesh->normals != NULL ? mesh->normals[vertex] : NULL;
-    return n != NULL && (n[0] != 0 || n[1] != 0 || n[2] != 0);
+    const float *n = mesh->normals != NULL ? mesh->normals[vertex] : (const float[3]){0, 0, 0};
+    return vec3((double)n[0], (double)n[1], (double)n[2]);
 }
 
 static bool is_complete(const Mesh *mesh)
 {
-    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
-        for (int corner = 0; corner < 3; corner++)
-            if (!has_normal(mesh, mesh->triangles[triangle][corner]))
-                return false;
+    for (size_t corner = 0; corner < 3 * mesh->triangle_count; corner++)
+        if (vec3_extent(given_normal(mesh, mesh->triangles[corner / 3][corner % 3])) == 0)
+            return false;
     return true;
 }
 
 static Face face_of(const Mesh *mesh, const uint32_t *triangle)
 {
-    Face face = {.normal = {0, 0, 0}};
-    Vec3 next[3], previous[3], widest = {0, 0, 0}; // next and previous: directions from each corner
+    Face face;
+    Vec3 sum = {0, 0, 0};
     for (int corner = 0; corner < 3; corner++) {
-        next[corner] = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
-        previous[(corner + 1) % 3] = vec3_scale(next[corner], -1);
+        const Vec3 a = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
+        const Vec3 b = mesh_direction(mesh, triangle[corner], triangle[(corner + 2) % 3]);
+        sum = vec3_add(sum, vec3_cross(a, b));
+        face.angles[corner] = angle_between(a, b);
     }
-    for (int corner = 0; corner < 3; corner++) {
-        const Vec3 cross = vec3_cross(next[corner], previous[corner]);
-        widest = vec3_dot(cross, cross) > vec3_dot(widest, widest) ? cross : widest;
-    }
-    if (vec3_extent(widest) < SINE_LEAST)
-        return face;
-    face.normal = vec3_normalize(widest);
-    for (int corner = 0; corner < 3; corner++)
-        face.angles[corner] = angle_between(next[corner], previous[corner]);
-    return face;
+    face.normal = vec3_normalize(sum);
+    return vec3_extent(sum) < SINE_LEAST ? (Face){.angles = {0}} : face;
 }
 
-static bool make_faces(Smoothing *smoothing, Error *error)
+static void join_edge(const Smoothing *smoothing, const Edge *edge)
 {
-    const Mesh *mesh = smoothing->mesh;
-    smoothing->faces = memory_raw(mesh->triangle_count, sizeof *smoothing->faces, error);
-    for (size_t i = 0; smoothing->faces != NULL && i < mesh->triangle_count; i++)
-        smoothing->faces[i] = face_of(mesh, mesh->triangles[i]);
-    return smoothing->faces != NULL;
-}
-
-static bool is_smooth(const Smoothing *smoothing, uint32_t triangle, uint32_t other)
-{
-    const Vec3 a = smoothing->faces[triangle].normal, b = smoothing->faces[other].normal;
-    return vec3_dot(a, a) > 0 && vec3_dot(b, b) > 0 && vec3_dot(a, b) >= smoothing->cosine;
-}
-
-static void join_edge(const Smoothing *smoothing, uint32_t low, const EdgeSide *sides, size_t count)
-{
-    for (size_t i = 1; i < count && count <= EDGE_FACES_MOST; i++)
-        for (size_t j = 0; j < i; j++)
-            if (is_smooth(smoothing, sides[i].triangle, sides[j].triangle)) {
-                fans_join(&smoothing->fans, low, sides[i].triangle, sides[j].triangle);
-                fans_join(&smoothing->fans, sides[i].high, sides[i].triangle, sides[j].triangle);
-            }
-}
-
-static void join_edges(const Smoothing *smoothing, const Edges *edges)
-{
-    for (uint32_t point = 0; point < smoothing->mesh->vertex_count; point++)
-        for (size_t place = edges->first[point], end; place < edges->first[point + 1];
-             place = end) {
-            end = edges_end(edges, point, place);
-            join_edge(smoothing, point, &edges->sides[place], end - place);
+    for (size_t i = 1; i < edge->count && edge->count <= EDGE_FACES_MOST; i++)
+        for (size_t j = 0; j < i; j++) {
+            const uint32_t one = edge->sides[i].triangle, other = edge->sides[j].triangle;
+            const Vec3 a = smoothing->faces[one].normal, b = smoothing->faces[other].normal;
+            if (vec3_dot(a, a) * vec3_dot(b, b) == 0 || vec3_dot(a, b) < smoothing->cosine)
+                continue;
+            fans_join(&smoothing->fans, edge->low, one, other);
+            fans_join(&smoothing->fans, edge->sides[i].high, one, other);
         }
 }
 
@@ -112,111 +87,99 @@ static bool make_fans(Smoothing *smoothing, Error *error)
 {
     Weld weld = {0};
     Edges edges = {0};
+    Edge edge = {0};
     const Mesh *mesh = smoothing->mesh;
-    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
+    smoothing->faces = memory_raw(mesh->triangle_count, sizeof *smoothing->faces, error);
+    const bool ok = smoothing->faces != NULL && weld_make(&weld, mesh, error) &&
+                    edges_make(&edges, mesh, &weld, error) &&
                     fans_make(&smoothing->fans, mesh, &weld, error);
-    if (ok)
-        join_edges(smoothing, &edges);
+    for (size_t i = 0; ok && i < mesh->triangle_count; i++)
+        smoothing->faces[i] = face_of(mesh, mesh->triangles[i]);
+    while (ok && edges_next(&edges, &edge))
+        join_edge(smoothing, &edge);
     edges_free(&edges);
     weld_free(&weld);
     return ok;
 }
 
-// Sums in the order of the corners, so that the result depends on nothing else.
-static bool make_means(Smoothing *smoothing, Error *error)
+// Makes one vertex per fan. Sums in the order of the corners, so that the result depends on nothing
+// else.
+static bool make_vertices(Smoothing *smoothing, Error *error)
 {
-    const uint32_t *fans = smoothing->fans.parents;
-    smoothing->fan_count = fans_number(&smoothing->fans);
-    smoothing->means = memory_zeroed(smoothing->fan_count, sizeof *smoothing->means, error);
-    if (smoothing->means == NULL)
-        return false;
-    for (size_t corner = 0; corner < 3 * smoothing->mesh->triangle_count; corner++) {
-        const Face *face = &smoothing->faces[corner / 3];
-        Vec3 *mean = &smoothing->means[fans[corner]];
-        *mean = vec3_add(*mean, vec3_scale(face->normal, face->angles[corner % 3]));
+    const size_t count = fans_number(&smoothing->fans);
+    Vertex *vertices = memory_zeroed(count, sizeof *vertices, error);
+    smoothing->vertices.data = vertices;
+    smoothing->vertices.count = smoothing->vertices.capacity = count;
+    for (size_t i = 0; vertices != NULL && i < 3 * smoothing->mesh->triangle_count; i++) {
+        const Face *face = &smoothing->faces[i / 3];
+        Vertex *vertex = &vertices[smoothing->fans.parents[i]];
+        vertex->normal = vec3_add(vertex->normal, vec3_scale(face->normal, face->angles[i % 3]));
+        vertex->old = smoothing->mesh->triangles[i / 3][i % 3];
     }
-    for (uint32_t fan = 0; fan < smoothing->fan_count; fan++) {
-        const Vec3 sum = smoothing->means[fan];
-        smoothing->means[fan] = vec3_extent(sum) > SUM_LEAST ? vec3_normalize(sum) : vec3(0, 0, 0);
-    }
-    return true;
+    for (size_t i = 0; vertices != NULL && i < count; i++)
+        vertices[i].normal = vec3_extent(vertices[i].normal) > SUM_LEAST
+                                 ? vec3_normalize(vertices[i].normal)
+                                 : vec3(0, 0, 0);
+    return vertices != NULL;
 }
 
-// Returns whether a corner needs a vertex of its own: it has a normal, or its fan bends by more
-// than the crease angle, as at the tip of a cone, and the mean does not suit its face.
-static bool is_alone(const Smoothing *smoothing, size_t corner)
+// Gives corners with a normal a vertex of their own, and corners whose fan bends by more than the
+// crease angle, as at the tip of a cone, so that the mean does not suit their face.
+static bool part_corners(Smoothing *smoothing, Error *error)
 {
-    const Vec3 mean = smoothing->means[smoothing->fans.parents[corner]];
-    return has_normal(smoothing->mesh, smoothing->mesh->triangles[corner / 3][corner % 3]) ||
-           vec3_dot(mean, mean) == 0 ||
-           vec3_dot(mean, smoothing->faces[corner / 3].normal) < smoothing->cosine;
-}
-
-static void store_normal(float normal[3], Vec3 value)
-{
-    normal[0] = (float)value.x;
-    normal[1] = (float)value.y;
-    normal[2] = (float)value.z;
-}
-
-// Makes one vertex per fan and per corner that is alone. Stores each corner's vertex in fans.
-static bool make_vertices(Mesh *made, Smoothing *smoothing, Error *error)
-{
-    const Mesh *mesh = smoothing->mesh;
-    const size_t corners = 3 * mesh->triangle_count;
-    size_t count = smoothing->fan_count;
-    for (size_t corner = 0; corner < corners; corner++)
-        count += is_alone(smoothing, corner);
-    if (count > (size_t)MESH_COUNT_MOST)
-        return error_set(error, "its normals need %zu vertices, which are too many", count);
-    made->positions = memory_raw(count, sizeof *made->positions, error);
-    made->normals = memory_raw(count, sizeof *made->normals, error);
-    if (made->positions == NULL || made->normals == NULL)
-        return false;
-    made->vertex_count = smoothing->fan_count;
-    for (size_t corner = 0; corner < corners; corner++) {
-        const uint32_t old = mesh->triangles[corner / 3][corner % 3];
-        uint32_t *vertex = &smoothing->fans.parents[corner];
-        const bool alone = is_alone(smoothing, corner);
-        memcpy(made->positions[*vertex], mesh->positions[old], sizeof *made->positions);
-        store_normal(made->normals[*vertex], smoothing->means[*vertex]);
-        if (!alone)
+    for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {
+        const uint32_t old = smoothing->mesh->triangles[i / 3][i % 3];
+        uint32_t *place = &smoothing->fans.parents[i];
+        const Vec3 mean = smoothing->vertices.data[*place].normal;
+        const Vec3 face = smoothing->faces[i / 3].normal,
+                   given = given_normal(smoothing->mesh, old);
+        const bool is_given = vec3_dot(given, given) > 0;
+        if (!is_given && vec3_dot(mean, mean) > 0 && vec3_dot(mean, face) >= smoothing->cosine)
             continue;
-        *vertex = (uint32_t)made->vertex_count++;
-        memcpy(made->positions[*vertex], mesh->positions[old], sizeof *made->positions);
-        if (has_normal(mesh, old))
-            memcpy(made->normals[*vertex], mesh->normals[old], sizeof *made->normals);
-        else
-            store_normal(made->normals[*vertex], smoothing->faces[corner / 3].normal);
+        const Vertex own = {is_given ? given : face, old};
+        *place = (uint32_t)smoothing->vertices.count;
+        if (!array_push(&smoothing->vertices, own, error))
+            return false;
     }
-    return true;
+    return smoothing->vertices.count <= (size_t)MESH_COUNT_MOST ||
+           error_set(error, "its normals need %zu vertices", smoothing->vertices.count);
 }
 
-static void replace_vertices(Mesh *mesh, Mesh *made, const uint32_t *vertices)
+static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *error)
 {
-    free(mesh->positions);
-    free(mesh->normals);
-    mesh->positions = made->positions;
-    mesh->normals = made->normals;
-    mesh->vertex_count = made->vertex_count;
-    memcpy(mesh->triangles, vertices, mesh->triangle_count * sizeof *mesh->triangles);
-    *made = (Mesh){0};
+    const size_t count = smoothing->vertices.count;
+    Mesh made = {.positions = memory_raw(count, sizeof *made.positions, error),
+                 .normals = memory_raw(count, sizeof *made.normals, error)};
+    const bool ok = made.positions != NULL && made.normals != NULL;
+    for (size_t i = 0; ok && i < count; i++) {
+        const Vertex *vertex = &smoothing->vertices.data[i];
+        const Vec3 n = vertex->normal;
+        const float normal[3] = {(float)n.x, (float)n.y, (float)n.z};
+        memcpy(made.positions[i], mesh->positions[vertex->old], sizeof *made.positions);
+        memcpy(made.normals[i], normal, sizeof *made.normals);
+    }
+    if (ok) {
+        const Mesh old = *mesh;
+        mesh->positions = made.positions;
+        mesh->normals = made.normals;
+        mesh->vertex_count = count;
+        memcpy(mesh->triangles, smoothing->fans.parents,
+               3 * sizeof(uint32_t) * mesh->triangle_count);
+        made = (Mesh){.positions = old.positions, .normals = old.normals};
+    }
+    mesh_free(&made);
+    return ok;
 }
 
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error)
 {
-    Mesh made = {0};
     Smoothing smoothing = {.mesh = mesh,
                            .cosine = cosine_of_degrees(crease_degrees) - COSINE_SLACK};
-    if (is_complete(mesh))
-        return true;
-    const bool ok = make_faces(&smoothing, error) && make_fans(&smoothing, error) &&
-                    make_means(&smoothing, error) && make_vertices(&made, &smoothing, error);
-    if (ok)
-        replace_vertices(mesh, &made, smoothing.fans.parents);
-    mesh_free(&made);
+    const bool ok = is_complete(mesh) ||
+                    (make_fans(&smoothing, error) && make_vertices(&smoothing, error) &&
+                     part_corners(&smoothing, error) && replace_vertices(mesh, &smoothing, error));
     free(smoothing.faces);
-    free(smoothing.means);
-    fans_free(&smoothing.fans);
+    free(smoothing.vertices.memory);
+    free(smoothing.fans.parents);
     return ok;
 }

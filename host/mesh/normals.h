@@ -8,17 +8,6 @@
 // The crease angle of lone meshes and of scenes that name none.
 #define CREASE_DEGREES 33
 
-typedef enum {
-    NORMALS_GIVEN,  // those of the file; triangles without any are flat
-    NORMALS_SMOOTH, // those of the file; missing ones are computed
-    NORMALS_FLAT
-} NormalKind;
-
-typedef struct {
-    NormalKind kind;
-    double crease_degrees; // of NORMALS_SMOOTH
-} NormalOptions;
-
 // Gives each used vertex without a normal one of length 1: the mean of the faces around it,
 // weighted by their angles. Vertices at one position count as one. Edges with an angle of more than
 // crease_degrees, from 0 to 180, between the normals of their faces stay sharp. The mesh gets new

@@ -124,14 +124,13 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error)
 {
-    const NormalOptions *normals = &options->normals;
     Error cause = {0};
     for (size_t i = first; options->parse == ply_parse && i < scene->objects.count; i++) {
         MeshObject *object = &scene->objects.data[i];
-        if (normals->kind == NORMALS_FLAT)
+        if (options->is_flat)
             mesh_drop_normals(&object->mesh);
-        else if (normals->kind == NORMALS_SMOOTH &&
-                 !mesh_compute_normals(&object->mesh, normals->crease_degrees, &cause))
+        else if (options->crease_degrees >= 0 &&
+                 !mesh_compute_normals(&object->mesh, options->crease_degrees, &cause))
             return error_set(error, "%s: %s", scene->inputs.data[object->input], cause.text);
     }
     return true;

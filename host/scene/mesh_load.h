@@ -7,10 +7,13 @@
 #include "mesh/ply.h"
 #include "scene/scene.h"
 
+#define NO_CREASE (-1)
+
 // How to load a file.
 typedef struct {
-    MeshObject object; // properties of its objects beside their meshes
-    NormalOptions normals;
+    MeshObject object;        // properties of its objects beside their meshes
+    bool is_flat;             // without the file's normals
+    double crease_degrees;    // for computing missing normals; NO_CREASE leaves them missing
     bool takes_own_materials; // instead of the object's, if the file has any
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the mesh reader

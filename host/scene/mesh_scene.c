@@ -59,7 +59,7 @@ static bool add_lights(Scene *scene, Vec3 center, double radius, Error *error)
 static MeshLoadOptions options_of(PlyParse *parse)
 {
     return (MeshLoadOptions){.object = {.material = 1, .two_sided = true},
-                             .normals = {NORMALS_SMOOTH, CREASE_DEGREES},
+                             .crease_degrees = CREASE_DEGREES,
                              .takes_own_materials = true,
                              .parse = parse};
 }

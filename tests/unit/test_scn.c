@@ -264,7 +264,7 @@ static void values_out_of_range_are_refused(void **state)
                                         "'normals flat|smooth [DEGREES]'");
     expect_error("normals flat 30", "1:14: expected nothing more: found '30'; the statement is "
                                     "'normals flat|smooth [DEGREES]'");
-    expect_error("normals round", "1:9: expected 'smooth' or 'flat': found 'round'; the statement "
+    expect_error("normals round", "1:9: expected 'flat' or 'smooth': found 'round'; the statement "
                                   "is 'normals flat|smooth [DEGREES]'");
     expect_error("up 0 1 0", "1:1: no camera follows this 'up': found 'up'; the statement is 'up X "
                              "Y Z'");
