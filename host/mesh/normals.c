@@ -59,10 +59,11 @@ static bool is_complete(const Mesh *mesh)
 static Face face_of(const Mesh *mesh, const uint32_t *triangle)
 {
     Face face;
-    Vec3 sum = {0, 0, 0};
+    Vec3 sides[3], sum = {0, 0, 0}; // sides: from each corner to the next
+    for (int corner = 0; corner < 3; corner++)
+        sides[corner] = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
     for (int corner = 0; corner < 3; corner++) {
-        const Vec3 a = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
-        const Vec3 b = mesh_direction(mesh, triangle[corner], triangle[(corner + 2) % 3]);
+        const Vec3 a = sides[corner], b = vec3_scale(sides[(corner + 2) % 3], -1);
         sum = vec3_add(sum, vec3_cross(a, b));
         face.angles[corner] = angle_between(a, b);
     }
