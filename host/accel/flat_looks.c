@@ -12,17 +12,10 @@ typedef struct {
     uint32_t first_normals; // index where that section begins
 } ObjectLooks;
 
-static Vec3 mesh_corner(const Mesh *mesh, const uint32_t *triangle, int corner)
-{
-    const double *p = mesh->positions[triangle[corner]];
-    return vec3(p[0], p[1], p[2]);
-}
-
 static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
 {
-    const Vec3 a = mesh_corner(mesh, triangle, 0);
-    const Vec3 first = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 1), a));
-    const Vec3 second = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, 2), a));
+    const Vec3 first = mesh_direction(mesh, triangle[0], triangle[1]);
+    const Vec3 second = mesh_direction(mesh, triangle[0], triangle[2]);
     return vec3_normalize(vec3_cross(first, second));
 }
 
@@ -120,16 +113,11 @@ static void make_chunk(void *context, uint32_t chunk, uint32_t worker)
     }
 }
 
-static bool object_is_smooth(const MeshObject *object)
-{
-    return object->smooth && object->mesh.normals != NULL;
-}
-
 static uint32_t count_smooth_triangles(const Scene *scene)
 {
     size_t count = 0;
     for (size_t i = 0; i < scene->objects.count; i++)
-        if (object_is_smooth(&scene->objects.data[i]))
+        if (scene->objects.data[i].mesh.normals != NULL)
             count += scene->objects.data[i].mesh.triangle_count;
     return (uint32_t)count;
 }
@@ -145,7 +133,7 @@ bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         const uint32_t count = (uint32_t)object->mesh.triangle_count;
-        const bool smooth = object_is_smooth(object);
+        const bool smooth = object->mesh.normals != NULL;
         ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
                              smooth ? flat->normals + flat->normals_count : NULL,
                              flat->normals_count};

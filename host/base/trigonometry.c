@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Reduces the angle to at most 45 degrees, which is exact in degrees. In this range, the first
-// omitted term of the Taylor series is below 2^-55.
+// Reduces the angle to at most 45 degrees, which is exact in degrees, or halves it to 11.25. In
+// this range, the first omitted term of the Taylor series is below 2^-55.
 #include "base/vec.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #define RADIANS_PER_DEGREE 0.017453292519943295
 
@@ -60,4 +61,19 @@ double sine_of_degrees(double degrees)
 double cosine_of_degrees(double degrees)
 {
     return sine_ahead(degrees, 1);
+}
+
+// The difference and the sum are the opposite and the adjacent side of half the angle.
+double angle_between(Vec3 a, Vec3 b)
+{
+    const Vec3 difference = vec3_sub(a, b), sum = vec3_add(a, b);
+    const double opposite = vec3_dot(difference, difference), adjacent = vec3_dot(sum, sum);
+    const bool is_acute = opposite <= adjacent;
+    double tangent = sqrt(is_acute ? opposite / adjacent : adjacent / opposite), series = 0;
+    for (int half = 0; half < 2; half++)
+        tangent /= 1 + sqrt(1 + tangent * tangent);
+    for (int odd = 21; odd > 0; odd -= 2)
+        series = 1.0 / odd - tangent * tangent * series;
+    const double angle = 8 * tangent * series;
+    return is_acute ? angle : 180 * RADIANS_PER_DEGREE - angle;
 }

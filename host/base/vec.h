@@ -55,10 +55,13 @@ static inline double vec3_extent(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
-// Returns `a` scaled to length 1; the zero vector stays zero. Dividing by a power of two first
-// prevents overflow and underflow of squares.
+// Returns `a` scaled to length 1; the zero vector stays zero. If squares could overflow or
+// underflow, `a` is divided by a power of two first, which changes no bit of the result.
 static inline Vec3 vec3_normalize(Vec3 a)
 {
+    const double square = vec3_dot(a, a);
+    if (square > 0x1p-900 && square < 0x1p900)
+        return vec3_scale(a, 1 / sqrt(square));
     const double extent = vec3_extent(a);
     if (!(extent > 0))
         return (Vec3){0, 0, 0};
@@ -72,3 +75,7 @@ static inline Vec3 vec3_normalize(Vec3 a)
 // Accurate within 2 ulp; exact at multiples of 90. degrees must be finite and below 1e9.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
+
+// Returns the angle between vectors of length 1, in radians, by a fixed series. Accurate within
+// 2^-48.
+double angle_between(Vec3 a, Vec3 b);

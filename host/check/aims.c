@@ -183,29 +183,19 @@ static void aim_at_edge(AimBuilder *builder, uint32_t point, const EdgeSide *sid
 
 static void aim_at_edges(AimBuilder *builder)
 {
-    const Edges *edges = builder->source->edges;
-    for (uint32_t point = 0; point < builder->source->mesh->vertex_count; point++) {
-        size_t place = edges->first[point];
-        while (place < edges->first[point + 1]) {
-            const size_t end = edges_end(edges, point, place);
-            aim_at_edge(builder, point, &edges->sides[place], end - place);
-            place = end;
-        }
-    }
+    Edge edge = {0};
+    while (edges_next(builder->source->edges, &edge))
+        aim_at_edge(builder, edge.low, edge.sides, edge.count);
 }
 
 static size_t count_aims(const AimSource *source)
 {
     size_t count = 0;
-    for (uint32_t point = 0; point < source->mesh->vertex_count; point++) {
+    Edge edge = {0};
+    for (uint32_t point = 0; point < source->mesh->vertex_count; point++)
         count += source->weld->points[point] == point;
-        size_t place = source->edges->first[point];
-        while (place < source->edges->first[point + 1]) {
-            const size_t end = edges_end(source->edges, point, place);
-            count += end - place > 1 ? 1 : 2;
-            place = end;
-        }
-    }
+    while (edges_next(source->edges, &edge))
+        count += edge.count > 1 ? 1 : 2;
     return count;
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "accel/triangles.h"
-#include "check/edges.h"
+#include "mesh/edges.h"
 
 // A ray in the device's layout. The fourth components are zero.
 typedef struct {

@@ -1,45 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Visits the edges once. At each point, a union-find joins the corners of triangles that share an
-// edge into fans. A point with more than one fan is pinched.
+// Visits each edge once and joins its triangles into fans. A point with several fans is pinched.
 #include "check/closedness.h"
 
 #include "base/array.h"
 
 #include <stdlib.h>
-
-typedef struct {
-    const Mesh *mesh;
-    const Weld *weld;
-    uint32_t *parents; // by corner (3 * triangle + 0, 1 or 2): a corner of the same fan
-} Fans;
-
-static uint32_t fan_of(const Fans *fans, uint32_t corner)
-{
-    uint32_t *parents = fans->parents;
-    while (parents[corner] != corner) {
-        parents[corner] = parents[parents[corner]];
-        corner = parents[corner];
-    }
-    return corner;
-}
-
-// Returns the number of the triangle's corner at one of its points: 3 * triangle + 0, 1 or 2.
-static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
-{
-    const uint32_t *corners = fans->mesh->triangles[triangle];
-    for (uint32_t corner = 0; corner < 2; corner++)
-        if (fans->weld->points[corners[corner]] == point)
-            return 3 * triangle + corner;
-    return 3 * triangle + 2;
-}
-
-static void join_fans(Fans *fans, uint32_t point, uint32_t triangle, uint32_t other)
-{
-    const uint32_t a = fan_of(fans, corner_at(fans, triangle, point));
-    const uint32_t b = fan_of(fans, corner_at(fans, other, point));
-    // The lower corner becomes the root, so the root belongs to the fan's first triangle.
-    fans->parents[a > b ? a : b] = a > b ? b : a;
-}
 
 static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t count)
 {
@@ -62,17 +27,13 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
 
 static void visit_edges(Closedness *closedness, const Edges *edges, Fans *fans)
 {
-    for (uint32_t point = 0; point < fans->mesh->vertex_count; point++) {
-        size_t place = edges->first[point];
-        while (place < edges->first[point + 1]) {
-            const size_t end = edges_end(edges, point, place);
-            const EdgeSide *sides = &edges->sides[place];
-            judge_edge(closedness, sides, end - place);
-            for (size_t side = 1; side < end - place; side++) {
-                join_fans(fans, point, sides[0].triangle, sides[side].triangle);
-                join_fans(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
-            }
-            place = end;
+    Edge edge = {0};
+    while (edges_next(edges, &edge)) {
+        const EdgeSide *sides = edge.sides;
+        judge_edge(closedness, sides, edge.count);
+        for (size_t side = 1; side < edge.count; side++) {
+            fans_join(fans, edge.low, sides[0].triangle, sides[side].triangle);
+            fans_join(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
         }
     }
 }
@@ -126,16 +87,10 @@ static double signed_volume(const Mesh *mesh)
 bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
                      Error *error)
 {
-    const size_t corners = 3 * mesh->triangle_count;
+    Fans fans;
     *closedness = (Closedness){0};
-    if (corners > UINT32_MAX)
-        return error_set(error, "%zu triangles of one mesh are more than can be checked",
-                         mesh->triangle_count);
-    Fans fans = {mesh, weld, memory_raw(corners, sizeof *fans.parents, error)};
-    if (fans.parents == NULL)
+    if (!fans_make(&fans, mesh, weld, error))
         return false;
-    for (uint32_t corner = 0; corner < corners; corner++)
-        fans.parents[corner] = corner;
     visit_edges(closedness, edges, &fans);
     const bool ok = count_pinched(closedness, &fans, error);
     closedness->is_closed = mesh->triangle_count > 0 && closedness->open.count == 0 &&

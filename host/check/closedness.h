@@ -3,7 +3,7 @@
 // triangles around each point form one fan.
 #pragma once
 
-#include "check/edges.h"
+#include "mesh/edges.h"
 
 // Each MeshFault counts edges, points or triangles. Its field `first` is a triangle at a fault.
 typedef struct {

@@ -76,14 +76,15 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
 static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
 {
     Error cause = {0};
-    *object = (MeshObject){
-        .material = given->material, .two_sided = given->two_sided, .smooth = !given->flat};
+    *object = (MeshObject){.material = given->material, .two_sided = given->two_sided};
     const bool copied =
         copy_mesh(&object->mesh, given, &cause) || check_fail_for(error, CLRT_SCENE, &cause);
     const bool ok =
         copied && check_vertices(&object->mesh, error) && check_triangles(&object->mesh, error);
     if (!ok)
         mesh_free(&object->mesh);
+    else if (given->flat)
+        mesh_drop_normals(&object->mesh);
     return ok;
 }
 

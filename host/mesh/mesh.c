@@ -19,6 +19,12 @@ void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
     *high = most;
 }
 
+Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to)
+{
+    const double *a = mesh->positions[from], *b = mesh->positions[to];
+    return vec3_normalize(vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+}
+
 static bool is_same_point(const double *a, const double *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
@@ -68,6 +74,12 @@ void mesh_drop_triangles(Mesh *mesh)
     mesh->triangle_count = kept;
     if (some_lost)
         clear_lost_vertices(mesh);
+}
+
+void mesh_drop_normals(Mesh *mesh)
+{
+    free(mesh->normals);
+    mesh->normals = NULL;
 }
 
 void mesh_free(Mesh *mesh)

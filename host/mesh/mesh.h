@@ -37,9 +37,15 @@ typedef struct {
 // Extends low and high to contain all vertices that triangles use.
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 
+// Returns the direction from a vertex to another: of length 1, or zero if they coincide.
+Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
+
 // Removes and counts triangles with two equal corners or a NaN position. Then sets NaN positions to
 // zero.
 void mesh_drop_triangles(Mesh *mesh);
+
+// Makes the mesh flat.
+void mesh_drop_normals(Mesh *mesh);
 
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);

@@ -7,11 +7,6 @@
 
 #include <string.h>
 
-static bool is_smooth(const MeshObject *object)
-{
-    return object->smooth && object->mesh.normals != NULL;
-}
-
 static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
 {
     bool has_normals = false;
@@ -19,7 +14,7 @@ static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
         const MeshObject *object = &scene->objects.data[i];
         mesh->vertex_count += object->mesh.vertex_count;
         mesh->triangle_count += object->mesh.triangle_count;
-        has_normals |= is_smooth(object);
+        has_normals |= object->mesh.normals != NULL;
     }
     if (mesh->vertex_count > (size_t)MESH_COUNT_MOST ||
         mesh->triangle_count > (size_t)MESH_COUNT_MOST)
@@ -38,7 +33,7 @@ static void copy(Mesh *mesh, const MeshObject *object, size_t vertex, size_t tri
     const Mesh *part = &object->mesh;
     for (size_t i = 0; i < part->vertex_count; i++)
         memcpy(mesh->positions[vertex + i], part->positions[i], sizeof *part->positions);
-    for (size_t i = 0; is_smooth(object) && i < part->vertex_count; i++)
+    for (size_t i = 0; part->normals != NULL && i < part->vertex_count; i++)
         memcpy(mesh->normals[vertex + i], part->normals[i], sizeof *part->normals);
     for (size_t i = 0; i < part->triangle_count; i++)
         for (int corner = 0; corner < 3; corner++)

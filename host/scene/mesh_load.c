@@ -120,3 +120,18 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
         mesh_free(&object.mesh);
     return ok;
 }
+
+bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
+                       Error *error)
+{
+    Error cause = {0};
+    for (size_t i = first; options->parse == ply_parse && i < scene->objects.count; i++) {
+        MeshObject *object = &scene->objects.data[i];
+        if (options->is_flat)
+            mesh_drop_normals(&object->mesh);
+        else if (options->crease_degrees >= 0 &&
+                 !mesh_compute_normals(&object->mesh, options->crease_degrees, &cause))
+            return error_set(error, "%s: %s", scene->inputs.data[object->input], cause.text);
+    }
+    return true;
+}

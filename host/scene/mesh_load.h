@@ -3,12 +3,17 @@
 #pragma once
 
 #include "base/file.h"
+#include "mesh/normals.h"
 #include "mesh/ply.h"
 #include "scene/scene.h"
+
+#define NO_CREASE (-1)
 
 // How to load a file.
 typedef struct {
     MeshObject object;        // properties of its objects beside their meshes
+    bool is_flat;             // without the file's normals
+    double crease_degrees;    // for computing missing normals; NO_CREASE leaves them missing
     bool takes_own_materials; // instead of the object's, if the file has any
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the mesh reader
@@ -21,6 +26,12 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // Adds an object for each part of the file at path, its materials if requested, and all files that
 // it was read from. Returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
+
+// Drops or computes normals of the scene's objects from the first one on. The tolerant reader
+// serves reports on the file's own vertices, so its meshes stay as they are. Returns false with a
+// message that names the file.
+bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
+                       Error *error);
 
 // A mesh that replaces a scene is turned upright, framed by cameras of its own, lit, placed on
 // a floor, and two-sided.

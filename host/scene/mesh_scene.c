@@ -91,13 +91,15 @@ static bool complete(Scene *scene, bool ok, UpAxis up, Error *error)
 bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse, Error *error)
 {
     const MeshLoadOptions options = {
-        .object = {.material = MESH_CLAY, .two_sided = true, .smooth = true},
+        .object = {.material = MESH_CLAY, .two_sided = true},
+        .crease_degrees = CREASE_DEGREES,
         .takes_own_materials = true,
         .parse = parse};
     const double start = clock_seconds();
     const bool ok = scn_parse(scene, studio, sizeof studio - 1, "", error) &&
                     (ply != NULL ? ply_mesh_add(scene, ply, path, &options, error)
-                                 : foreign_mesh_add(scene, path, &options, error));
+                                 : foreign_mesh_add(scene, path, &options, error)) &&
+                    mesh_load_normals(scene, 0, &options, error);
     scene->mesh_seconds = clock_seconds() - start;
     return complete(scene, ok, ply != NULL ? UP_AUTO : up_axis_of_format(path), error);
 }

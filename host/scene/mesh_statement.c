@@ -193,10 +193,12 @@ bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshLoadOptions *op
     if (memchr(path.text, '\0', path.length) != NULL)
         return tokens_fail(tokens, path, "expected a path without a zero byte");
     const double start = clock_seconds();
-    const bool loaded = add_objects(scene, tokens, path, options);
-    scene->mesh_seconds += clock_seconds() - start;
-    if (!loaded || options->is_plain_ply)
-        return loaded;
+    if (!add_objects(scene, tokens, path, options))
+        return false;
     const Objects added = {scene->objects.data + count, scene->objects.count - count};
-    return read_transforms(tokens, added) && positions_are_kept(tokens, added);
+    const bool ok = options->is_plain_ply ||
+                    (read_transforms(tokens, added) && positions_are_kept(tokens, added));
+    const bool is_complete = ok && mesh_load_normals(scene, count, options, tokens->error);
+    scene->mesh_seconds += clock_seconds() - start;
+    return is_complete;
 }

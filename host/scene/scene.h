@@ -36,12 +36,11 @@ typedef struct {
 } Sphere;
 
 typedef struct {
-    Mesh mesh;
+    Mesh mesh; // its normals, if it has any, shade it
     uint32_t material;
     uint32_t input;         // index of the mesh's file in Scene::inputs
     uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
     bool two_sided;
-    bool smooth; // shade with the vertex normals if the mesh has them
 } MeshObject;
 
 // A camera. up and look_at - eye must be neither zero nor parallel.

@@ -17,11 +17,10 @@
 typedef struct {
     Tokens tokens;
     Scene *scene;
-    PlyParse *parse_mesh;
-    uint32_t material; // material of the objects that follow, or MATERIAL_OWN
-    MeshObject object; // two_sided and smooth of the objects that follow
-    Vec3 up;           // up vector of the cameras that follow
-    Token waiting_up;  // the latest `up` statement, if no camera follows it yet
+    uint32_t material;    // material of the objects that follow, or MATERIAL_OWN
+    MeshLoadOptions mesh; // of the meshes that follow, except their material
+    Vec3 up;              // up vector of the cameras that follow
+    Token waiting_up;     // the latest `up` statement, if no camera follows it yet
     Error *error;
 } Parser;
 
@@ -73,11 +72,10 @@ static bool read_define(Parser *parser)
 
 static bool read_mesh_file(Parser *parser, bool is_plain_ply)
 {
-    MeshLoadOptions options = {.object = parser->object,
-                               .is_plain_ply = is_plain_ply,
-                               .takes_own_materials = parser->material == MATERIAL_OWN,
-                               .parse = parser->parse_mesh};
+    MeshLoadOptions options = parser->mesh;
     options.object.material = plain_material(parser);
+    options.is_plain_ply = is_plain_ply;
+    options.takes_own_materials = parser->material == MATERIAL_OWN;
     return mesh_statement_read(parser->scene, &parser->tokens, &options);
 }
 
@@ -166,12 +164,18 @@ static bool read_choice(Parser *parser, const char *yes, const char *no, bool *c
 
 static bool read_sides(Parser *parser)
 {
-    return read_choice(parser, "two", "one", &parser->object.two_sided);
+    return read_choice(parser, "two", "one", &parser->mesh.object.two_sided);
 }
 
 static bool read_normals(Parser *parser)
 {
-    return read_choice(parser, "smooth", "flat", &parser->object.smooth);
+    MeshLoadOptions *mesh = &parser->mesh;
+    if (!read_choice(parser, "flat", "smooth", &mesh->is_flat))
+        return false;
+    Tokens ahead = parser->tokens;
+    mesh->crease_degrees = CREASE_DEGREES;
+    return mesh->is_flat || tokens_next(&ahead).text == NULL ||
+           tokens_number_within(&parser->tokens, &mesh->crease_degrees, 0, 180);
 }
 
 static const struct {
@@ -188,7 +192,7 @@ static const struct {
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]",
      read_mesh},
-    {"normals", "normals smooth|flat", read_normals},
+    {"normals", "normals flat|smooth [DEGREES]", read_normals},
     {"ply_file", "ply_file PATH", read_ply_file},
     {"sides", "sides one|two", read_sides},
     {"size", "size WIDTH HEIGHT", read_size},
@@ -237,13 +241,13 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses text. The caller has set the parser's scene, parse_mesh and error. Frees the scene on
+// Parses text. The caller has set the parser's scene, mesh reader and error. Frees the scene on
 // failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
-    parser->object.smooth = true;
     parser->material = MATERIAL_OWN;
+    parser->mesh.crease_degrees = NO_CREASE;
     parser->up = vec3(0, 0, 1);
     bool ok = scene_init(parser->scene, parser->error);
     scene_hash_input(parser->scene, text, size);
@@ -255,7 +259,7 @@ static bool parse(Parser *parser, const char *text, size_t size, const char *nam
 
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error)
 {
-    Parser parser = {.scene = scene, .parse_mesh = ply_parse, .error = error};
+    Parser parser = {.scene = scene, .mesh.parse = ply_parse, .error = error};
     return parse(&parser, text, size, name);
 }
 
@@ -272,7 +276,7 @@ static bool load_text(Parser *parser, const File *file, const char *path)
 
 bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error)
 {
-    Parser parser = {.scene = scene, .parse_mesh = parse_mesh, .error = error};
+    Parser parser = {.scene = scene, .mesh.parse = parse_mesh, .error = error};
     return mesh_scene_is_mesh(file->bytes, file->size)
                ? mesh_scene_load(scene, file, name, parse_mesh, error)
                : load_text(&parser, file, name);

@@ -209,18 +209,14 @@ static void write_objects(Writer *writer, char *const *mesh_names)
         select_material(writer, object->material);
         if (object->two_sided != writer->current.two_sided)
             fprintf(writer->stream, "sides %s\n", object->two_sided ? "two" : "one");
-        if (object->smooth != writer->current.smooth)
-            fprintf(writer->stream, "normals %s\n", object->smooth ? "smooth" : "flat");
         writer->current.two_sided = object->two_sided;
-        writer->current.smooth = object->smooth;
         fprintf(writer->stream, "mesh \"%s\"\n", mesh_names[i]);
     }
 }
 
 bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error)
 {
-    Writer writer = {
-        .scene = scene, .stream = stream, .current = {.material = UINT32_MAX, .smooth = true}};
+    Writer writer = {.scene = scene, .stream = stream, .current = {.material = UINT32_MAX}};
     writer.names = memory_zeroed(scene->materials.count, sizeof *writer.names, error);
     if (writer.names == NULL)
         return false;

@@ -64,6 +64,14 @@ class Scenes(Convert):
         texts = [(self.work / name).read_text() for name in ("b.scn", "c.scn")]
         self.assertEqual(texts[0].replace("b-", "c-"), texts[1])
 
+    def test_computed_and_flat_normals_are_kept(self):
+        normals = [(0, 0, 0)] + NORMALS[1:]
+        self.write(a_ply=models.ply(POINTS, TRIANGLES), n_ply=models.ply(POINTS, TRIANGLES, normals),
+                   a_scn="light 5 -7 8 0.7\nmaterial 1\nmesh n.ply scale 0.3\nnormals smooth 20\nmesh a.ply scale 0.3\n"
+                         "normals flat\nmesh n.ply scale 0.2\nnormals smooth\nmesh n.ply scale 0.1\n")
+        self.converts("a.scn", "b.scn")
+        self.expect_same_pictures("a.scn", "b.scn", 3)
+
     def test_verbose_names_the_meshes(self):
         self.converts(ROOT / "scenes/cube.ply", "b.scn", "-v", says="b-1.ply: 10 triangles\n")
 

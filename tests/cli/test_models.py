@@ -62,6 +62,42 @@ class Formats(Work):
         self.expect_same("a.glb", "a.ply", "--up", "z")
         self.assertNotEqual(self.picture("a.glb"), self.picture("flat.glb"))
 
+    def test_computed_normals_are_the_same_in_every_format(self):
+        models_of = {"ply": models.ply, "stl": models.stl, "glb": models.glb, "obj": models.obj, "off": models.off}
+        for ending, write in models_of.items():
+            (self.work / f"a.{ending}").write_bytes(write(COARSE, TRIANGLES))
+            text = f"{CAMERA}material 2\nnormals smooth 50\nmesh a.{ending} rotate 1 2 3 10\n"
+            (self.work / f"{ending}.scn").write_text(text)
+        expected = self.picture("ply.scn")
+        for ending in models_of:
+            for threads in "1", "2", "3":
+                self.assertEqual(self.picture(f"{ending}.scn", "--threads", threads), expected, (ending, threads))
+
+    def test_only_a_statement_or_a_lone_mesh_computes_normals(self):
+        self.write(a_ply=models.ply(POINTS, TRIANGLES))
+        for name, statement in ("plain", ""), ("flat", "normals flat\n"), ("smooth", "normals smooth\n"), (
+                "sharp", "normals smooth 0\n"), ("round", "normals smooth 180\n"):
+            text = f"{CAMERA}material 2\n{statement}mesh a.ply\n"
+            (self.work / f"{name}.scn").write_text(text)
+        plain, smooth = self.picture("plain.scn"), self.picture("smooth.scn")
+        self.assertEqual(self.picture("flat.scn"), plain)
+        self.assertEqual(len({plain, smooth, self.picture("round.scn")}), 3)
+        self.converts_to_flat("a.ply")
+
+    # A lone mesh has its own camera, so the flat picture is that of its conversion.
+    def converts_to_flat(self, name):
+        self.clrt("convert", name, "lone.scn")
+        self.expect_same(name, "lone.scn")
+        text = (self.work / "lone.scn").read_text()
+        (self.work / "flat.scn").write_text(text.replace("mesh ", "normals flat\nmesh "))
+        self.assertNotEqual(self.picture(name), self.picture("flat.scn"))
+
+    def test_check_counts_the_vertices_of_the_file(self):
+        self.write(a_stl=models.stl(POINTS, TRIANGLES), a_scn="normals smooth\nmesh a.stl\n")
+        for name in "a.stl", "a.scn":
+            self.run_clrt("check", name, "--json=check.json")
+            self.assertEqual(self.json_of("check.json")["meshes"][0]["vertices"], 3 * len(TRIANGLES))
+
     def test_faces_of_four_corners_are_split(self):
         square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
         self.write(a_ply=models.ply(square, [(0, 1, 2), (0, 2, 3)]), a_obj=models.obj(square, [(0, 1, 2, 3)]))

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
-// must fulfill mesh/mesh.h. A failure must return a message and no mesh. The tolerant reader's mesh
-// must fulfill it too, and must be valid input for clrt check.
+// must fulfill mesh/mesh.h, also with computed normals. A failure must return a message and no
+// mesh. The tolerant reader's mesh must fulfill it too, and must be valid input for clrt check.
 #include "check/closedness.h"
 #include "check/features.h"
+#include "mesh/normals.h"
 #include "mesh/ply.h"
 
 #include <math.h>
@@ -63,10 +64,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     read_tolerantly(data, size);
     Mesh mesh;
     Error error = {0};
-    if (ply_parse(&mesh, (const char *)data, size, "fuzz.ply", &error))
+    if (ply_parse(&mesh, (const char *)data, size, "fuzz.ply", &error)) {
         check_mesh(&mesh);
-    else
+        demand(mesh_compute_normals(&mesh, CREASE_DEGREES, &error));
+        check_mesh(&mesh);
+    } else {
         demand(error.text[0] != '\0' && mesh.positions == NULL && mesh.triangles == NULL);
+    }
     mesh_free(&mesh);
     return 0;
 }

@@ -66,7 +66,7 @@ static void triangle_surface(OracleSurface *surface, const Scene *scene)
     surface->object = (uint32_t)(scene->spheres.count + object);
     surface->material = owner->material;
     surface->face = surface->normal = face_normal(&owner->mesh, corners);
-    if (owner->smooth && owner->mesh.normals != NULL)
+    if (owner->mesh.normals != NULL)
         surface->normal = interpolated_normal(&owner->mesh, corners, surface->point, surface->face);
     surface->front = vec3_dot(surface->face, surface->toward_viewer) > 0;
     if (!surface->front) {

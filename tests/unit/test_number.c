@@ -305,3 +305,29 @@ TEST(all_angles_agree_with_the_library)
         assert_true(fabs(cosine_of_degrees(degrees) - (double)cosl(radians)) < 0x1p-51);
     }
 }
+
+// The series yields an eighth of the angle, so its rounding errors count eightfold.
+TEST(angles_between_vectors_agree_with_the_library)
+{
+    for (double degrees = 0; degrees <= 180; degrees += 0.037) {
+        const Vec3 a = {cosine_of_degrees(degrees), sine_of_degrees(degrees), 0};
+        const Vec3 x = {1, 0, 0}, away = {-1, 0, 0};
+        const double angle = (double)atan2l((long double)a.y, (long double)a.x);
+        assert_true(fabs(angle_between(a, x) - angle) < 0x1p-48);
+        assert_true(fabs(angle_between(away, a) - (3.14159265358979323846 - angle)) < 0x1p-48);
+    }
+    assert_true(angle_between(vec3(0, 1, 0), vec3(0, 1, 0)) == 0);
+}
+
+// Lengths whose squares overflow or underflow take another path than these.
+TEST(normalized_bits_are_those_of_division_by_a_power_of_two)
+{
+    for (int exponent = -1000; exponent <= 1000; exponent += 10)
+        for (int i = 1; i < 100; i++) {
+            const Vec3 a = {1.0 / i, 0.37 * i, 1 - 0.011 * i}, expected = vec3_normalize(a);
+            const Vec3 scaled = {scalbn(a.x, exponent), scalbn(a.y, exponent),
+                                 scalbn(a.z, exponent)};
+            const Vec3 normal = vec3_normalize(scaled);
+            assert_memory_equal(&normal, &expected, sizeof normal);
+        }
+}

@@ -117,9 +117,9 @@ TEST(sides_and_normals_are_for_the_objects_that_follow)
     FREED_BY(scene_free)
     Scene scene = parsed("ply_file cube.ply\nsides two\nnormals flat\nmesh cube.ply\n");
     assert_false(scene.objects.data[0].two_sided);
-    assert_true(scene.objects.data[0].smooth);
+    assert_non_null(scene.objects.data[0].mesh.normals);
     assert_true(scene.objects.data[1].two_sided);
-    assert_false(scene.objects.data[1].smooth);
+    assert_null(scene.objects.data[1].mesh.normals);
 }
 
 // A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis'
@@ -150,6 +150,7 @@ TEST(the_hash_tells_scenes_apart)
 #define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
+#define NORMALS   STATEMENT "'normals flat|smooth [DEGREES]'"
 #define CAMERA    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]'"
 
 TEST(faults_name_line_column_and_the_statement)
@@ -181,6 +182,11 @@ TEST(faults_name_line_column_and_the_statement)
         {"camera 0 0 5 0 0 0 45",
          "1:1: the camera must not look along its 'up' vector: found 'camera'" CAMERA},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
+        {"normals smooth 180.5",
+         "1:16: expected a number between 0 and 180: found '180.5'" NORMALS},
+        {"normals smooth soft", "1:16: expected a number: found 'soft'" NORMALS},
+        {"normals flat 30", "1:14: expected nothing more: found '30'" NORMALS},
+        {"normals round", "1:9: expected 'flat' or 'smooth': found 'round'" NORMALS},
         {"define a matte\ndefine a matte", "2:8: this name is already defined: found 'a'" DEFINE},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)

@@ -49,7 +49,7 @@ bool normals_make(Boxes *lines, const Model *model, Error *error)
     const float(*points)[4] = (const float(*)[4])model->triangles.points;
     for (size_t i = 0; i < model->scene.objects.count; i++) {
         const MeshObject *object = &model->scene.objects.data[i];
-        const bool is_smooth = object->smooth && object->mesh.normals != NULL;
+        const bool is_smooth = object->mesh.normals != NULL;
         if (!(is_smooth ? add_vertices : add_faces)(lines, &object->mesh, points, error))
             return false;
         points += object->mesh.vertex_count;

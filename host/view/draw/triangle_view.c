@@ -101,7 +101,6 @@ void triangle_view_draw(const TriangleView *view, const Model *model, const Lens
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        shader_set_integer(view->program, "is_smooth", object->smooth);
         set_material(view->program, &scene->materials.data[object->material]);
         glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
                        (void *)(3 * first * sizeof(GLuint)));

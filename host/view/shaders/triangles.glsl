@@ -17,7 +17,6 @@ void main()
 in vec3 place, bend;
 out vec4 color;
 uniform vec4 diffuse, specular, look;
-uniform bool is_smooth;
 
 void main()
 {
@@ -26,7 +25,7 @@ void main()
     if (dot(face, toward_viewer) < 0.0)
         face = -face;
     vec3 normal = face;
-    if (is_smooth && dot(bend, bend) > 0.0)
+    if (dot(bend, bend) > 0.0)
         normal = gl_FrontFacing ? bend : -bend;
     color = seen(Surface(place, normalize(normal), face, toward_viewer, diffuse, specular, look));
 }

@@ -104,7 +104,6 @@ static Scene square(const float z[4], const char *eye, const char *light)
     for (int i = 0; i < 4; i++)
         vec3_store(mesh.normals[i], vec3(0, 0, (double)z[i]));
     shape_add(&scene, mesh, 2);
-    scene.objects.data[0].smooth = true;
     return scene;
 }
 

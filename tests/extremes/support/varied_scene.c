@@ -26,7 +26,6 @@ Scene varied_scene(void)
                                    "material gloss\nsphere 6 -4 -3 2.5\n"
                                    "material 3\nsphere -7 -5 -2 1.5\n");
     shape_add(&scene, smooth_globe(), 2);
-    scene.objects.data[0].smooth = true;
     shape_add(&scene, shape_plane(vec3(-12, -12, -6), vec3(24, 0, 0), vec3(0, 24, 0.5), 7), 3);
     return scene;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Welds by an open-addressed hash table of the lowest vertex at each position. Counts sides into a
-// bucket per lower point, then sorts the buckets, of about six sides each.
-#include "check/edges.h"
+// bucket per lower point, then sorts the buckets, of about six sides each. Joins fans by a
+// union-find.
+#include "mesh/edges.h"
 
 #include "base/array.h"
 
@@ -61,7 +62,7 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++)
             edges->first[side_of(mesh, weld, triangle, corner).low]++;
-    size_t sum = 0;
+    uint32_t sum = 0;
     for (size_t point = 0; point <= mesh->vertex_count; point++) {
         sum += edges->first[point];
         edges->first[point] = sum;
@@ -80,6 +81,11 @@ static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
 {
+    *edges = (Edges){0};
+    if (mesh->triangle_count > UINT32_MAX / 3)
+        return error_set(error, "one mesh has %zu triangles, more than %u", mesh->triangle_count,
+                         UINT32_MAX / 3);
+    edges->side_count = 3 * mesh->triangle_count;
     edges->sides = memory_raw(3 * mesh->triangle_count, sizeof *edges->sides, error);
     edges->first = memory_zeroed(mesh->vertex_count + 1, sizeof *edges->first, error);
     if (edges->sides == NULL || edges->first == NULL) {
@@ -176,4 +182,66 @@ void weld_free(Weld *weld)
 {
     free(weld->points);
     *weld = (Weld){0};
+}
+
+bool edges_next(const Edges *edges, Edge *edge)
+{
+    const EdgeSide *next = edge->sides == NULL ? edges->sides : edge->sides + edge->count;
+    const size_t place = (size_t)(next - edges->sides);
+    if (place == edges->side_count)
+        return false;
+    while (edges->first[edge->low + 1] <= place)
+        edge->low++;
+    edge->sides = next;
+    edge->count = 1;
+    while (place + edge->count < edges->first[edge->low + 1] &&
+           next[edge->count].high == next->high)
+        edge->count++;
+    return true;
+}
+
+bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error)
+{
+    const size_t corners = 3 * mesh->triangle_count;
+    *fans = (Fans){mesh, weld, NULL};
+    fans->parents = memory_raw(corners, sizeof *fans->parents, error);
+    for (uint32_t corner = 0; fans->parents != NULL && corner < corners; corner++)
+        fans->parents[corner] = corner;
+    return fans->parents != NULL;
+}
+
+uint32_t fans_root(const Fans *fans, uint32_t corner)
+{
+    uint32_t *parents = fans->parents;
+    while (parents[corner] != corner) {
+        parents[corner] = parents[parents[corner]];
+        corner = parents[corner];
+    }
+    return corner;
+}
+
+static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
+{
+    const uint32_t *corners = fans->mesh->triangles[triangle];
+    for (uint32_t corner = 0; corner < 2; corner++)
+        if (fans->weld->points[corners[corner]] == point)
+            return 3 * triangle + corner;
+    return 3 * triangle + 2;
+}
+
+void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other)
+{
+    const uint32_t a = fans_root(fans, corner_at(fans, triangle, point));
+    const uint32_t b = fans_root(fans, corner_at(fans, other, point));
+    // The lower corner becomes the root, so the root belongs to the fan's first triangle.
+    fans->parents[a > b ? a : b] = a > b ? b : a;
+}
+
+// The parent of a corner is lower, so it has its number already.
+uint32_t fans_number(Fans *fans)
+{
+    uint32_t count = 0, *parents = fans->parents;
+    for (size_t corner = 0; corner < 3 * fans->mesh->triangle_count; corner++)
+        parents[corner] = parents[corner] == corner ? count++ : parents[parents[corner]];
+    return count;
 }

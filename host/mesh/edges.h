@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Mesh -> its points, merged vertices, because vertices at the same position are one point to a
+// ray. Points -> edges, each with its triangles, and fans of triangles.
+#pragma once
+
+#include "base/error.h"
+#include "mesh/mesh.h"
+
+// The point of a vertex that no triangle uses.
+#define WELD_UNUSED UINT32_MAX
+
+typedef struct {
+    uint32_t *points;                    // by vertex: the lowest used vertex at its position
+    size_t unused_count, repeated_count; // vertices without a point, and vertices with another's
+} Weld;
+
+bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
+void weld_free(Weld *weld);
+
+// A triangle at an edge.
+typedef struct {
+    uint32_t high;     // the edge's higher point
+    uint32_t opposite; // the triangle's third point
+    uint32_t triangle : 31;
+    uint32_t falling : 1; // the triangle runs from the higher point to the lower one
+} EdgeSide;
+
+// Sides [first[point], first[point + 1]) belong to edges from `point` to higher points. They are
+// sorted by higher point, opposite point and triangle, so the sides of one edge are consecutive.
+typedef struct {
+    EdgeSide *sides; // three per triangle
+    size_t side_count;
+    uint32_t *first; // vertex_count + 1 entries
+} Edges;
+
+// Fails if the mesh has more than 2^32 corners.
+bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
+void edges_free(Edges *edges);
+
+// The sides of one edge.
+typedef struct {
+    uint32_t low; // the edge's lower point
+    const EdgeSide *sides;
+    size_t count;
+} Edge;
+
+// Steps to the next edge, from {0} to the first one. Returns false after the last edge.
+bool edges_next(const Edges *edges, Edge *edge);
+
+// The corners of triangles, joined at their points across edges that the caller chooses. A corner
+// is a number: 3 * triangle + 0, 1 or 2.
+typedef struct {
+    const Mesh *mesh;
+    const Weld *weld;
+    uint32_t *parents; // by corner: a corner of the same fan, not above it
+} Fans;
+
+// Makes a fan of each corner of a mesh with edges. The caller frees the parents.
+bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
+
+// Joins the fans of two triangles at a point that both have.
+void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
+
+// Returns the lowest corner of the corner's fan.
+uint32_t fans_root(const Fans *fans, uint32_t corner);
+
+// Replaces each parent by the number of the corner's fan. Numbers are in the order of the fans'
+// lowest corners. Returns the number of fans. No other call for these fans may follow.
+uint32_t fans_number(Fans *fans);

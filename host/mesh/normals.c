@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Corners -> fans across smooth edges -> one vertex per fan. The weights are those of Thuermer and
+// Wuethrich, "Computing Vertex Normals from Polygonal Facets" (1998): they make normals independent
+// of how flat faces are triangulated.
+#include "mesh/normals.h"
+
+#include "base/array.h"
+#include "base/limits.h"
+#include "mesh/edges.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Edges of more faces are sharp, so that the pairs of faces at an edge stay few.
+#define EDGE_FACES_MOST 8
+
+// Keeps rounding from separating coplanar and opposite faces.
+#define COSINE_SLACK 0x1p-40
+
+// A face is a sliver if the sines of its angles have a smaller sum: rounded coordinates turn its
+// normal by any angle.
+#define SINE_LEAST 0x1p-20
+
+// Smaller sums of faces are rounding errors of faces that cancel each other.
+#define SUM_LEAST 0x1p-40
+
+typedef struct {
+    Vec3 normal;      // of length 1; zero for slivers
+    double angles[3]; // in radians; zero for slivers
+} Face;
+
+typedef struct {
+    Vec3 normal;
+    uint32_t old; // a vertex at the same position
+} Vertex;
+
+typedef struct {
+    const Mesh *mesh;
+    double cosine; // smallest cosine between the normals of faces that a smooth edge joins
+    Face *faces;   // by triangle
+    Fans fans;     // later: by corner, the vertex
+    ARRAY(Vertex) vertices;
+} Smoothing;
+
+static Vec3 given_normal(const Mesh *mesh, uint32_t vertex)
+{
+    const float *n = mesh->normals != NULL ? mesh->normals[vertex] : (const float[3]){0, 0, 0};
+    return vec3((double)n[0], (double)n[1], (double)n[2]);
+}
+
+static bool is_complete(const Mesh *mesh)
+{
+    for (size_t corner = 0; corner < 3 * mesh->triangle_count; corner++)
+        if (vec3_extent(given_normal(mesh, mesh->triangles[corner / 3][corner % 3])) == 0)
+            return false;
+    return true;
+}
+
+static Face face_of(const Mesh *mesh, const uint32_t *triangle)
+{
+    Face face;
+    Vec3 sides[3], sum = {0, 0, 0}; // sides: from each corner to the next
+    for (int corner = 0; corner < 3; corner++)
+        sides[corner] = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
+    for (int corner = 0; corner < 3; corner++) {
+        const Vec3 a = sides[corner], b = vec3_scale(sides[(corner + 2) % 3], -1);
+        sum = vec3_add(sum, vec3_cross(a, b));
+        face.angles[corner] = angle_between(a, b);
+    }
+    face.normal = vec3_normalize(sum);
+    return vec3_extent(sum) < SINE_LEAST ? (Face){.angles = {0}} : face;
+}
+
+static void join_edge(const Smoothing *smoothing, const Edge *edge)
+{
+    for (size_t i = 1; i < edge->count && edge->count <= EDGE_FACES_MOST; i++)
+        for (size_t j = 0; j < i; j++) {
+            const uint32_t one = edge->sides[i].triangle, other = edge->sides[j].triangle;
+            const Vec3 a = smoothing->faces[one].normal, b = smoothing->faces[other].normal;
+            if (vec3_dot(a, a) * vec3_dot(b, b) == 0 || vec3_dot(a, b) < smoothing->cosine)
+                continue;
+            fans_join(&smoothing->fans, edge->low, one, other);
+            fans_join(&smoothing->fans, edge->sides[i].high, one, other);
+        }
+}
+
+static bool make_fans(Smoothing *smoothing, Error *error)
+{
+    Weld weld = {0};
+    Edges edges = {0};
+    Edge edge = {0};
+    const Mesh *mesh = smoothing->mesh;
+    smoothing->faces = memory_raw(mesh->triangle_count, sizeof *smoothing->faces, error);
+    const bool ok = smoothing->faces != NULL && weld_make(&weld, mesh, error) &&
+                    edges_make(&edges, mesh, &weld, error) &&
+                    fans_make(&smoothing->fans, mesh, &weld, error);
+    for (size_t i = 0; ok && i < mesh->triangle_count; i++)
+        smoothing->faces[i] = face_of(mesh, mesh->triangles[i]);
+    while (ok && edges_next(&edges, &edge))
+        join_edge(smoothing, &edge);
+    edges_free(&edges);
+    weld_free(&weld);
+    return ok;
+}
+
+// Makes one vertex per fan. Sums in the order of the corners, so that the result depends on nothing
+// else.
+static bool make_vertices(Smoothing *smoothing, Error *error)
+{
+    const size_t count = fans_number(&smoothing->fans);
+    Vertex *vertices = memory_zeroed(count, sizeof *vertices, error);
+    smoothing->vertices.data = vertices;
+    smoothing->vertices.count = smoothing->vertices.capacity = count;
+    for (size_t i = 0; vertices != NULL && i < 3 * smoothing->mesh->triangle_count; i++) {
+        const Face *face = &smoothing->faces[i / 3];
+        Vertex *vertex = &vertices[smoothing->fans.parents[i]];
+        vertex->normal = vec3_add(vertex->normal, vec3_scale(face->normal, face->angles[i % 3]));
+        vertex->old = smoothing->mesh->triangles[i / 3][i % 3];
+    }
+    for (size_t i = 0; vertices != NULL && i < count; i++)
+        vertices[i].normal = vec3_extent(vertices[i].normal) > SUM_LEAST
+                                 ? vec3_normalize(vertices[i].normal)
+                                 : vec3(0, 0, 0);
+    return vertices != NULL;
+}
+
+// Gives corners with a normal a vertex of their own, and corners whose fan bends by more than the
+// crease angle, as at the tip of a cone, so that the mean does not suit their face.
+static bool part_corners(Smoothing *smoothing, Error *error)
+{
+    for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {
+        const uint32_t old = smoothing->mesh->triangles[i / 3][i % 3];
+        uint32_t *place = &smoothing->fans.parents[i];
+        const Vec3 mean = smoothing->vertices.data[*place].normal;
+        const Vec3 face = smoothing->faces[i / 3].normal,
+                   given = given_normal(smoothing->mesh, old);
+        const bool is_given = vec3_dot(given, given) > 0;
+        if (!is_given && vec3_dot(mean, mean) > 0 && vec3_dot(mean, face) >= smoothing->cosine)
+            continue;
+        const Vertex own = {is_given ? given : face, old};
+        *place = (uint32_t)smoothing->vertices.count;
+        if (!array_push(&smoothing->vertices, own, error))
+            return false;
+    }
+    return smoothing->vertices.count <= (size_t)MESH_COUNT_MOST ||
+           error_set(error, "its normals need %zu vertices", smoothing->vertices.count);
+}
+
+static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *error)
+{
+    const size_t count = smoothing->vertices.count;
+    Mesh made = {.positions = memory_raw(count, sizeof *made.positions, error),
+                 .normals = memory_raw(count, sizeof *made.normals, error)};
+    const bool ok = made.positions != NULL && made.normals != NULL;
+    for (size_t i = 0; ok && i < count; i++) {
+        const Vertex *vertex = &smoothing->vertices.data[i];
+        const Vec3 n = vertex->normal;
+        const float normal[3] = {(float)n.x, (float)n.y, (float)n.z};
+        memcpy(made.positions[i], mesh->positions[vertex->old], sizeof *made.positions);
+        memcpy(made.normals[i], normal, sizeof *made.normals);
+    }
+    if (ok) {
+        const Mesh old = *mesh;
+        mesh->positions = made.positions;
+        mesh->normals = made.normals;
+        mesh->vertex_count = count;
+        memcpy(mesh->triangles, smoothing->fans.parents,
+               3 * sizeof(uint32_t) * mesh->triangle_count);
+        made = (Mesh){.positions = old.positions, .normals = old.normals};
+    }
+    mesh_free(&made);
+    return ok;
+}
+
+bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error)
+{
+    Smoothing smoothing = {.mesh = mesh,
+                           .cosine = cosine_of_degrees(crease_degrees) - COSINE_SLACK};
+    const bool ok = is_complete(mesh) ||
+                    (make_fans(&smoothing, error) && make_vertices(&smoothing, error) &&
+                     part_corners(&smoothing, error) && replace_vertices(mesh, &smoothing, error));
+    free(smoothing.faces);
+    free(smoothing.vertices.memory);
+    free(smoothing.fans.parents);
+    return ok;
+}
