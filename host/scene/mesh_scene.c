@@ -90,11 +90,10 @@ static bool complete(Scene *scene, bool ok, UpAxis up, Error *error)
 
 bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse, Error *error)
 {
-    const MeshLoadOptions options = {
-        .object = {.material = MESH_CLAY, .two_sided = true},
-        .crease_degrees = CREASE_DEGREES,
-        .takes_own_materials = true,
-        .parse = parse};
+    const MeshLoadOptions options = {.object = {.material = MESH_CLAY, .two_sided = true},
+                                     .crease_degrees = CREASE_DEGREES,
+                                     .takes_own_materials = true,
+                                     .parse = parse};
     const double start = clock_seconds();
     const bool ok = scn_parse(scene, studio, sizeof studio - 1, "", error) &&
                     (ply != NULL ? ply_mesh_add(scene, ply, path, &options, error)

@@ -19,7 +19,7 @@ syntax match clrtString contained /"[^"]*"/
 syntax keyword clrtStatement contained ambient background camera define light material max_level
 syntax keyword clrtStatement contained mesh normals ply_file sides size sphere up
 syntax keyword clrtProperty contained diffuse specular kd ks shininess reflectivity
-syntax keyword clrtProperty contained scale rotate translate
+syntax keyword clrtProperty contained up scale rotate translate
 syntax keyword clrtConstant contained silhouette matte blinn_phong own one two smooth flat
 
 highlight default link clrtUnknown Error
