@@ -38,7 +38,7 @@ static inline PathLanes first_hit(const Tracer *tracer, const Path *path, const 
                        .lights = lights_reaching(tracer, &path->surface, met)};
 }
 
-static inline PathLanes describe_path(const Tracer *tracer, Ray ray)
+static NOT_INLINE PathLanes describe_path(const Tracer *tracer, Ray ray)
 {
     PathLanes data = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
     Paths paths;

@@ -51,8 +51,9 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
                           is_center ? (UInt)(LADDER_GRID) : 2 * y + 1, sample < end};
 }
 
-static inline void pixel_sample_colors(const Tracer *tracer, const PixelSamples samples[PACKETS],
-                                       Real3 colors[PACKETS])
+static NOT_INLINE void pixel_sample_colors(const Tracer *tracer,
+                                           const PixelSamples samples[PACKETS],
+                                           Real3 colors[PACKETS])
 {
     Paths paths;
     for (uint i = 0; i < PACKETS; i++)

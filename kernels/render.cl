@@ -45,9 +45,10 @@ typedef struct {
     Mask active;
 } Places;
 
-// Computes the colors of samples in steps of 2^-32.
-static inline void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
-                                 Real3 colors[PACKETS])
+// Computes the colors of samples in steps of 2^-32. Functions with paths are not inlined: PoCL
+// would keep the private memory of all work-items of a group on its stack at once.
+static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
+                                     Real3 colors[PACKETS])
 {
     Paths paths;
     for (uint i = 0; i < PACKETS; i++)
@@ -184,7 +185,7 @@ static inline uint2 packet_corner(uint2 beam, uint packet)
 }
 
 // Renders the beam whose first pixel is given.
-static inline void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
+static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
 {
     const Tally none = {0};
     Places places[PACKETS];

@@ -88,7 +88,7 @@ class Usage(Work):
         told = self.clrt("--help")
         self.assertIn("--list-devices", told)
         self.assertIn("faults found by check", told)
-        self.assertEqual("\n  q, Esc  quit\n" in told, HAS_WINDOW)
+        self.assertEqual("\n  q, Ctrl-Q  quit\n" in told, HAS_WINDOW)
 
     def test_the_version_is_a_name_and_a_number(self):
         self.assertRegex(self.clrt("--version"), r"^clrt [0-9]+\.[0-9]+\.[0-9]+\n$")
