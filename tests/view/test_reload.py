@@ -127,7 +127,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
     try:
         window = opened(screen, scene)
         before = window.read()
-        shade = kernels / "render.cl"
+        shade = kernels / "trace.cl"
         text = shade.read_text()
         window.press("t", "text on")
         line = window.read()
