@@ -42,4 +42,4 @@ int tests_run(void);
 #define TEAR_DOWN(name) FIXTURE(name, test_tear_down)
 
 // Frees a local variable at the end of its block.
-#define FREED_BY(function) __attribute__((cleanup(function)))
+#define FREED_BY(function) __attribute__((cleanup(function), unused))
