@@ -54,7 +54,7 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
                          settings->scene_path, viewer->scene.viewpoint_count, settings->view);
     if (is_first)
         viewer->state = state_begin(&viewer->scene, (State){.view = settings->view,
-                                                             .exposure = settings->exposure,
+                                                            .exposure = settings->exposure,
                                                             .traced = settings->keys == NULL,
                                                             .smooth = settings->smooth,
                                                             .uses_bvh = settings->uses_bvh});
