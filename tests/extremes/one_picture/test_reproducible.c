@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The device's denormals, the division and order of the work, and the optimization of the kernels
-// do not change a bit of the picture.
+// The device's denormals, the division and order of the work, and the kernels' specialization do
+// not change a bit of the picture. test_hashes_unoptimized does without optimization.
 #include "support/random.h"
 #include "support/varied_scene.h"
 
@@ -31,13 +31,6 @@ static void flushing_denormals_to_zero_changes_no_picture_t47(void **state)
     PictureSettings settings = usual_settings();
     settings.extra_options = "-cl-denorms-are-zero";
     outcome_report(compare_with("T-47", *state, &settings), "option=%s", settings.extra_options);
-}
-
-static void unoptimized_kernels_draw_the_same_picture_t48(void **state)
-{
-    PictureSettings settings = usual_settings();
-    settings.extra_options = "-cl-opt-disable";
-    outcome_report(compare_with("T-48", *state, &settings), "option=%s", settings.extra_options);
 }
 
 static void specialized_kernels_draw_the_same_picture_t48(void **state)
@@ -144,7 +137,6 @@ RUN_TESTS(picture_setup, picture_teardown,
           EXTREME(flushing_denormals_to_zero_changes_no_picture_t47),
           EXTREME(the_same_picture_is_drawn_twice_t48),
           EXTREME(the_picture_is_the_one_on_record_t48),
-          EXTREME(unoptimized_kernels_draw_the_same_picture_t48),
           EXTREME(specialized_kernels_draw_the_same_picture_t48),
           EXTREME(work_groups_of_any_shape_draw_the_same_picture_t48),
           EXTREME(tiles_of_any_size_draw_the_same_picture_t48),
