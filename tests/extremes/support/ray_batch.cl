@@ -225,12 +225,13 @@ static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uin
 {
     UInt met = 0;
     const Bounds bounds = bounds_over(packet, 1);
+    const NearPlanes planes = near_planes(&packet->rays.slabs.inverse);
     for (; lanes != 0; lanes &= lanes - 1) {
         const uint lane = lowest_bit(lanes);
         float8 entry;
         uint near = lane_bits(
             CLRT_PACKET ? children_near(&nodes[lane], &bounds, INFINITY, &entry)
-                        : children_hit(&nodes[lane], &packet->rays, lane, INFINITY, &entry));
+                        : children_hit(&nodes[lane], &packet->rays, &planes, lane, INFINITY, &entry));
         for (uint child = 0; child < 2 && CLRT_PACKET; child++) {
             const Mask inside = lanes_in_child(&nodes[lane], child, packet, &bounds, INFINITY);
             if ((lane_bits(inside) >> lane & 1) == 0)
