@@ -221,8 +221,11 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return update_lane_hit(&distances, start, lane, hits);
 }
 
-// Scenes with fewer triangles fit into caches, and prefetching costs 7 % of their time.
-#define PREFETCHED_TRIANGLES 300000
+// Returns whether the scene exceeds caches. For others, prefetching costs 7 % of the time.
+static inline bool is_dense(const Tracer *tracer)
+{
+    return tracer->frame->triangle_count >= 300000;
+}
 
 // Prefetches a node, or most of a block: four cache lines. OpenCL's prefetch does nothing on PoCL.
 static inline void prefetch_child(const Tracer *tracer, uint child)
@@ -316,7 +319,7 @@ static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint chi
     searches.hits = best;
     searches.near_planes = near_planes(&search->slabs.inverse);
     searches.ended = ALL_LANES & ~bits;
-    searches.prefetches = search->tracer->frame->triangle_count >= PREFETCHED_TRIANGLES;
+    searches.prefetches = is_dense(search->tracer);
     searches.leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
