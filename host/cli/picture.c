@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // The context of the render observer.
 typedef struct {
@@ -306,6 +307,10 @@ static bool begin_picture(Picture *picture, Error *error)
 static ExitCode finish(Picture *picture, double start, Error *error)
 {
     Run *run = picture->run;
+    if (run->options->frames.skips_finished && !run->report.complete) {
+        error_set(error, "stopped: %s is not written", picture->path);
+        return (ExitCode)(128 + picture->stopped_by);
+    }
     if (!write_picture(picture, error) || !write_reference(picture, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
@@ -351,7 +356,8 @@ static ExitCode make_frames(Picture *picture, double start, Error *error)
         if (name == NULL)
             return EXIT_OUTPUT;
         picture->path = frames->is_film ? picture->path : name;
-        const ExitCode code = make_frame(picture, number, start, error);
+        const bool is_finished = frames->skips_finished && access(name, F_OK) == 0;
+        const ExitCode code = is_finished ? EXIT_DONE : make_frame(picture, number, start, error);
         outcome = code > outcome ? code : outcome;
         free(name);
     }

@@ -38,6 +38,13 @@ class Parts(SharedWork):
         words = [SCENE, "-s", "20x9", "--tile", "16x8"]
         self.expect_whole(self.draw("many", *words, of=5), *words)
 
+    def test_tasks_of_an_array_draw_their_parts(self):
+        for variable, first in ("SLURM_ARRAY_TASK_ID", 1), ("JOB_COMPLETION_INDEX", 0):
+            for part in range(3):
+                self.clrt(*SMALL, "--part", "auto/3", "-o", "auto.exr",
+                          **{"SLURM_ARRAY_TASK_ID": None, variable: str(part + first)})
+                self.assert_same_bytes("auto.exr", self.thirds[part])
+
     def test_with_channels_crops_samples_and_fp64(self):
         for more in ([*CHANNELS, "--aa"], ["--crop", "5,3,50,40", "--precision", "fp64"], ["--aov", "certainty"]):
             self.expect_whole(self.draw("more", *SMALL, *more, of=2), *SMALL, *more)
@@ -132,8 +139,8 @@ class Parts(SharedWork):
                      "merge", *names, "-o", "m.png")
 
     def test_what_no_part_can_have_is_refused(self):
-        for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537":
-            self.refuses(2, f"--part wants I/N, I from 1 to N and N up to 65536, not '{value}'",
+        for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537", "auto", "auto/0", "auto/65537", "auto3":
+            self.refuses(2, f"--part wants I/N or auto/N, I from 1 to N and N up to 65536, not '{value}'",
                          *SMALL, "-o", "a.exr", "--part", value)
         for words, sentence in (
             (["-o", "a.png"], "--part needs an EXR file (-o FILE.exr), which clrt merge reads"),

@@ -86,7 +86,7 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
-    bool resume;
+    bool resume;          // one picture; frames have their own flag
     Frames frames;
     int64_t max_level; // negative: the scene's
     bool fits_level;   // use the smallest max_level whose error is below half a step of the file's

@@ -97,22 +97,22 @@ bool set_no_bvh(Options *options, const char *text, Error *error)
 
 bool set_frames(Options *options, const char *text, Error *error)
 {
-    return frames_parse(&options->frames, text) ||
-           error_set(error, "--frames wants A-B or A-B:S, from 1 to %d, not '%s'", FRAMES_MOST,
-                     text);
+    return frames_parse(&options->frames, text, error) ||
+           error_set(error,
+                     "--frames wants A-B or A-B:S, from 1 to %d, or I/N, auto/N, A-B,I/N or "
+                     "A-B,auto/N, not '%s'",
+                     FRAMES_MOST, text);
 }
 
 bool set_part(Options *options, const char *text, Error *error)
 {
-    int64_t part, parts;
-    const char *end = text + strlen(text);
-    const char *slash = integer_parse(text, end, &part);
-    if (slash == NULL || *slash != '/' || integer_parse(slash + 1, end, &parts) != end ||
-        part < 1 || part > parts || parts > PARTS_MAX)
-        return error_set(error, "--part wants I/N, I from 1 to N and N up to %d, not '%s'",
+    Share share;
+    if (!share_parse(&share, text, PARTS_MAX, error))
+        return error_set(error,
+                         "--part wants I/N or auto/N, I from 1 to N and N up to %d, not '%s'",
                          PARTS_MAX, text);
-    options->part = (uint32_t)part;
-    options->parts = (uint32_t)parts;
+    options->part = share.index;
+    options->parts = share.count;
     return true;
 }
 
