@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# tools/farm on a cluster whose hosts fail: the file is the one of a single machine, byte for byte.
+# Usage: test_farm.py CLRT [TEST...]
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from cluster import CONTROLLER, HOSTS, Cluster, child_of, reason_to_skip, wait_for
+
+CLRT = str(pathlib.Path(sys.argv[1]).resolve())
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = str(ROOT / "scenes/reflections.scn")
+# 32 tiles for each part, and a few seconds for each host.
+PARTS = 8
+SLOW = [SCENE, "-s", "512x512", "--tile", "32x32", "--aa=16", "--precision=fp64", "-j", "1"]
+TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]
+STORED = 50000  # bytes of a journal that holds some tiles
+
+# parallel's way to the hosts: ssh -o OPTION... HOST WORD...
+SSH = """\
+#!/bin/sh
+while [ "$1" = -o ]; do shift 2; done
+[ "$1" != -- ] || shift
+init=$(cat {folder}/init-$1)
+shift
+exec nsenter -t "$init" -n -p -m -u --wd=/ sh -c "$*"
+"""
+
+
+@unittest.skipIf(reason_to_skip(), reason_to_skip())
+class Farm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="clrt-farm-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.home = pathlib.Path(folder.name)
+        cls.cluster = Cluster(cls.home)
+        cls.addClassCleanup(cls.cluster.close)
+        cls.cluster.open()
+        subprocess.run([CLRT, *SLOW, "-q", "-o", cls.home / "whole.exr"], check=True)
+
+    def setUp(self):
+        self.work = self.home / self.id().rsplit(".", 1)[1]
+        self.work.mkdir()
+        self.whole, self.picture = self.home / "whole.exr", self.work / "a.exr"
+        self.folder = self.work / "a.exr.farm"
+
+    def farm(self, *words, **more):
+        environment = {**os.environ, "CLRT": CLRT, **more}
+        return self.cluster.on(CONTROLLER, ROOT / "tools/farm", *words, env=environment)
+
+    def submit(self, *words):
+        """Returns the number of the array."""
+        self.addCleanup(self.print_logs)
+        told = self.farm(*words)
+        self.assertRegex(told, r"cancel: scancel \d+")
+        return re.match(r"job (\d+)", told)[1]
+
+    def print_logs(self):
+        if self._outcome.result.failures or self._outcome.result.errors:
+            for log in sorted(self.work.rglob("*.log")):
+                print(log.name, log.read_text(), sep="\n", file=sys.stderr)
+
+    def log(self, task):
+        path = self.folder / f"task-{task}.log"
+        return path.read_text() if path.exists() else ""
+
+    def stored(self, task):
+        """Returns the size of what a task has stored of its unfinished part."""
+        return sum(path.stat().st_size for path in self.folder.glob(f"drawing.{task}.exr*"))
+
+    def host_with_tiles(self, job):
+        """Returns a task that has stored tiles, and its host."""
+        for task, (state, *host) in self.cluster.tasks(job).items():
+            if state == "RUNNING" and host and self.stored(task) > STORED:
+                return task, int(host[0][1:])
+        return None
+
+    def found(self, task):
+        """Returns how many tiles each run of the task found."""
+        return [int(number) for number in re.findall(r"^(\d+) of 32 tiles were there", self.log(task), re.M)]
+
+    def expect_whole(self):
+        wait_for(self.picture.exists)
+        self.assertEqual(self.picture.read_bytes(), self.whole.read_bytes(), "the files differ")
+
+    def wait_for_hosts(self):
+        wait_for(lambda: set(self.cluster.states().values()) == {"idle"})
+
+    def submit_slow(self):
+        return self.submit(*SLOW, "--stats", "-o", str(self.picture), "--parts", str(PARTS))
+
+    def test_a_lost_host(self):
+        job = self.submit_slow()
+        task, host = wait_for(lambda: self.host_with_tiles(job))
+        self.cluster.unplug(host)
+        self.expect_whole()
+        self.assertGreater(self.found(task)[-1], 0)
+        self.cluster.start(host)
+        self.wait_for_hosts()
+
+    def test_a_host_that_is_cut_off_and_keeps_writing(self):
+        job = self.submit_slow()
+        task, host = wait_for(lambda: self.host_with_tiles(job))
+        self.cluster.cut_off(host)
+        # The process sleeps until another one draws its part.
+        process = subprocess.run(["pgrep", "-f", f"drawing.{task}.exr"], stdout=subprocess.PIPE, text=True,
+                                 check=True).stdout.split()
+        for number in process:
+            os.kill(int(number), signal.SIGSTOP)
+        others = wait_for(lambda: self.cluster.tasks(job).get(task, [""])[0] == "PENDING")
+        del others
+        wait_for(lambda: self.log(task))
+        for number in process:
+            os.kill(int(number), signal.SIGCONT)
+        self.expect_whole()
+        self.cluster.cut_off(host, False)
+        self.wait_for_hosts()
+
+    def test_a_controller_that_restarts(self):
+        job = self.submit_slow()
+        wait_for(lambda: self.host_with_tiles(job))
+        wait_for((self.home / "state/job_state").exists)
+        self.cluster.unplug(CONTROLLER)
+        self.cluster.start(CONTROLLER)
+        self.expect_whole()
+        self.wait_for_hosts()
+
+    def test_parallel_with_a_lost_host(self):
+        programs = self.work / "bin"
+        programs.mkdir()
+        (programs / "ssh").write_text(SSH.format(folder=self.work))
+        (programs / "ssh").chmod(0o755)
+        for host in range(1, HOSTS + 1):
+            (self.work / f"init-n{host}").write_text(self.cluster.inits[host])
+        words = [ROOT / "tools/farm", *SLOW, "-o", str(self.picture), "--parts", str(PARTS),
+                 "--on", "parallel=n1,n2,n3,n4"]
+        path = f"{programs}:{os.environ['PATH']}"
+        farm = subprocess.Popen(words, env={**os.environ, "CLRT": CLRT, "PATH": path})
+        wait_for(lambda: any(self.stored(task) > STORED for task in range(1, PARTS + 1)))
+        self.cluster.unplug(1)
+        self.assertEqual(farm.wait(timeout=300), 0)
+        self.expect_whole()
+        self.cluster.start(1)
+        self.wait_for_hosts()
+
+    def test_mpirun(self):
+        part = 'exec "$0" "$@" --part auto/4 -o part$OMPI_COMM_WORLD_RANK.exr'
+        subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "4", "sh", "-c", part, CLRT, *SLOW, "-q"],
+                       cwd=self.work, check=True)
+        subprocess.run([CLRT, "merge", *self.work.glob("part*.exr"), "-o", self.picture], check=True)
+        self.expect_whole()
+
+    def test_a_thousand_pictures_with_a_lost_host(self):
+        job = self.submit(*TURN, "-o", str(self.work / "t.pfm"))
+        wait_for(lambda: len(list(self.work.glob("t.*.pfm"))) > 150)
+        host = next(int(host[0][1:]) for state, *host in self.cluster.tasks(job).values() if state == "RUNNING")
+        self.cluster.unplug(host)
+        moments = {path: path.stat().st_mtime_ns for path in self.work.glob("t.*.pfm")}
+        wait_for(lambda: not self.cluster.tasks(job))
+        (self.work / "one").mkdir()
+        subprocess.run([CLRT, *TURN, "-q", "-o", self.work / "one/t.pfm"], check=True)
+        names = [f"t.{number:04}.pfm" for number in range(1, 1001)]
+        for name in names:
+            self.assertEqual((self.work / name).read_bytes(), (self.work / "one" / name).read_bytes(), name)
+        self.assertEqual(sorted(path.name for path in self.work.glob("t.*.pfm*")), names)
+        for path, moment in moments.items():
+            self.assertEqual(path.stat().st_mtime_ns, moment, "a finished picture was drawn again")
+        self.assertIn("is finished", self.farm(*TURN, "-o", str(self.work / "t.pfm")))
+        self.cluster.start(host)
+        self.wait_for_hosts()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
