@@ -23,13 +23,13 @@ SLOW = [SCENE, "-s", "512x512", "--tile", "32x32", "--aa=16", "--precision=fp64"
 TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]
 STORED = 50000  # bytes of a journal that holds some tiles
 
-# parallel's way to the hosts: ssh -o OPTION... HOST WORD...
+# parallel's way to the hosts: ssh -o OPTION... HOST -- WORD...
 SSH = """\
 #!/bin/sh
 while [ "$1" = -o ]; do shift 2; done
-[ "$1" != -- ] || shift
 init=$(cat {folder}/init-$1)
 shift
+[ "$1" != -- ] || shift
 exec nsenter -t "$init" -n -p -m -u --wd=/ sh -c "$*"
 """
 
