@@ -12,7 +12,7 @@ import sys
 import tempfile
 import unittest
 
-from cluster import CONTROLLER, HOSTS, Cluster, child_of, reason_to_skip, wait_for
+from cluster import CONTROLLER, HOSTS, Cluster, reason_to_skip, wait_for
 
 CLRT = str(pathlib.Path(sys.argv[1]).resolve())
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -38,7 +38,7 @@ exec nsenter -t "$init" -n -p -m -u --wd=/ sh -c "$*"
 class Farm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="clrt-farm-")
+        folder = tempfile.TemporaryDirectory(prefix="clrt-farm-", ignore_cleanup_errors=True)
         cls.addClassCleanup(folder.cleanup)
         cls.home = pathlib.Path(folder.name)
         cls.cluster = Cluster(cls.home)
@@ -110,16 +110,14 @@ class Farm(unittest.TestCase):
         job = self.submit_slow()
         task, host = wait_for(lambda: self.host_with_tiles(job))
         self.cluster.cut_off(host)
-        # The process sleeps until another one draws its part.
-        process = subprocess.run(["pgrep", "-f", f"drawing.{task}.exr"], stdout=subprocess.PIPE, text=True,
-                                 check=True).stdout.split()
-        for number in process:
-            os.kill(int(number), signal.SIGSTOP)
-        others = wait_for(lambda: self.cluster.tasks(job).get(task, [""])[0] == "PENDING")
-        del others
-        wait_for(lambda: self.log(task))
-        for number in process:
-            os.kill(int(number), signal.SIGCONT)
+        # The old process sleeps until the new one has met it, and then writes on.
+        found = subprocess.run(["pgrep", "-f", f"{self.folder}/drawing.{task}.exr"], stdout=subprocess.PIPE, text=True, check=True)
+        old = [int(number) for number in found.stdout.split()]
+        for number in old:
+            os.kill(number, signal.SIGSTOP)
+        wait_for(lambda: "another process draws" in self.log(task))
+        for number in old:
+            os.kill(number, signal.SIGCONT)
         self.expect_whole()
         self.cluster.cut_off(host, False)
         self.wait_for_hosts()

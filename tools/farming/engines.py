@@ -2,13 +2,18 @@
 """Runs stages one after another: a stage is a script and the numbers of its tasks."""
 
 import collections
-import pathlib
 import shlex
 import subprocess
 import sys
 
-# Without tasks (None), the script runs once.
-Stage = collections.namedtuple("Stage", "script tasks")
+
+class Stage(collections.namedtuple("Stage", "script tasks")):
+    """Without tasks (None), the script runs once."""
+
+    @property
+    def text(self):
+        return f"{self.script} {ranges(self.tasks or [])}".rstrip()
+
 
 # ssh notices a lost host after 15 s, and parallel tries the task on another one.
 SSH = "ssh -o BatchMode=yes -o ServerAliveInterval=5 -o ServerAliveCountMax=3"
@@ -38,7 +43,7 @@ def run_slurm(folder, stages):
         return 0
     for stage in stages:
         words = ["sbatch", "--parsable", f"--chdir={folder}"]
-        if stage.tasks is not None:
+        if stage.tasks:
             words.append(f"--array={ranges(stage.tasks)}")
         if jobs:
             words += [f"--dependency=afterok:{jobs[-1]}", "--kill-on-invalid-dep=yes"]
@@ -49,8 +54,7 @@ def run_slurm(folder, stages):
             return done.returncode
         jobs.append(done.stdout.strip().split(";")[0])
         record.write_text(",".join(jobs))
-        print(f"job {jobs[-1]}: {stage.script}"
-              + ("" if stage.tasks is None else f" {ranges(stage.tasks)}"))
+        print(f"job {jobs[-1]}: {stage.text}")
     print(f"watch:  squeue -j {','.join(jobs)}; tail {shlex.quote(str(folder))}/*.log\n"
           f"cancel: scancel {' '.join(jobs)}")
     return 0
@@ -65,7 +69,7 @@ def run_parallel(hosts, folder, stage):
 
 
 def run_local(folder, stage):
-    for task in [""] if stage.tasks is None else stage.tasks:
+    for task in stage.tasks or [""]:
         status = subprocess.run(["sh", str(folder / f"{stage.script}.sh"), str(task)], check=False).returncode
         if status != 0:
             return status
@@ -78,9 +82,8 @@ def run(engine, folder, stages):
         return run_slurm(folder, stages)
     hosts = engine.removeprefix("parallel=")
     for stage in stages:
-        is_local = engine == "local" or stage.tasks is None
-        print(f"{stage.script} {'' if stage.tasks is None else ranges(stage.tasks)}; logs: {pathlib.Path(folder)}",
-              file=sys.stderr)
+        is_local = engine == "local" or not stage.tasks
+        print(f"{stage.text}; logs: {folder}", file=sys.stderr)
         status = run_local(folder, stage) if is_local else run_parallel(hosts, folder, stage)
         if status != 0:
             return status
