@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tools/farm on a cluster whose hosts fail: the file is the one of a single machine, byte for byte.
 # Usage: test_farm.py CLRT [TEST...]
+import json
 import os
 import pathlib
 import re
@@ -52,14 +53,14 @@ class Farm(unittest.TestCase):
         self.whole, self.picture = self.home / "whole.exr", self.work / "a.exr"
         self.folder = self.work / "a.exr.farm"
 
-    def farm(self, *words, **more):
-        environment = {**os.environ, "CLRT": CLRT, **more}
-        return self.cluster.on(CONTROLLER, ROOT / "tools/farm", *words, env=environment)
+    def run_tool(self, name, *words):
+        """Runs a tool on the controller and returns its output."""
+        return self.cluster.on(CONTROLLER, ROOT / "tools" / name, *words, env={**os.environ, "CLRT": CLRT})
 
     def submit(self, *words):
         """Returns the number of the array."""
         self.addCleanup(self.print_logs)
-        told = self.farm(*words)
+        told = self.run_tool("farm", *words)
         self.assertRegex(told, r"cancel: scancel \d+")
         return re.match(r"job (\d+)", told)[1]
 
@@ -171,8 +172,16 @@ class Farm(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in self.work.glob("t.*.pfm*")), names)
         for path, moment in moments.items():
             self.assertEqual(path.stat().st_mtime_ns, moment, "a finished picture was drawn again")
-        self.assertIn("is finished", self.farm(*TURN, "-o", str(self.work / "t.pfm")))
+        self.assertIn("is finished", self.run_tool("farm", *TURN, "-o", str(self.work / "t.pfm")))
         self.cluster.start(host)
+        self.wait_for_hosts()
+
+    def test_a_study_of_settings(self):
+        self.run_tool("trade", SCENE, "--quick", "--runs", "1", "-s", "64x48", "--plain", "--reference-samples", "256",
+                      "-o", self.work, "--on", "slurm")
+        wait_for((self.work / "trade.json").exists)
+        rows = json.loads((self.work / "trade.json").read_text())["scenes"][0]["rows"]
+        self.assertGreaterEqual(len(rows), 7)
         self.wait_for_hosts()
 
 

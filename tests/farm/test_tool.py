@@ -4,6 +4,7 @@
 # Usage: test_tool.py CLRT
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -115,6 +116,21 @@ class Tool(unittest.TestCase):
         for number, tasks in ("100", "1"), ("101", "1-2"), ("1000", "1-10"):
             self.farm("--turntable", number, "-o", f"{number}.png")
             self.assertEqual([words[2] for words in self.submissions()], [f"--array={tasks}"])
+
+    def test_the_commands_of_the_documentation_make_the_whole_picture(self):
+        text = (ROOT / "docs/many-machines.md").read_text()
+        commands = re.findall(r"clrt \S*scene.scn --part auto/8 --resume -o \S*part\$([A-Z_]+).exr", text)
+        self.assertEqual(len(commands), 4)
+        self.run_program(CLRT, *SMALL, "-o", "whole.exr")
+        for variable in commands:
+            folder = self.work / variable
+            folder.mkdir()
+            part = f'"$0" "$@" --part auto/8 --resume -q -o {folder}/part${variable}.exr'
+            for task in range(8):
+                number = task + (variable == "SLURM_ARRAY_TASK_ID")
+                self.run_program("sh", "-c", part, CLRT, *SMALL, **{variable: str(number)})
+            self.run_program(CLRT, "merge", *sorted(folder.glob("part*.exr")), "-o", "merged.exr")
+            self.assertEqual(self.bytes_of("merged.exr"), self.bytes_of("whole.exr"))
 
     def test_what_is_wrong_is_refused(self):
         for words, sentence in (([], "--parts wants the number of parts"), (["--parts", "0"], "--parts wants"),
