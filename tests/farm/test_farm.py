@@ -5,12 +5,13 @@
 import json
 import os
 import pathlib
+import random
 import re
-import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from cluster import CONTROLLER, HOSTS, Cluster, reason_to_skip, wait_for
@@ -59,15 +60,9 @@ class Farm(unittest.TestCase):
 
     def submit(self, *words):
         """Returns the number of the array."""
-        self.addCleanup(self.print_logs)
         told = self.run_tool("farm", *words)
         self.assertRegex(told, r"cancel: scancel \d+")
         return re.match(r"job (\d+)", told)[1]
-
-    def print_logs(self):
-        if self._outcome.result.failures or self._outcome.result.errors:
-            for log in sorted(self.work.rglob("*.log")):
-                print(log.name, log.read_text(), sep="\n", file=sys.stderr)
 
     def log(self, task):
         path = self.folder / f"task-{task}.log"
@@ -89,8 +84,11 @@ class Farm(unittest.TestCase):
         return [int(number) for number in re.findall(r"^(\d+) of 32 tiles were there", self.log(task), re.M)]
 
     def expect_whole(self):
-        wait_for(self.picture.exists)
-        self.assertEqual(self.picture.read_bytes(), self.whole.read_bytes(), "the files differ")
+        try:
+            wait_for(self.picture.exists)
+        except TimeoutError:
+            self.fail("\n".join(f"{log.name}:\n{log.read_text()}" for log in self.folder.glob("*.log")))
+        self.assertTrue(self.picture.read_bytes() == self.whole.read_bytes(), "the files differ")
 
     def wait_for_hosts(self):
         wait_for(lambda: set(self.cluster.states().values()) == {"idle"})
@@ -121,6 +119,20 @@ class Farm(unittest.TestCase):
             os.kill(number, signal.SIGCONT)
         self.expect_whole()
         self.cluster.cut_off(host, False)
+        self.wait_for_hosts()
+
+    def test_tasks_that_are_requeued_at_any_moment(self):
+        job, moments = self.submit_slow(), random.Random(1)
+        for _ in range(4):
+            running = wait_for(lambda: [task for task, (state, *_) in self.cluster.tasks(job).items()
+                                        if state == "RUNNING"] or self.picture.exists())
+            if self.picture.exists():
+                break
+            time.sleep(moments.uniform(0, 4))
+            for task in running:  # some have ended
+                self.cluster.on(CONTROLLER, "scontrol", "requeue", f"{job}_{task}", check=False)
+        self.expect_whole()
+        self.assertGreater(max(max(self.found(task)) for task in range(1, PARTS + 1)), 0)
         self.wait_for_hosts()
 
     def test_a_controller_that_restarts(self):
