@@ -255,6 +255,7 @@ static ExitCode prepare(Run *run, Error *error)
     run_begin(run);
     if (!run_load_scene(run, error))
         return EXIT_SCENE;
+    picture_warn_of_few_tiles(run);
     if (!command_files_check(run->options, &run->scene, error) ||
         !image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;

@@ -21,7 +21,7 @@ typedef struct {
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
     uint64_t ready_tiles; // first tiles that exist already and are skipped
-    uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
+    uint32_t part, parts; // draws one of so many parts (render/tile.h); 0, 0 draws all
     uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
-// draw.
+// draw. A part draws every parts-th tile of each row, and starts in another column in each row.
 #pragma once
 
 #include "render/renderer.h"

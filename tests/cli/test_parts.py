@@ -10,6 +10,11 @@ SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
 CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 
 
+def part_of(column, row, parts):
+    """The golden ratio shifts the tiles of each row, so no part gets the tiles of a column."""
+    return (column - (row * 2654435769 % 2**32 * parts >> 32)) % parts
+
+
 class Parts(SharedWork):
     def prepare(self):
         """Every EXR file costs half a second, so most tests share the picture and its three parts."""
@@ -61,13 +66,22 @@ class Parts(SharedWork):
         for part, name in enumerate(self.thirds):
             channels = read_exr(self.work / name)[1]
             for pixel in range(61 * 43):
-                tile = pixel // 61 // 8 * 4 + pixel % 61 // 16
-                expected = whole["R"][pixel] if tile % 3 == part else 0
+                expected = whole["R"][pixel] if part_of(pixel % 61 // 16, pixel // 61 // 8, 3) == part else 0
                 self.assertEqual(channels["R"][pixel], expected, (part, pixel))
             found = self.statistics(*SMALL, "--part", f"{part + 1}/3", "-o", "a.exr")
             self.expect(found, samples__per_pixel=1)
             rays += found["rays"]["camera"]
         self.assertEqual(rays, 61 * 43)
+
+    def test_too_few_tiles_for_the_parts_are_noted(self):
+        for words, advised in ((["-s", "1024x1024", "--part", "1/3"], 2), (["-s", "64x64", "--part", "2/2"], 1),
+                               (["-s", "1024x1024", "--part", "1/2"], 0), (["-s", "64x64", "--part", "1/1"], 0),
+                               (["-s", "64x64", "--part", "2/2", "-q"], 0)):
+            tiles = 256 if "1024x1024" in words else 1
+            note = (f"clrt: a part of fewer than 128 tiles may take much longer than the others: {tiles} "
+                    f"tiles suffice for N={advised}\n")
+            done = self.run_clrt(SCENE, *words, "-o", "few.exr")
+            self.assertEqual((done.returncode, done.stderr), (0, note if advised else ""), words)
 
     def test_the_whole_is_written_in_any_format(self):
         names = self.draw("srgb", *SMALL, "--encode", "srgb", of=2)

@@ -53,8 +53,10 @@ typedef enum {
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 
-// The default side of a tile in pixels. The window chooses other sizes.
-#define OPTIONS_TILE 128
+// The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
+// so that each part has more of them and takes about as long as the others.
+#define OPTIONS_TILE      128
+#define OPTIONS_PART_TILE 64
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
