@@ -38,6 +38,14 @@ static uint64_t row_count(const RenderSettings *settings, uint64_t row)
     return first < columns ? (columns - first - 1) / stride_of(settings) + 1 : 0;
 }
 
+void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height)
+{
+    const Tile largest = tile_largest(settings);
+    const bool is_stacked = settings->parts > 0;
+    *width = is_stacked ? largest.width : settings->width;
+    *height = is_stacked ? (uint32_t)tile_count(settings) * largest.height : settings->height;
+}
+
 uint64_t tile_count(const RenderSettings *settings)
 {
     const uint64_t rows = parts(settings->height, settings->tile_height);
@@ -58,8 +66,13 @@ Tile tile_at(const RenderSettings *settings, uint64_t number)
     const uint64_t column = first_column(settings, row) + place * stride;
     const uint32_t x = (uint32_t)column * settings->tile_width;
     const uint32_t y = (uint32_t)row * settings->tile_height;
-    return (Tile){x, y, smaller(settings->tile_width, settings->width - x),
-                  smaller(settings->tile_height, settings->height - y)};
+    const bool is_stacked = settings->parts > 0;
+    return (Tile){.x = x,
+                  .y = y,
+                  .width = smaller(settings->tile_width, settings->width - x),
+                  .height = smaller(settings->tile_height, settings->height - y),
+                  .left = is_stacked ? 0 : x,
+                  .top = is_stacked ? (uint32_t)number * tile_largest(settings).height : y};
 }
 
 Tile tile_largest(const RenderSettings *settings)
