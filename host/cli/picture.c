@@ -334,7 +334,9 @@ static ExitCode make_frame(Picture *picture, uint32_t number, double start, Erro
     clear(picture);
     set_view(picture, number);
     if (!begin_picture(picture, error))
-        return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
+        return picture->resume.journal.is_busy ? EXIT_BUSY
+               : picture->resume.is_broken     ? EXIT_OUTPUT
+                                               : EXIT_SCENE;
     picture_print_beginning(picture);
     stop_wait_for_tiles();
     if (!draw(picture, error))

@@ -120,12 +120,11 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
         return false;
     if (!journal_open(&resume->journal, resume->path, key, error))
         return false;
-    if (!is_stored) {
+    if (!is_stored)
         read_journal(resume, settings, framebuffer);
-        return journal_cut(&resume->journal, error);
-    }
-    bool ok = true;
-    for (uint64_t number = 0; ok && number < settings->ready_tiles; number++)
+    bool ok = journal_claim(&resume->journal, error);
+    resume->is_broken = !ok && !resume->journal.is_busy;
+    for (uint64_t number = 0; ok && is_stored && number < settings->ready_tiles; number++)
         ok = resume_keep(resume, settings, framebuffer, number, error);
     exr_file_close(&resume->stored);
     return ok;

@@ -35,7 +35,8 @@ typedef enum {
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
-    EXIT_OUTPUT = 5
+    EXIT_OUTPUT = 5,
+    EXIT_BUSY = 75 // another process draws the picture; EX_TEMPFAIL of sysexits.h
 } ExitCode;
 
 // The treatment of triangles without area.
