@@ -21,7 +21,7 @@ typedef struct {
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
     uint64_t ready_tiles; // first tiles that exist already and are skipped
-    uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
+    uint32_t part, parts; // draws one of so many parts (render/tile.h); 0, 0 draws all
     uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;
@@ -94,7 +94,8 @@ void renderer_close(Renderer *renderer);
 // Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture that camera sees into framebuffer, which must have the settings' size. If the
+// Draws the picture that camera sees into framebuffer, which must have the size of
+// tile_frame_size. If the
 // observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);

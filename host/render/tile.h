@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
-// draw.
+// draw. A part draws every parts-th tile of each row, and starts in another column in each row.
 #pragma once
 
 #include "render/renderer.h"
 
 typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
+    uint32_t left, top;           // position in the framebuffer
 } Tile;
+
+// Stores the size of the framebuffer in which the tiles are drawn. A part's framebuffer contains
+// only the part's tiles, below each other.
+void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
 // Return the number of tiles to draw, and the position and size of one of them.
 uint64_t tile_count(const RenderSettings *settings);

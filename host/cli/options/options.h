@@ -35,7 +35,8 @@ typedef enum {
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
-    EXIT_OUTPUT = 5
+    EXIT_OUTPUT = 5,
+    EXIT_BUSY = 75 // another process draws the picture; EX_TEMPFAIL of sysexits.h
 } ExitCode;
 
 // The treatment of triangles without area.
@@ -53,8 +54,10 @@ typedef enum {
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 
-// The default side of a tile in pixels. The window chooses other sizes.
-#define OPTIONS_TILE 128
+// The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
+// so that each part has more of them and takes about as long as the others.
+#define OPTIONS_TILE      128
+#define OPTIONS_PART_TILE 64
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
