@@ -15,7 +15,7 @@ FORMAT_NAMES = ", ".join(FORMATS) + ("" if HAS_EXR else " (more after tools/setu
 FILE = [SCENE, "-o", "a.pfm"]
 ONE_SCENE = "one scene at a time: '{}' comes after 'a.scn' (values of --stats and --json follow an equals sign)"
 AFTER_EQUALS_SIGN = "the value of --aa follows an equals sign: --aa=4"
-SIZE = "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '{}'"
+SIZE = "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '{}'"
 KEYS = "--keys and --quit-after are for the window: leave out -o"
 NO_FILE = "cannot be opened: No such file or directory"
 REFUSALS = [
@@ -26,7 +26,7 @@ REFUSALS = [
     (2, "unknown option '--sise', perhaps --size", [*FILE, "--sise", "4x4"]),
     (2, "unknown option '-z'; clrt --help lists them", ["-z"]),
     (2, "--size wants a value", [SCENE, "--size"]),
-    (2, "--size wants WIDTHxHEIGHT, each between 1 and 65536, not '0x5'", [*FILE, "--size", "0x5"]),
+    (2, "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '0x5'", [*FILE, "--size", "0x5"]),
     (2, ONE_SCENE.format("b.scn"), ["a.scn", "b.scn", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["a.scn", "--aa", "4", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["--aa", "4", "a.scn", "-o", "a.pfm"]),
@@ -35,7 +35,7 @@ REFUSALS = [
     (2, SIZE.format("640") + ", perhaps 640x640", ["a.scn", "-s", "640"]),
     (2, SIZE.format("0"), ["a.scn", "-s", "0"]),
     (2, SIZE.format("640x"), ["a.scn", "-s", "640x"]),
-    (2, "--tile wants WIDTHxHEIGHT, each between 1 and 65536, not '64', perhaps 64x64", [*FILE, "--tile", "64"]),
+    (2, "--tile wants WIDTHxHEIGHT, each between 1 and 131072, not '64', perhaps 64x64", [*FILE, "--tile", "64"]),
     (2, "unknown option '--samples=4', perhaps --aa=N", [*FILE, "--samples=4"]),
     (2, "unknown option '--width', perhaps --size=WxH", [*FILE, "--width", "640"]),
     (2, "unknown option '--bounces', perhaps --max-level", [*FILE, "--bounces", "4"]),

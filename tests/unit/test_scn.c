@@ -176,7 +176,7 @@ TEST(faults_name_line_column_and_the_statement)
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
         {"size 0 5",
-         "1:6: expected an integer between 1 and 65536: found '0'" STATEMENT "'size WIDTH HEIGHT'"},
+         "1:6: expected an integer between 1 and 131072: found '0'" STATEMENT "'size WIDTH HEIGHT'"},
         {"camera 0 0 0 0 0 0 45",
          "1:1: the camera looks at its own position: found 'camera'" CAMERA},
         {"camera 0 0 5 0 0 0 45",
