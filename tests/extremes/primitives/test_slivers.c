@@ -55,19 +55,16 @@ static Scene sliver(double aspect, Random *random)
 static Outcome judge_sliver(RayBatch *batch, double aspect, Record *record, Random *random)
 {
     Vec3 origin = {0};
-    const Rays rays = rays_make(tier_size(200, 2000));
-    Rig rig = rig_open("T-10", batch, sliver(aspect, random));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(200, 2000));
+    FREED_BY(rig_close) Rig rig = rig_open("T-10", batch, sliver(aspect, random));
     record->triangle = &rig.stage.triangles;
     for (size_t i = 0; i < rays.count; i++) {
         const double u = random_between(random, 0, 1), v = random_between(random, 0, 1 - u);
         if (rays_move_origin(i, 64))
-            origin = vec3_scale(random_unit(random), 3);
+            origin = vec3_scale(random_direction(random), 3);
         rays.data[i] = ray_between(origin, point_of(record->triangle, 0, u, v));
     }
-    const Outcome outcome = rig_judge(&rig, rays, judge_distance, record);
-    rig_close(&rig);
-    free(rays.data);
-    return outcome;
+    return rig_judge(&rig, rays, judge_distance, record);
 }
 
 static int compare_floats(const void *first, const void *second)
@@ -107,12 +104,11 @@ static void judge_slivers(RayBatch *batch, double aspect)
         free(record.errors[tracer]);
 }
 
-static void distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10(void **state)
+EXTREME(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10)
 {
     judge_slivers(*state, 1e3);
     judge_slivers(*state, 1e5);
     judge_slivers(*state, 1e7);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(distances_to_slivers_are_exact_to_16_units_in_the_last_place_t10))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

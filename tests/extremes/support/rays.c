@@ -11,6 +11,11 @@ Rays rays_make(size_t count)
     return (Rays){require_memory(count, sizeof(TestRay)), count};
 }
 
+void rays_free(const Rays *rays)
+{
+    free(rays->data);
+}
+
 bool rays_move_origin(size_t i, size_t bundle)
 {
     return form_choice().family != FAMILY_PACKET || i % bundle == 0;

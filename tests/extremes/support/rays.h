@@ -5,8 +5,9 @@
 #include "ray_batch.h"
 #include "room.h"
 
-// Returns uninitialized rays. The caller frees rays.data.
+// Returns uninitialized rays.
 Rays rays_make(size_t count);
+void rays_free(const Rays *rays);
 
 // The rays of a packet start at one point. Returns whether ray i starts a new packet of `bundle`
 // rays; always true unless the kernels trace packets.

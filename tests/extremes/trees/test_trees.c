@@ -72,14 +72,13 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
 {
     Stage stage;
     Random random = {25 + number};
-    Scene scene = tree_scene_make(number);
+    FREED_BY(scene_free) Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, TREE_NONE);
     if (from_surfaces)
         make_surface_rays(rays, &stage, &random);
     else
         make_free_rays(rays, &stage.triangles, &random);
     stage_free(&stage);
-    scene_free(&scene);
     for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
         rays.data[i].kind = RAY_SHADOW;
         // A ray of twice the length meets its target halfway. The other rays end there.
@@ -91,17 +90,16 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
 static TestHit *trace(RayBatch *batch, BatchTask task, Rays rays, size_t number, TreeKind tree)
 {
     Stage stage;
-    Scene scene = tree_scene_make(number);
+    FREED_BY(scene_free) Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, tree);
     ray_batch_upload(batch, &stage.flat);
     stage_free(&stage);
-    scene_free(&scene);
     return ray_batch_trace(batch, task, rays);
 }
 
 static void compare_trees(RayBatch *batch, BatchTask task, bool from_surfaces)
 {
-    const Rays rays = rays_make(tier_size(10000, 100000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 100000));
     const uint32_t nothing = task == BATCH_BLOCKED ? 0 : NOTHING;
     const size_t least_met = rays.count / (task == BATCH_BLOCKED ? 100 : 20);
     for (size_t number = 0; number < TREE_SCENES; number++) {
@@ -124,21 +122,18 @@ static void compare_trees(RayBatch *batch, BatchTask task, bool from_surfaces)
         }
         free(expected);
     }
-    free(rays.data);
 }
 
-static void every_tree_finds_the_hits_that_testing_all_triangles_finds_t25(void **state)
+EXTREME(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25)
 {
     compare_trees(*state, BATCH_NEAREST, false);
     compare_trees(*state, BATCH_NEAREST, true);
 }
 
-static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(void **state)
+EXTREME(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25)
 {
     compare_trees(*state, BATCH_BLOCKED, false);
     compare_trees(*state, BATCH_BLOCKED, true);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
-          EXTREME(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25))
+FIXTURES(ray_batch_setup, ray_batch_teardown)
