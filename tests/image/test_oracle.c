@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compares the renderer with the fp64 oracle, in all views of the course's, the project's and some
-// unusual scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each.
-// Every STEP-th pixel of every STEP-th row is compared; CLRT_FULL=1 in the environment compares
-// all.
+// Compares the renderer with the fp64 oracle, in all views of the course's and some unusual scenes.
+// A few pixels may differ, if the oracle finds an edge within a pixel of each. Every STEP-th pixel
+// of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/picture.h"
@@ -18,9 +17,8 @@
 #define LIMIT 30
 
 // All pixels would take minutes.
-#define STEP              2
-#define COURSE_MESH_STEP  4
-#define PROJECT_MESH_STEP 8
+#define STEP             2
+#define COURSE_MESH_STEP 4
 
 static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, uint32_t step)
 {
@@ -76,26 +74,9 @@ TEST(the_courses_scenes_are_drawn_as_the_oracle_does)
     check_course("buddha.scn", COURSE_MESH_STEP);
 }
 
-TEST(the_projects_small_scenes_are_drawn_as_the_oracle_does)
-{
-    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
-}
-
-TEST(the_projects_meshes_are_drawn_as_the_oracle_does)
-{
-    if (!models_are_made())
-        return;
-    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", PROJECT_MESH_STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", PROJECT_MESH_STEP);
-}
-
 TEST(unusual_scenes_are_drawn_as_the_oracle_does)
 {
     for (size_t scene = 0; scene < UNUSUAL_COUNT; scene++)
         check(unusual_scenes[scene], STEP);
+    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
 }

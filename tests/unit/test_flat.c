@@ -4,7 +4,6 @@
 #include "accel/traits.h"
 #include "unit/parsed.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 // A flattened scene and its sources.

@@ -9,7 +9,6 @@
 
 #include <dirent.h>
 #include <malloc.h>
-#include <stdio.h>
 #include <string.h>
 
 #ifdef __SANITIZE_ADDRESS__

@@ -5,8 +5,6 @@
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
 
-#include <string.h>
-
 // With these statements, only light makes a pixel other than black.
 #define DARK "ambient 0\nbackground 0 0 0\nup 0.01 0.02 1\n"
 

@@ -28,9 +28,6 @@ EXTREME(lights_of_any_intensity_and_number_are_added_right_t54)
         size_t lights;
     } cases[] = {{0, 1}, {1e-30, 1}, {1, 0}, {1e30, 1}, {1e30, 10}, {1e-3, 1000}};
     const PictureSettings settings = picture_settings(64);
-    FREED_BY(framebuffer_free) Framebuffer dark = picture_draw_once(*state, ball(0, 0), &settings);
-    outcome_report(picture_compare("T-54", &dark, picture_draw_once(*state, ball(0, 1), &settings)),
-                   "intensity=0 is=ambient");
     for (size_t i = 0; i < COUNT(cases); i++)
         outcome_report(
             picture_judge("T-54", *state, ball(cases[i].intensity, cases[i].lights), &settings),

@@ -31,4 +31,7 @@ typedef enum {
     AIM_KINDS
 } Aim;
 
+// Returns a random edge point or vertex.
+Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random);
+
 void rays_aim(Rays rays, Aim aim, const Room *room, const Triangles *triangles, Random *random);

@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-static Vec3 random_corner(const Triangles *triangles, Random *random)
-{
-    const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
-    return corner_of(triangles, triangle, random_below(random, 3));
-}
-
 // Returns a point of the line through an edge of a random triangle.
 static Vec3 random_target(const Triangles *triangles, Random *random)
 {
@@ -42,13 +36,14 @@ static void make_free_rays(Rays rays, const Triangles *triangles, Random *random
         Vec3 origin = i % 8 == 4 ? far : near;
         Vec3 target = random_in_cube(random, 1);
         if (i % 8 == 1 || i % 8 == 2)
-            target = random_corner(triangles, random);
+            target = rays_target(AIM_VERTICES, triangles, random);
         else if (i % 8 == 3 || i % 8 == 4)
             target = random_target(triangles, random);
         else if (i % 8 == 5)
-            origin = random_corner(triangles, random);
-        rays.data[i] = i % 8 == 6 ? along_an_axis(random_corner(triangles, random), random)
-                                  : ray_between(origin, target);
+            origin = rays_target(AIM_VERTICES, triangles, random);
+        rays.data[i] = i % 8 == 6
+                           ? along_an_axis(rays_target(AIM_VERTICES, triangles, random), random)
+                           : ray_between(origin, target);
     }
 }
 
