@@ -66,8 +66,6 @@ SAME = {"-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize
         "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
         "--specialize always": {"settings__specialized": True},
         "--precision fp32": {"settings__precision": "fp32"}, "--device 0:0": None, "--device cpu": None}
-SAME_IN_FP64 = ["--no-bvh", "--bvh midpoint", "-j 1", "--tile 16x8", "--work-group 4x2",
-                "--specialize always", "--kernel ray", "--nodes pair"]
 
 
 class Usage(Work):
@@ -137,11 +135,6 @@ class SamePictures(SharedWork):
         self.expect(self.json_of("fp64.json"), settings__precision="fp64", settings__kernel="ray",
                     settings__nodes="pair")
 
-    def test_options_of_speed_change_no_bit_of_fp64(self):
-        for words in SAME_IN_FP64:
-            self.clrt(*SMALL, "same64.pfm", "--precision", "fp64", *words.split())
-            self.assert_same_bytes("fp64.pfm", "same64.pfm", words)
-
     def test_a_device_without_fp64_draws_in_fp32_alone(self):
         self.clrt(*SMALL, "b.pfm", **NO_FP64)
         told = self.clrt(*FILE, "--precision", "fp64", code=4, **NO_FP64)
@@ -161,15 +154,6 @@ class SamePictures(SharedWork):
         self.assertGreater(min(times), 0)
         self.expect(found, rays__camera=1536)
         self.assert_same_bytes("plain.pfm", "repeat.pfm")
-
-    def test_processes_that_start_at_once_on_an_empty_cache_all_draw(self):
-        environment = dict(os.environ, XDG_CACHE_HOME=str(self.work / "cold"))
-        environment.pop("POCL_CACHE_DIR", None)
-        names = [f"cold{number}.pfm" for number in range(4)]
-        running = [self.start(*SMALL, name, "-q", env=environment) for name in names]
-        for name, process in zip(names, running):
-            self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
-            self.assert_same_bytes("plain.pfm", name)
 
 
 class Statistics(Work):
