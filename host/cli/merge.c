@@ -141,7 +141,7 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is no part of a picture that --part drew", path);
 }
 
-// A part that cannot be opened is missing, and the other parts tell its number.
+// A part that cannot be opened is missing, and the other parts show its number.
 static bool read_part(Merging *merging, const char *path, Error *error)
 {
     ExrFile file;

@@ -89,9 +89,9 @@ static void test_no_part_is_much_slower_than_the_mean(void **state)
 {
     (void)state;
     static Cost *const costs[] = {flat, left_half, sky, disc};
-    static const uint32_t columns[] = {30, 32, 47, 64, 94, 128, 193, 256};
+    static const uint32_t columns[] = {30, 47, 64, 94, 128, 193};
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
-        for (uint32_t parts = 4; parts <= 128; parts++)
+        for (uint32_t parts = 4; parts <= 128; parts += 4)
             for (size_t j = 0; parts * PART_TILES <= columns[i] * columns[i] && j < 4; j++) {
                 const RenderSettings settings = settings_of(columns[i], columns[i], parts);
                 const double ratio = slowest(settings, costs[j]);
