@@ -66,7 +66,10 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
     Mask searching[PACKETS];
     for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
-        if (CLRT_SPHERES && any_lane(rays[i].active))
+        searching[i] = 0;
+        if (!any_lane(rays[i].active))
+            continue;
+        if (CLRT_SPHERES)
             intersect_spheres(tracer, &rays[i], &hits[i]);
         searching[i] = is_searchable(&rays[i]);
     }
@@ -82,7 +85,10 @@ static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint cou
     Mask searching[PACKETS];
     for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-        if (CLRT_SPHERES && any_lane(rays[i].active))
+        searching[i] = 0;
+        if (!any_lane(rays[i].active))
+            continue;
+        if (CLRT_SPHERES)
             intersect_spheres(tracer, &rays[i], &hits[i]);
         searching[i] = is_searchable(&rays[i]) && hits[i].id == NOTHING;
     }

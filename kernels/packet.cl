@@ -8,9 +8,6 @@
 
 #if CLRT_WIDE_NODES
 
-// In a block entered by this many lanes or fewer, each lane is tested alone against all triangles.
-#define MOST_LANES_ALONE 4
-
 typedef struct {
     Search rays;   // inactive lanes copy an active one
     bool one_axis; // all rays have the same longest axis
@@ -125,11 +122,6 @@ static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const 
                                                  uint bits, uint near, Hit *best)
 {
     bool changed = false;
-    if (popcount(bits) <= MOST_LANES_ALONE) {
-        for (; bits != 0; bits &= bits - 1)
-            changed |= intersect_block(start, &packet->rays, lowest_bit(bits), best);
-        return changed;
-    }
     const Mask lanes = lanes_of(bits);
     for (; near != 0; near &= near - 1) {
         const uint place = lowest_bit(near);

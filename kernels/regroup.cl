@@ -300,7 +300,8 @@ static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const
     Ungrouped ungrouped = {.count = count};
     for (uint i = 0; i < count; i++) {
         ungrouped.left[i] = wanted[i];
-        ungrouped.octants[i] = octants_of(rays[i].direction);
+        if (wanted[i] != 0)
+            ungrouped.octants[i] = octants_of(rays[i].direction);
     }
     RayGroup group;
     while (take_group(&ungrouped, has_tree ? SMALLEST_BEAM : 1, &group))

@@ -122,7 +122,7 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
     Ray rays[PACKETS];
     Hit blockers[PACKETS];
     for (uint i = 0; i < PACKETS; i++) {
-        rays[i] = (Ray){.active = 0};
+        rays[i].active = 0;
         light[i].faces = 0;
         if (!any_lane(lighting[i].wanted))
             continue;

@@ -22,7 +22,11 @@ typedef struct {
 
 static inline uint lowest_bit(uint bits)
 {
+#if defined(__x86_64__) && __has_builtin(__builtin_ctz)
+    return (uint)__builtin_ctz(bits);
+#else
     return popcount((bits & -bits) - 1);
+#endif
 }
 
 // Returns the entry distances as integers that sort in reverse; the bits of nonnegative floats

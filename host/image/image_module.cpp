@@ -161,15 +161,29 @@ bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec
     return std::fclose(file) == 0 && written;
 }
 
+// A file that never reports a failed write, because OpenEXR then waits for its threads forever.
+class PatientFile : public OIIO::Filesystem::IOFile
+{
+  public:
+    explicit PatientFile(FILE *file) : IOFile(file, Write)
+    {
+    }
+    size_t write(const void *bytes, size_t size) override
+    {
+        IOFile::write(bytes, size);
+        return size;
+    }
+};
+
 // Writes directly, because EXR files may be as large as the picture. Checks the stream here,
-// because OpenEXR ignores errors in the last bytes.
+// because PatientFile reports no errors.
 bool write_to_file(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                    const ImageModulePicture &picture)
 {
     FILE *file = std::fopen(picture.path, "wb");
     if (file == nullptr)
         return false;
-    OIIO::Filesystem::IOFile direct(file, OIIO::Filesystem::IOProxy::Write);
+    PatientFile direct(file);
     const bool ok = output.set_ioproxy(&direct) && write_all(output, spec, picture);
     const bool written = std::ferror(file) == 0;
     return std::fclose(file) == 0 && written && ok;
