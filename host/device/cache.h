@@ -26,8 +26,8 @@ typedef struct {
 void cache_open(Cache *cache);
 
 // Opens a cache for libraries, which needs no cache_close. Leaves the environment unchanged, so
-// PoCL stores its kernels in its default folder or in POCL_CACHE_DIR, which then holds the lock, too.
-// cache->folder is empty if no folder is writable.
+// PoCL stores its kernels in its default folder or in POCL_CACHE_DIR, which then holds the lock,
+// too. cache->folder is empty if no folder is writable.
 void cache_open_for_library(Cache *cache);
 
 // Removes the folder if it is temporary. No OpenCL object may be in use.

@@ -12,6 +12,9 @@ HOSTS = 4
 CONTROLLER = 0
 PROGRAMS = ["slurmctld", "slurmd", "sbatch", "munged", "mpirun", "parallel", "ip", "unshare", "nsenter"]
 
+# The cluster ends with the test, even if a signal ends the test.
+DYING = ["setpriv", "--pdeathsig", "KILL"]
+
 SLURM = """\
 ClusterName=clrt
 SlurmctldHost=n0(10.77.0.100)
@@ -94,7 +97,7 @@ class Cluster:
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)
-        self.bridge = subprocess.Popen(["unshare", "--net", "sleep", "infinity"])
+        self.bridge = subprocess.Popen([*DYING, "unshare", "--net", "sleep", "infinity"])
         time.sleep(0.2)
 
     def open(self):
@@ -111,7 +114,7 @@ class Cluster:
         boot = BOOT.format(folder=self.folder, host=host, daemon="slurmd" if host else "slurmctld")
         with open(self.folder / f"boot-{host}.log", "w", encoding="utf-8") as log:
             self.boots[host] = subprocess.Popen(
-                ["unshare", "--net", "--pid", "--fork", "--kill-child", "--mount", "--uts", "sh", "-c", boot],
+                [*DYING, "unshare", "--net", "--pid", "--fork", "--kill-child", "--mount", "--uts", "sh", "-c", boot],
                 stdout=subprocess.DEVNULL, stderr=log)
         self.inits[host] = wait_for(lambda: child_of(self.boots[host].pid), 10)
         self.on_bridge(
