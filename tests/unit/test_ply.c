@@ -126,3 +126,12 @@ TEST(a_mesh_comes_back_in_floats_where_they_suffice_and_with_its_normals)
     expect_same((Mesh){MESH, .positions = doubles, .normals = normals}, 36);
     expect_same((Mesh){0}, 0);
 }
+
+TEST(a_full_disk_is_told)
+{
+    const Mesh mesh = {MESH, .positions = doubles};
+    FILE *full = fopen("/dev/full", "wb");
+    setvbuf(full, NULL, _IONBF, 0);
+    assert_false(ply_write(&mesh, full));
+    fclose(full);
+}
