@@ -286,12 +286,10 @@ static bool collapse_tree(Collapse *collapse, Error *error)
     return true;
 }
 
-static void write_list_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void write_list_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Collapse *collapse = context;
-    const uint32_t end = chunk_end(chunk, collapse->flat->triangle_count);
-    (void)worker;
-    for (uint32_t first = chunk * CHUNK_ELEMENTS; first < end; first += WIDE)
+    for (; first < end; first += WIDE)
         fill_block(collapse, first / WIDE, first, end - first < WIDE ? end - first : WIDE);
 }
 
@@ -301,17 +299,15 @@ static bool write_list(Collapse *collapse, Error *error)
     flat->block_count = (flat->triangle_count + WIDE - 1) / WIDE;
     if (!allocate(flat, error))
         return false;
-    thread_pool_run(collapse->source->pool, chunk_count(flat->triangle_count), write_list_chunk,
-                    collapse);
+    thread_pool_share(collapse->source->pool, flat->triangle_count, CHUNK_ELEMENTS,
+                      write_list_chunk, collapse);
     return true;
 }
 
-static void unmark_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void unmark_chunk(void *context, uint32_t first, uint32_t end)
 {
     const FlatScene *flat = context;
-    const uint32_t end = chunk_end(chunk, flat->triangle_count);
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
+    for (uint32_t i = first; i < end; i++)
         flat->looks[i].material &= ~TRIANGLE_MARKS;
 }
 
@@ -322,6 +318,6 @@ bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
                                                 : write_list(&collapse, error);
     free(collapse.branches.memory);
     if (ok)
-        thread_pool_run(source->pool, chunk_count(flat->triangle_count), unmark_chunk, flat);
+        thread_pool_share(source->pool, flat->triangle_count, CHUNK_ELEMENTS, unmark_chunk, flat);
     return ok;
 }

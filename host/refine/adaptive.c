@@ -21,17 +21,6 @@ typedef struct {
     uint16_t *marks;     // of each group: a bit per cell, then a bit per side
 } Marking;
 
-static uint32_t tasks_of(size_t whole, uint32_t part)
-{
-    return (uint32_t)((whole + part - 1) / part);
-}
-
-static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
-{
-    const size_t end = (size_t)(task + 1) * part;
-    return (uint32_t)(end < whole ? end : whole);
-}
-
 // Returns a bit for each side where the group differs from the cell beyond by more than the
 // threshold. The cell beyond has the size of the subdivided cell or is larger.
 static unsigned marks_around(const Marking *marking, const CellGroup *group)
@@ -64,13 +53,11 @@ static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
     return (uint16_t)marks;
 }
 
-static void mark_groups(void *context, uint32_t task, uint32_t worker)
+static void mark_groups(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Marking *marking = context;
     const RefineTree *tree = marking->tree;
-    const size_t count = marking->end - marking->first;
-    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+    for (uint32_t i = first; i < end; i++)
         marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
 }
 
@@ -159,7 +146,7 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
-    thread_pool_run(adaptive->pool, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
+    thread_pool_share(adaptive->pool, end - first, GROUPS_OF_TASK, mark_groups, &marking);
     const bool ok = cut_groups(tree, &marking, error);
     free(marking.marks);
     return ok;
@@ -217,20 +204,18 @@ typedef struct {
     Framebuffer *framebuffer;
 } Storing;
 
-static void store_rows(void *context, uint32_t task, uint32_t worker)
+static void store_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Storing *storing = context;
     const RefineTree *tree = storing->tree;
-    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
+    for (uint32_t y = first; y < end; y++)
         refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
 }
 
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 {
     Storing storing = {&adaptive->tree, framebuffer};
-    thread_pool_run(adaptive->pool, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows,
-                    &storing);
+    thread_pool_share(adaptive->pool, adaptive->tree.height, ROWS_OF_TASK, store_rows, &storing);
 }
 
 void adaptive_close(Adaptive *adaptive)

@@ -10,17 +10,6 @@
 
 #define GROUPS_OF_TASK 512
 
-static uint32_t tasks_of(size_t whole, uint32_t part)
-{
-    return (uint32_t)((whole + part - 1) / part);
-}
-
-static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
-{
-    const size_t end = (size_t)(task + 1) * part;
-    return (uint32_t)(end < whole ? end : whole);
-}
-
 // The places and samples of the groups from first on, eight per group.
 typedef struct {
     RefineTree *tree;
@@ -29,14 +18,12 @@ typedef struct {
     SampleData *samples;
 } Exchange;
 
-static void list_places(void *context, uint32_t task, uint32_t worker)
+static void list_places(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Exchange *exchange = context;
     const RefineTree *tree = exchange->tree;
-    const size_t count = tree->groups.count - exchange->first;
-    SamplePlace *places = exchange->places + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
-    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+    SamplePlace *places = exchange->places + (size_t)first * ADAPTIVE_CUT;
+    for (uint32_t i = first; i < end; i++)
         for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
             uint32_t place[2];
             if (cell == GROUP_MIDDLE)
@@ -46,14 +33,12 @@ static void list_places(void *context, uint32_t task, uint32_t worker)
         }
 }
 
-static void take_samples(void *context, uint32_t task, uint32_t worker)
+static void take_samples(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Exchange *exchange = context;
     RefineTree *tree = exchange->tree;
-    const size_t count = tree->groups.count - exchange->first;
-    const SampleData *samples = exchange->samples + (size_t)task * GROUPS_OF_TASK * ADAPTIVE_CUT;
-    for (size_t i = (size_t)task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++) {
+    const SampleData *samples = exchange->samples + (size_t)first * ADAPTIVE_CUT;
+    for (uint32_t i = first; i < end; i++) {
         CellGroup *group = &tree->groups.data[exchange->first + i];
         for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
             if (cell != GROUP_MIDDLE)
@@ -70,14 +55,13 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
     const uint32_t count = cut + (uint32_t)search->asked.count;
     if (count == 0)
         return true;
-    const uint32_t tasks = tasks_of(groups, GROUPS_OF_TASK);
     SamplePlace *places = memory_raw(count, sizeof *places, error);
     SampleData *samples = memory_raw(count, sizeof *samples, error);
     const SampleList list = {places, samples, count};
     Exchange exchange = {tree, first, places, samples};
     bool ok = places != NULL && samples != NULL;
     if (ok) {
-        thread_pool_run(adaptive->pool, tasks, list_places, &exchange);
+        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, list_places, &exchange);
         for (size_t i = 0; i < search->asked.count; i++) {
             uint32_t place[2];
             seam_asks(&tree->seams.data[search->asked.data[i]], place);
@@ -86,7 +70,7 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
         ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     }
     if (ok && adaptive_is_whole(adaptive)) {
-        thread_pool_run(adaptive->pool, tasks, take_samples, &exchange);
+        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, take_samples, &exchange);
         tree->traced = (uint32_t)tree->groups.count;
         adaptive->samples += count;
         ok = seam_search_take(search, tree, samples + cut, error) &&
@@ -100,16 +84,16 @@ bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *s
 }
 
 // Each task lists the pixels of one row of blocks.
-static void list_pixels(void *context, uint32_t task, uint32_t worker)
+static void list_pixels(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
+    (void)end;
     const Exchange *exchange = context;
     const RefineTree *tree = exchange->tree;
-    const uint32_t half = REFINE_GRID / 2, top = task * PACKET_SIDE;
-    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, top);
+    const uint32_t half = REFINE_GRID / 2;
+    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, first);
     for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
         for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
-            const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
+            const uint32_t x = left + i % PACKET_SIDE, y = first + i / PACKET_SIDE;
             const bool is_there = x < tree->width && y < tree->height;
             *places++ =
                 (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
@@ -125,7 +109,7 @@ bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Err
     if (places == NULL)
         return false;
     Exchange exchange = {.tree = tree, .places = places};
-    thread_pool_run(adaptive->pool, tasks_of(tree->height, PACKET_SIDE), list_pixels, &exchange);
+    thread_pool_share(adaptive->pool, tree->height, PACKET_SIDE, list_pixels, &exchange);
     const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     adaptive->samples = (uint64_t)tree->width * tree->height;
     free(places);

@@ -129,15 +129,12 @@ static void compare_strip(const Comparing *comparing, uint32_t left, uint32_t to
     }
 }
 
-static void compare_rows(void *context, uint32_t task, uint32_t worker)
+static void compare_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Comparing *comparing = context;
     const RefineTree *tree = comparing->tree;
-    const uint32_t top = task * ROWS_OF_TASK;
-    const uint32_t bottom = tree->height - top < ROWS_OF_TASK ? tree->height : top + ROWS_OF_TASK;
     for (uint32_t left = 0; left < tree->width; left += STRIP)
-        compare_strip(comparing, left, top, bottom);
+        compare_strip(comparing, left, first, end);
 }
 
 bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, ThreadPool *pool,
@@ -149,8 +146,7 @@ bool pixel_contrasts_make(PixelContrasts *contrasts, const RefineTree *tree, Thr
         memory_raw((size_t)tree->width * tree->height, sizeof *contrasts->values, error);
     if (contrasts->values == NULL)
         return false;
-    thread_pool_run(pool, (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, compare_rows,
-                    &comparing);
+    thread_pool_share(pool, tree->height, ROWS_OF_TASK, compare_rows, &comparing);
     return true;
 }
 

@@ -13,7 +13,7 @@ typedef struct {
     bool is_cut; // otherwise, its seams are opened
 } PixelMark;
 
-// The result of a task.
+// The result of a range.
 typedef struct {
     ARRAY(PixelMark) marks;
     Error error;
@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     const RefineTree *tree;
     const PixelWants *wants;
-    MarkList *lists; // of each task
+    MarkList *lists; // of each range
 } Marking;
 
 static uint32_t smaller(uint32_t a, uint32_t b)
@@ -86,15 +86,13 @@ static bool mark_patch(const Marking *marking, uint32_t left, uint32_t top, Mark
     return true;
 }
 
-static void mark_rows(void *context, uint32_t task, uint32_t worker)
+static void mark_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Marking *marking = context;
     const RefineTree *tree = marking->tree;
-    const uint32_t end = smaller((task + 1) * ROWS_OF_TASK, tree->height);
-    for (uint32_t top = task * ROWS_OF_TASK; top < end; top += PACKET_SIDE)
+    for (uint32_t top = first; top < end; top += PACKET_SIDE)
         for (uint32_t left = 0; left < tree->width; left += PATCH_WIDTH)
-            if (!mark_patch(marking, left, top, &marking->lists[task]))
+            if (!mark_patch(marking, left, top, &marking->lists[first / ROWS_OF_TASK]))
                 return;
 }
 
@@ -113,11 +111,11 @@ static bool take_list(RefineTree *tree, const MarkList *list, Error *error)
 
 bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, ThreadPool *pool, Error *error)
 {
-    const uint32_t tasks = (tree->height + ROWS_OF_TASK - 1) / ROWS_OF_TASK;
+    const uint32_t tasks = range_count(tree->height, ROWS_OF_TASK);
     Marking marking = {tree, wants, memory_zeroed(tasks, sizeof *marking.lists, error)};
     bool ok = marking.lists != NULL;
     if (ok)
-        thread_pool_run(pool, tasks, mark_rows, &marking);
+        thread_pool_share(pool, tree->height, ROWS_OF_TASK, mark_rows, &marking);
     for (uint32_t task = 0; marking.lists != NULL && task < tasks; task++) {
         ok = ok && take_list(tree, &marking.lists[task], error);
         free(marking.lists[task].marks.data);

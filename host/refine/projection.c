@@ -44,12 +44,10 @@ static Vec3 point_of(const Projection *projection, size_t vertex)
                   vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
 }
 
-static void project_points(void *context, uint32_t chunk, uint32_t worker)
+static void project_points(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Projection *projection = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)projection->object->mesh.vertex_count);
-    for (uint32_t vertex = chunk * CHUNK_ELEMENTS; vertex < end; vertex++) {
+    for (uint32_t vertex = first; vertex < end; vertex++) {
         const Vec3 point = point_of(projection, vertex);
         ProjectedPoint projected = {0};
         for (int plane = 0; plane < PLANES; plane++)
@@ -84,7 +82,7 @@ bool projection_begin(Projection *projection, const MeshObject *object, ThreadPo
     projection->points = memory_raw(count, sizeof *projection->points, error);
     if (projection->points == NULL)
         return false;
-    thread_pool_run(pool, chunk_count(count), project_points, projection);
+    thread_pool_share(pool, count, CHUNK_ELEMENTS, project_points, projection);
     return true;
 }
 

@@ -7,7 +7,7 @@
 
 #define GROUPS_OF_TASK 512
 
-// The result of a task.
+// The result of a range.
 typedef struct {
     ARRAY(Seam) seams;
     uint32_t base; // index of the first
@@ -16,20 +16,9 @@ typedef struct {
 
 typedef struct {
     RefineTree *tree;
-    uint32_t first, end;
-    OpeningPart *parts; // of each task
+    uint32_t first;
+    OpeningPart *parts; // of each range
 } Opening;
-
-static uint32_t tasks_of(size_t whole, uint32_t part)
-{
-    return (uint32_t)((whole + part - 1) / part);
-}
-
-static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
-{
-    const size_t end = (size_t)(task + 1) * part;
-    return (uint32_t)(end < whole ? end : whole);
-}
 
 // Returns the weighted sum of color differences along the rows or columns of a group.
 static float changes_along(const CellGroup *group, uint32_t stride)
@@ -136,13 +125,12 @@ static bool open_group(const RefineTree *tree, uint32_t number, OpeningPart *par
     return true;
 }
 
-static void open_groups(void *context, uint32_t task, uint32_t worker)
+static void open_groups(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Opening *opening = context;
-    const size_t count = opening->end - opening->first;
-    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
-        if (!open_group(opening->tree, opening->first + i, &opening->parts[task]))
+    OpeningPart *part = &opening->parts[first / GROUPS_OF_TASK];
+    for (uint32_t i = first; i < end; i++)
+        if (!open_group(opening->tree, opening->first + i, part))
             return;
 }
 
@@ -190,12 +178,12 @@ static bool all_opened(const Opening *opening, uint32_t tasks, Error *error)
 bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, ThreadPool *pool,
                       Error *error)
 {
-    const uint32_t tasks = tasks_of(end - first, GROUPS_OF_TASK);
-    Opening opening = {tree, first, end, NULL};
+    const uint32_t tasks = range_count(end - first, GROUPS_OF_TASK);
+    Opening opening = {tree, first, NULL};
     opening.parts = memory_zeroed(tasks, sizeof *opening.parts, error);
     if (opening.parts == NULL)
         return false;
-    thread_pool_run(pool, tasks, open_groups, &opening);
+    thread_pool_share(pool, end - first, GROUPS_OF_TASK, open_groups, &opening);
     const bool ok =
         all_opened(&opening, tasks, error) && append_parts(&opening, tasks, pool, error);
     for (uint32_t task = 0; task < tasks; task++)

@@ -47,12 +47,6 @@ static uint8_t *depth_of(const Search *search, uint32_t place)
     return &search->depths[search->first + place];
 }
 
-static uint32_t end_of(const Search *search, uint32_t task)
-{
-    const uint32_t end = (task + 1) * TRIANGLES_OF_TASK;
-    return end < search->count ? end : search->count;
-}
-
 // Computes the outline of a piece's triangle. Returns false if it is invisible.
 static bool outline_of(const Search *search, uint32_t place, Outline *outline)
 {
@@ -93,14 +87,13 @@ static void include_rows(Search *search, CellRange rows)
 }
 
 // Adds the pixels that all triangles cover. Only thin triangles are searched.
-static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cover_pixels_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const CellGrid grid = grid_of(search, 0);
     CellRange all = {UINT32_MAX, 0};
     bool found = false;
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         *depth_of(search, i) = 0;
         if (!outline_of(search, i, &outline))
@@ -118,13 +111,12 @@ static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
 }
 
 // Adds the cells of the level that the searched triangles cover.
-static void cover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cover_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const uint32_t level = search->level;
     const CellGrid grid = grid_of(search, level);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) > level && outline_of(search, i, &outline))
             cover_cells(&search->covered[level], &outline, &grid);
@@ -153,11 +145,11 @@ static bool is_large(const Search *search)
     return search->count > 4 * TRIANGLES_OF_TASK;
 }
 
-static void find_wide_pixels(void *context, uint32_t task, uint32_t worker)
+static void find_wide_pixels(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
-    pixel_set_widen_row(&search->wide, &search->covered[0], search->top + task);
+    for (uint32_t row = first; row < end; row++)
+        pixel_set_widen_row(&search->wide, &search->covered[0], search->top + row);
 }
 
 // Returns whether the piece is wide at all pixels of the box around a triangle. This test is fast,
@@ -206,13 +198,12 @@ static bool cut_for_triangle(Search *search, const Outline *outline, const CellG
     return found;
 }
 
-static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cut_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const uint32_t level = search->level;
     const CellGrid grid = grid_of(search, level);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) > level && !is_surely_wide(search, i, &grid) &&
             outline_of(search, i, &outline) && is_thin(&outline, level) &&
@@ -224,12 +215,11 @@ static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 }
 
 // Clears the covered cells of the level, without visiting the cells of other pieces.
-static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void uncover_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const CellGrid grid = grid_of(search, 0);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) <= search->level || !outline_of(search, i, &outline))
             continue;
@@ -242,10 +232,9 @@ static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker
     }
 }
 
-static void share_triangles(Search *search, ThreadPoolWork *work)
+static void share_triangles(Search *search, ThreadPoolPart *work)
 {
-    const uint32_t tasks = (search->count + TRIANGLES_OF_TASK - 1) / TRIANGLES_OF_TASK;
-    thread_pool_run(search->source->pool, tasks, work, search);
+    thread_pool_share(search->source->pool, search->count, TRIANGLES_OF_TASK, work, search);
 }
 
 // Returns the number of levels that the sample budget covers.
@@ -299,7 +288,7 @@ static bool search_piece(Search *search, uint32_t end, Error *error)
     share_triangles(search, cover_pixels_of_piece);
     const uint32_t rows = search->bottom > search->top ? search->bottom - search->top : 0;
     if (search->found && is_large(search))
-        thread_pool_run(search->source->pool, rows, find_wide_pixels, search);
+        thread_pool_share(search->source->pool, rows, 1, find_wide_pixels, search);
     const bool ok = search_levels(search, error);
     if (rows > 0)
         pixel_set_clear_rows(&search->covered[0], search->top, search->bottom);
