@@ -6,6 +6,7 @@
 #include "accel/flat_parts.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 BvhLeaves flat_leaves(NodeLayout layout)
 {
@@ -102,15 +103,24 @@ void flat_free(FlatScene *flat)
     *flat = (FlatScene){0};
 }
 
-size_t flat_size(const FlatScene *flat)
+void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
 {
-    const size_t common =
-        flat->light_count * sizeof *flat->lights + flat->material_count * sizeof *flat->materials +
-        flat->sphere_count * sizeof *flat->spheres + flat->normals_count * sizeof *flat->normals;
-    if (flat->layout == NODES_WIDE)
-        return common + flat->node_count * sizeof *flat->wides +
-               flat->block_count * sizeof *flat->blocks +
-               flat->triangle_count * sizeof *flat->looks;
-    return common + flat->node_count * sizeof *flat->pairs +
-           flat->triangle_count * sizeof *flat->triangles;
+    const bool is_wide = flat->layout == NODES_WIDE;
+    const FlatArray nodes =
+        is_wide ? (FlatArray){"nodes", flat->wides, flat->node_count * sizeof *flat->wides}
+                : (FlatArray){"nodes", flat->pairs, flat->node_count * sizeof *flat->pairs};
+    const FlatArray triangles =
+        is_wide ? (FlatArray){"triangles", flat->blocks, flat->block_count * sizeof *flat->blocks}
+                : (FlatArray){"triangles", flat->triangles,
+                              flat->triangle_count * sizeof *flat->triangles};
+    const size_t looks = is_wide ? flat->triangle_count : 0;
+    const FlatArray all[FLAT_ARRAYS] = {
+        {"lights", flat->lights, flat->light_count * sizeof *flat->lights},
+        {"materials", flat->materials, flat->material_count * sizeof *flat->materials},
+        {"spheres", flat->spheres, flat->sphere_count * sizeof *flat->spheres},
+        nodes,
+        triangles,
+        {"looks", flat->looks, looks * sizeof *flat->looks},
+        {"normals", flat->normals, flat->normals_count * sizeof *flat->normals}};
+    memcpy(arrays, all, sizeof all);
 }

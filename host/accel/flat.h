@@ -44,5 +44,15 @@ BvhLeaves flat_leaves(NodeLayout layout);
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
-// Returns the size in bytes of all arrays that are uploaded to the device.
-size_t flat_size(const FlatScene *flat);
+// An array as the kernels read it.
+typedef struct {
+    const char *name; // for users
+    const void *data;
+    size_t bytes; // 0 if the scene needs none
+} FlatArray;
+
+#define FLAT_ARRAYS 7
+
+// Lists the arrays in the order of the kernels' arguments: lights, materials, spheres, nodes,
+// triangles, looks and normals.
+void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS]);

@@ -5,13 +5,17 @@
 #include "check/aims.h"
 #include "render/ready_kernel.h"
 
+// The arrays of flat_arrays that rays need: spheres, nodes and triangles.
+#define CASTER_FIRST  2
+#define CASTER_ARRAYS 3
+
 typedef struct {
     const Device *device; // borrowed
     NodeLayout nodes;
     Program program;
     cl_kernel kernel;
-    cl_mem rays, distances;             // buffers for one launch
-    cl_mem spheres, nodes_array, faces; // of the loaded scene
+    cl_mem rays, distances;       // buffers for one launch
+    cl_mem arrays[CASTER_ARRAYS]; // of the loaded scene
     FrameData frame;
 } RayCaster;
 

@@ -48,14 +48,14 @@ static void write_omissions(const ScenePart parts[SCENE_PARTS])
 
 static void write_arrays(const Run *run)
 {
-    SceneArray arrays[SCENE_ARRAYS];
+    FlatArray arrays[FLAT_ARRAYS];
     int missing = 0;
-    scene_arrays_list(&run->flat, arrays);
-    printf("uploaded, %zu bytes\n", flat_size(&run->flat));
-    for (int i = 0; i < SCENE_ARRAYS; i++)
+    flat_arrays(&run->flat, arrays);
+    printf("uploaded, %zu bytes\n", run->renderer.upload_size);
+    for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes > 0)
             printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
-    for (int i = 0; i < SCENE_ARRAYS; i++)
+    for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes == 0)
             printf("%s %s", missing++ == 0 ? "not uploaded, since there are none\n " : "",
                    arrays[i].name);
@@ -87,10 +87,10 @@ static json_t *parts_json(const Run *run)
 
 static json_t *arrays_json(const Run *run)
 {
-    SceneArray arrays[SCENE_ARRAYS];
+    FlatArray arrays[FLAT_ARRAYS];
     json_t *object = json_object();
-    scene_arrays_list(&run->flat, arrays);
-    for (int i = 0; i < SCENE_ARRAYS; i++)
+    flat_arrays(&run->flat, arrays);
+    for (int i = 0; i < FLAT_ARRAYS; i++)
         json_object_set_new(object, arrays[i].name, json_integer((json_int_t)arrays[i].bytes));
     return object;
 }

@@ -56,22 +56,6 @@ void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
         parts[i].is_compiled = parts[i].is_needed || (!is_special && i != PART_STATISTICS);
 }
 
-void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS])
-{
-    const bool is_wide = flat->layout == NODES_WIDE;
-    const size_t node = is_wide ? sizeof *flat->wides : sizeof *flat->pairs;
-    const size_t triangles = is_wide ? flat->block_count * sizeof *flat->blocks
-                                     : flat->triangle_count * sizeof *flat->triangles;
-    const size_t looks = is_wide ? flat->triangle_count * sizeof *flat->looks : 0;
-    arrays[0] = (SceneArray){"lights", flat->light_count * sizeof *flat->lights};
-    arrays[1] = (SceneArray){"materials", flat->material_count * sizeof *flat->materials};
-    arrays[2] = (SceneArray){"spheres", flat->sphere_count * sizeof *flat->spheres};
-    arrays[3] = (SceneArray){"nodes", flat->node_count * node};
-    arrays[4] = (SceneArray){"triangles", triangles};
-    arrays[5] = (SceneArray){"looks", looks};
-    arrays[6] = (SceneArray){"normals", flat->normals_count * sizeof *flat->normals};
-}
-
 const char *scene_family_reason(const Run *run)
 {
     const KernelRequest *request = &run->options->kernel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene -> the kernel features that it needs, with reasons, and its buffers on the device.
+// Scene -> the kernel features that it needs, with reasons.
 #pragma once
 
 #include "cli/run.h"
@@ -22,18 +22,8 @@ typedef struct {
     char reason[160];
 } ScenePart;
 
-// A buffer of the scene on the device.
-typedef struct {
-    const char *name;
-    size_t bytes; // 0: not uploaded
-} SceneArray;
-
-#define SCENE_ARRAYS RENDERER_ARRAYS
-
-// scene_parts_list fills parts in the order of ScenePartKind; the run's renderer must be open.
-// scene_arrays_list fills arrays.
+// Fills parts in the order of ScenePartKind. The run's renderer must be open.
 void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS]);
-void scene_arrays_list(const FlatScene *flat, SceneArray arrays[SCENE_ARRAYS]);
 
 // Return the reason for the choice of the kernel family, and for specialized or general kernels.
 const char *scene_family_reason(const Run *run);

@@ -44,9 +44,6 @@ static inline bool render_is_part(const RenderSettings *settings)
            settings->height < render_whole_height(settings);
 }
 
-// The number of kernel arguments that are buffers of the scene.
-#define RENDERER_ARRAYS 7
-
 // The largest RenderSettings::samples. This limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
 
@@ -78,9 +75,9 @@ typedef struct {
     FrameData frame;
     Program program;
     cl_kernel kernel;
-    bool is_special;                // the program is specialized for the scene
-    cl_mem arrays[RENDERER_ARRAYS]; // in the order of the kernel's arguments
-    size_t upload_size;             // bytes
+    bool is_special;            // the program is specialized for the scene
+    cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernel's arguments
+    size_t upload_size;         // bytes
     double upload_seconds, build_seconds;
     RenderProgress progress; // of the latest picture
 } Renderer;
@@ -101,3 +98,18 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
 
 // Runs the kernel once over an empty tile, because some drivers finish compiling at the first run.
 bool draw_warm_up(Renderer *renderer, Error *error);
+
+// Sets the first arguments of a kernel: the frame and the scene's arrays.
+bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameData *frame,
+                        Error *error);
+
+// A kernel that computes a tile. Its arguments are the frame, the scene's arrays and the outputs.
+typedef struct {
+    cl_command_queue queue;
+    cl_kernel kernel;
+    cl_mem outputs[2]; // the second may be NULL
+} TileLaunch;
+
+// Starts a kernel for the tile of a frame.
+bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
+                          const FrameData *frame, Error *error);

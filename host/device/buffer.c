@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// OpenCL has no empty buffers, so an empty array gets a few bytes.
+#include "device/buffer.h"
+
+bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, Error *error)
+{
+    static const _Alignas(64) char nothing[64];
+    const size_t size = array->bytes;
+    if (size > device->largest_allocation)
+        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
+                         size, device->name, (unsigned long long)device->largest_allocation);
+    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+    void *source = (void *)(size > 0 ? array->data : nothing);
+    cl_int status;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin,
+                             size > 0 ? size : sizeof nothing, source, &status);
+    return cl_succeeded(status, "upload the scene", error);
+}
+
+bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *error)
+{
+    cl_int status;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &status);
+    return cl_succeeded(status, "allocate a buffer", error);
+}
+
+bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error)
+{
+    return cl_succeeded(
+        clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, 0, size, target, 0, NULL, NULL),
+        "read results back", error);
+}
+
+void device_release(cl_mem *buffer)
+{
+    if (*buffer != NULL)
+        clReleaseMemObject(*buffer);
+    *buffer = NULL;
+}
+
+void device_release_kernel(cl_kernel *kernel)
+{
+    if (*kernel != NULL)
+        clReleaseKernel(*kernel);
+    *kernel = NULL;
+}
