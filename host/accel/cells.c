@@ -2,7 +2,7 @@
 // Sorts triangles by the grid cell of their center, with a radix sort of two passes. Threads
 // process chunks of triangles. Prefix sums over digits and chunks give each chunk its own
 // destinations, which keeps the sort stable.
-#include "accel/cells.h"
+#include "accel/upper.h"
 
 #include <stdlib.h>
 

@@ -5,6 +5,8 @@
 
 #include "accel/flat_parts.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,4 +125,100 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
         {"looks", flat->looks, looks * sizeof *flat->looks},
         {"normals", flat->normals, flat->normals_count * sizeof *flat->normals}};
     memcpy(arrays, all, sizeof all);
+}
+
+// Adds the slack in fp64, where the sum is nearly exact. Rounds the sum outward to float.
+
+static float largest_coordinate(const Box *box)
+{
+    float largest = 0;
+    for (int axis = 0; axis < 3; axis++)
+        largest = fmaxf(largest, fmaxf(fabsf(box->low[axis]), fabsf(box->high[axis])));
+    return largest;
+}
+
+static float rounded_down(double value)
+{
+    const float nearest = (float)value;
+    return (double)nearest <= value ? nearest : nextafterf(nearest, -INFINITY);
+}
+
+static float rounded_up(double value)
+{
+    return -rounded_down(-value);
+}
+
+Box box_grow(const Box *box)
+{
+    const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
+    Box grown;
+    for (int axis = 0; axis < 3; axis++) {
+        grown.low[axis] = rounded_down((double)box->low[axis] - slack);
+        grown.high[axis] = rounded_up((double)box->high[axis] + slack);
+    }
+    return grown;
+}
+
+// The triangles and, for most callers, the tree are intermediate results.
+
+bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error *error)
+{
+    Triangles triangles = {0};
+    Bvh own = {0}, *tree = bvh != NULL ? bvh : &own;
+    const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
+    const FlatSource stages = {.scene = source->scene,
+                               .triangles = &triangles,
+                               .bvh = tree,
+                               .normalization = source->normalization,
+                               .layout = source->layout,
+                               .pool = source->pool};
+    *tree = (Bvh){0};
+    const bool ok =
+        triangles_make(&triangles, source->scene, source->normalization, source->pool, error) &&
+        (!source->has_tree || bvh_build(tree, &triangles, &settings, source->pool, error)) &&
+        flat_make(flat, &stages, error);
+    triangles_free(&triangles);
+    bvh_free(&own);
+    return ok;
+}
+
+// Inspects the materials that primitives use. A defined but unused material costs nothing.
+
+static void add_material(SceneTraits *traits, const Material *material)
+{
+    traits->mirrors |= material->reflectivity > 0;
+    traits->shaded |= material->shader != SHADER_SILHOUETTE;
+}
+
+static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
+{
+    return flat->layout == NODES_WIDE ? flat->looks[triangle].material
+                                      : flat->triangles[triangle].material & ~TRIANGLE_MARKS;
+}
+
+SceneTraits traits_of(const FlatScene *flat, bool statistics)
+{
+    SceneTraits traits = {.spheres = flat->sphere_count > 0,
+                          .triangles = flat->triangle_count > 0,
+                          .bvh = flat->node_count > 0,
+                          .statistics = statistics};
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        add_material(&traits, &flat->materials[flat->spheres[i].material]);
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        add_material(&traits, &flat->materials[material_of(flat, i)]);
+    return traits;
+}
+
+SceneTraits traits_general(bool statistics)
+{
+    return (SceneTraits){true, true, true, true, true, statistics};
+}
+
+void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])
+{
+    snprintf(options, TRAITS_OPTIONS_SIZE,
+             "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
+             "-DCLRT_SHADED=%d -DCLRT_STATISTICS=%d",
+             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
+             traits->statistics);
 }

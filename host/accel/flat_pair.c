@@ -2,8 +2,6 @@
 // Numbers the inner nodes depth first. The depth of the tree bounds the recursion.
 #include "accel/flat_parts.h"
 
-#include "accel/box.h"
-
 #include <stdlib.h>
 #include <string.h>
 

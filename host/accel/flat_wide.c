@@ -8,8 +8,6 @@
 // position. Nodes and blocks are in depth-first order.
 #include "accel/flat_parts.h"
 
-#include "accel/box.h"
-
 #include <stdlib.h>
 #include <string.h>
 

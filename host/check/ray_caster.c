@@ -2,7 +2,7 @@
 // PoCL compiles a kernel again for each local size. This must happen under the lock of the kernel
 // cache. The first launch therefore has no rays and runs under the lock, and all later launches
 // have the same size.
-#include "check/ray_caster.h"
+#include "check/leaks.h"
 
 #include "device/buffer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A background thread opens the device and makes the general kernel. The specialized kernel depends
 // on the scene, which another thread is still reading.
-#include "cli/async_device.h"
+#include "cli/run.h"
 
 #include "base/clock.h"
 #include "render/ready_kernel.h"

@@ -3,7 +3,7 @@
 // flattened again.
 #include "cli/picture.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "base/clock.h"
 #include "device/device.h"
 #include "render/certifier.h"

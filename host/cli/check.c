@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "check/features.h"
+#include "check/census.h"
 #include "check/findings.h"
 #include "cli/run.h"
 #include "device/device.h"

@@ -2,7 +2,7 @@
 // --explain-pixel: text output prints each sample at once, and JSON output is written as a whole.
 #include "cli/commands.h"
 
-#include "explain/report.h"
+#include "explain/explainer.h"
 #include "image/json_file.h"
 #include "scene/camera.h"
 

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "device/device.h"
 #include "refine/adaptive.h"
-#include "refine/goal.h"
+#include "refine/ladder.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,10 +2,10 @@
 // The stages from a scene file to an open renderer.
 #include "cli/run.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "base/clock.h"
 #include "cli/commands.h"
-#include "cli/options/table.h"
+#include "cli/options/option.h"
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/camera.h"

@@ -2,7 +2,7 @@
 // Corners -> fans across smooth edges -> one vertex per fan. The weights are those of Thuermer and
 // Wuethrich, "Computing Vertex Normals from Polygonal Facets" (1998): they make normals independent
 // of how flat faces are triangulated.
-#include "mesh/normals.h"
+#include "mesh/mesh.h"
 
 #include "base/array.h"
 #include "base/limits.h"

@@ -3,9 +3,6 @@
 // as one list. The next pass examines the new groups.
 #include "refine/adaptive.h"
 
-#include "refine/adaptive_pass.h"
-#include "refine/pixel_marks.h"
-
 #include <stdlib.h>
 
 #define ROWS_OF_TASK   16

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "base/thread_pool.h"
-#include "refine/footprint.h"
 #include "refine/pixel_contrast.h"
+#include "refine/refine_tree.h"
 #include "refine/thin_parts.h"
 #include "render/renderer.h"
 
@@ -53,3 +53,25 @@ bool adaptive_is_whole(const Adaptive *adaptive);
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
 
 void adaptive_close(Adaptive *adaptive);
+
+// One pass of adaptive anti-aliasing traces the requested samples as one list.
+
+// Takes one sample per pixel.
+bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error);
+
+// Traces the groups from `first` on and the samples that seams need. If the observer stops it,
+// removes these groups.
+bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
+                         const RenderObserver *observer, Error *error);
+
+// Decides by contrast which pixels are subdivided and which only get seams. Pixels are visited
+// block by block, so that consecutive samples are near each other.
+typedef struct {
+    const PixelContrasts *contrasts;
+    const ThinParts *thin_parts;
+    float threshold; // pixels with more contrast need samples
+} PixelWants;
+
+// Subdivides pixels with thin parts and pixels whose contrast exceeds the threshold even with
+// seams. Opens the seams of the other pixels above the threshold.
+bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, ThreadPool *pool, Error *error);

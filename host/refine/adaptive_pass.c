@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A list contains eight samples per new group, in the order of the groups, then one per seam that
 // needs a sample.
-#include "refine/adaptive_pass.h"
+#include "refine/adaptive.h"
 
-#include "refine/contrast.h"
+#include "refine/pixel_contrast.h"
 #include "render/sampler.h"
 
 #include <stdlib.h>

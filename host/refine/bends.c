@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes second differences along rows, columns and both diagonals.
-#include "refine/bends.h"
+#include "refine/ladder.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 // The bend of a sample is twice its distance from the mean of its two neighbors. A step between two
 // uniform surfaces thus counts in full. Without a step, contrast is the bend. Seams locate steps,
 // so lower weights apply to contrast beside them.
-#include "refine/contrast.h"
+#include "refine/pixel_contrast.h"
 
 // Weights of color differences and of bends beside a seam, and of contrast in a pixel with a seam.
 #define STEP_WEIGHT  0.5f

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
 // level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
-#include "refine/footprint.h"
+#include "refine/thin_parts.h"
 
 #include "base/vec.h"
 

@@ -3,8 +3,6 @@
 // in the same order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
-#include "refine/bends.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

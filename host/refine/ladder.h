@@ -7,6 +7,7 @@
 
 #include "base/array.h"
 #include "base/thread_pool.h"
+#include "image/framebuffer.h"
 #include "refine/pixel_requests.h"
 #include "refine/strata.h"
 
@@ -45,3 +46,35 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
 // Returns the number of samples that a pixel has taken.
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);
+
+// Advances the pixels of a ladder until the picture meets an error goal, or until a time budget is
+// spent.
+
+// The root mean square error of the picture's values, before they are rounded for a file.
+typedef struct {
+    double estimate;
+    double bound; // the error is lower with 95 % confidence
+    bool reached;
+} GoalOutcome;
+
+// Refines until the bound is at most `most`, or until no further samples would lower it.
+bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
+
+// A time budget, on the clock of clock_seconds.
+typedef struct {
+    double start, seconds;
+} GoalTime;
+
+// Refines until time->seconds have passed since the start.
+bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
+
+// Measures how much each pixel of a picture with one sample per pixel bends away from its
+// neighbors.
+
+// Fills bends with a value for each pixel, row by row: twice the largest difference of one of its
+// colors from the mean of two opposite neighbors, as a fraction. Neighbors outside of the picture
+// do not count.
+void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends);
+
+// Fills nearby with the largest bend of the 5 x 5 pixels around each pixel.
+void bends_spread(const Framebuffer *picture, ThreadPool *pool, const float *bends, float *nearby);

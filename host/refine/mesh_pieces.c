@@ -2,7 +2,7 @@
 // A concurrent union-find over vertices. Each vertex refers to a vertex with a lower index in its
 // piece; the root refers to itself. Threads join pieces by linking a root to a lower root. The root
 // of a piece is therefore its lowest vertex, regardless of the order of work.
-#include "refine/mesh_pieces.h"
+#include "refine/thin_parts.h"
 
 #include "base/array.h"
 

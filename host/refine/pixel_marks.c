@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Examines patches of 32 x PACKET_SIDE pixels, because most patches need no refinement and are
 // skipped as a whole. Threads list the pixels to refine, and one thread applies the lists in order.
-#include "refine/pixel_marks.h"
+#include "refine/adaptive.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
 // planes around the picture. After the division, all coordinates are therefore bounded.
-#include "refine/projection.h"
+#include "refine/outline.h"
 
 #include "refine/refine_tree.h"
 

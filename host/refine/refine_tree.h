@@ -4,6 +4,7 @@
 // the sample, so that no sample is wasted.
 #pragma once
 
+#include "base/thread_pool.h"
 #include "image/framebuffer.h"
 #include "refine/seam.h"
 
@@ -106,3 +107,24 @@ void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);
 
 // Computes the mean colors of a row of pixels.
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3]);
+
+// Opens the seams of a refined picture, and lists the seams that need samples.
+
+// The seams that need a sample.
+typedef struct {
+    ARRAY(uint32_t) asked; // indices in ascending order
+    uint32_t seen;         // seams with a lower index are listed, or precise enough
+} SeamSearch;
+
+// Opens the seams of groups first to end - 1, which must have all their samples.
+bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, ThreadPool *pool,
+                      Error *error);
+
+// Lists the seams with a contrast above the threshold. Examines the listed seams and new seams.
+bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
+
+// Updates the listed seams with their samples.
+bool seam_search_take(const SeamSearch *search, RefineTree *tree, const SampleData *samples,
+                      Error *error);
+
+void seam_search_free(SeamSearch *search);

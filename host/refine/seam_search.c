@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The lines of a group run along the axis with the larger color differences, so that they cross
 // color edges. Three lines locate a straight edge exactly.
-#include "refine/seam_search.h"
+#include "refine/refine_tree.h"
 
 #include <stdlib.h>
 

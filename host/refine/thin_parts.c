@@ -4,8 +4,7 @@
 // which do not depend on the order of work.
 #include "refine/thin_parts.h"
 
-#include "refine/mesh_pieces.h"
-#include "refine/projection.h"
+#include "refine/outline.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The eye is at a fixed distance. The edges of the picture are planes through the eye. For each
 // axis of the picture, two planes of the same slope are found that touch the meshes.
-#include "scene/mesh_frame.h"
+#include "scene/mesh_load.h"
 
 #include "base/limits.h"
 

@@ -3,7 +3,6 @@
 #include "scene/mesh_load.h"
 
 #include "base/clock.h"
-#include "scene/mesh_frame.h"
 #include "scene/scn.h"
 
 #include <string.h>

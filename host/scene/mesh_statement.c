@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "mesh/foreign_process.h"
-#include "mesh/up_axis.h"
+#include "mesh/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>

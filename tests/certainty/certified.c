@@ -2,7 +2,7 @@
 // Draws the plain picture with packets, as clrt does on CPUs.
 #include "certainty/certified.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 // Computed normals of shapes whose true normals are known, and of random meshes against an oracle.
 // The oracle floods from each corner through all pairs of corners, in long double and with the C
 // library's functions.
-#include "mesh/normals.h"
+#include "mesh/mesh.h"
 
 #include "base/array.h"
 

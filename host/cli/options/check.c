@@ -2,8 +2,6 @@
 // Checks combinations of options. clrt rejects options that would have no effect.
 #include "cli/options/option.h"
 
-#include "cli/options/table.h"
-
 #include <string.h>
 
 #define NAMES_MOST 4

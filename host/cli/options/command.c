@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of commands. To open a scene file called like a command, users write ./NAME.
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A pixel of the crop has the same bits as in the whole picture.
-#include "cli/options/crop.h"
+#include "cli/options/options.h"
 
 #include "base/number.h"
 

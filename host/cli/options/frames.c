@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // File numbers follow the convention of programs that convert films to numbered pictures and back.
-#include "cli/options/frames.h"
+#include "cli/options/options.h"
 
 #include "base/array.h"
 #include "base/number.h"

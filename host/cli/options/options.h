@@ -3,14 +3,63 @@
 #pragma once
 
 #include "accel/bvh.h"
-#include "cli/options/crop.h"
-#include "cli/options/frames.h"
+#include "base/error.h"
 #include "compare/limits.h"
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"
 
+#include <jansson.h>
+#include <stdint.h>
 #include <string.h>
+
+// The frames of a run and their file names. A frame is a view of the scene or a step of a
+// turntable.
+
+#define FRAMES_MOST 1000000
+
+typedef struct {
+    uint32_t first, last, step; // last is 0 without --frames
+    uint32_t turntable;         // steps per full turn; 0: frames are views
+    bool is_film;               // one animated file instead of numbered files
+} Frames;
+
+// Parses "A-B" or "A-B:S"; returns false if text is malformed.
+bool frames_parse(Frames *frames, const char *text);
+
+// Returns whether --frames or --turntable is given.
+bool frames_are_many(const Frames *frames);
+
+// Without --frames, selects all steps of the turntable.
+void frames_complete(Frames *frames);
+
+// Returns the number of pictures.
+uint32_t frames_count(const Frames *frames);
+
+// Returns the number of the frame at position place of the sequence; place counts from 0.
+uint32_t frames_at(const Frames *frames, uint32_t place);
+
+// Returns the file name of a frame. The number with leading zeros replaces the last run of '#' in
+// pattern. Without '#', a number such as ".0001" precedes the ending. The caller frees the name.
+// Returns NULL if memory is exhausted.
+char *frames_name(const char *pattern, uint32_t number, Error *error);
+
+// --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any of them has a dot.
+typedef struct {
+    bool is_given;
+    bool in_parts;     // fractions of the sides, each from 0 to 1
+    double corners[4]; // left, top, right and bottom; right and bottom are exclusive
+} Crop;
+
+// Parses text; returns false if it is malformed.
+bool crop_parse(Crop *crop, const char *text);
+
+// Replaces the settings of a whole picture by the crop's settings. Rounds fractions to the nearest
+// pixel edge, so adjacent crops neither overlap nor leave gaps.
+bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error);
+
+// Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.
+json_t *crop_json(const RenderSettings *settings);
 
 typedef enum {
     ACTION_RENDER,

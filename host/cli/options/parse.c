@@ -4,9 +4,7 @@
 #include "cli/options/options.h"
 
 #include "base/word.h"
-#include "cli/options/command.h"
 #include "cli/options/option.h"
-#include "cli/options/table.h"
 
 #include <assert.h>
 #include <getopt.h>

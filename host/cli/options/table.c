@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The table of options, in the order of --help.
-#include "cli/options/table.h"
-
 #include "cli/options/option.h"
 
 #include <assert.h>

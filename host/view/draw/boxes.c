@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The depth of the tree bounds the recursion.
-#include "view/draw/boxes.h"
+#include "view/draw/draw.h"
 
 #include <stdlib.h>
 

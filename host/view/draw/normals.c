@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The course's viewer draws lines of length 0.15. Its scenes have a size of 2 to 4, which
 // normalization reduces to 1 to 2. The lines here are therefore half as long.
-#include "view/draw/boxes.h"
+#include "view/draw/draw.h"
 
 #define LINE_LENGTH 0.075
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes each sphere's position relative to the eye in fp64 for every frame. For a ground sphere
 // of radius 1e9, float cannot resolve this position.
-#include "view/draw/model_views.h"
-
-#include "view/draw/shader.h"
+#include "view/draw/draw.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // stb_truetype draws a packaged font into a texture. A panel is laid out repeatedly with a smaller
 // font, until it fits the window.
 #define STB_TRUETYPE_IMPLEMENTATION
-#include "view/draw/text_view.h"
+#include "view/draw/draw.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles share vertices as in the meshes. Each object takes one draw call.
-#include "view/draw/model_views.h"
+#include "view/draw/draw.h"
 
 #include <stddef.h>
 #include <stdlib.h>
