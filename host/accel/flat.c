@@ -35,13 +35,9 @@ static void flatten_sphere(SphereData *data, const Sphere *sphere,
 static void flatten_light(PointLight *data, const Light *light, const Normalization *normalization)
 {
     const Vec3 position = normalize_point(normalization, light->position);
-    data->position[0] = (float)position.x;
-    data->position[1] = (float)position.y;
-    data->position[2] = (float)position.z;
+    vec3_store(data->position, position);
     data->intensity = (float)light->intensity;
-    data->color[0] = (float)light->color.x;
-    data->color[1] = (float)light->color.y;
-    data->color[2] = (float)light->color.z;
+    vec3_store(data->color, light->color);
 }
 
 static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
@@ -58,9 +54,7 @@ static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
 
 static void flatten_constants(FlatScene *flat, const Scene *scene)
 {
-    flat->background[0] = (float)scene->background.x;
-    flat->background[1] = (float)scene->background.y;
-    flat->background[2] = (float)scene->background.z;
+    vec3_store(flat->background, scene->background);
     flat->ambient = (float)scene->ambient;
     for (uint32_t i = 0; i < flat->material_count; i++)
         flat->materials[i] = scene->materials.data[i];

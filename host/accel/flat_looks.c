@@ -21,8 +21,7 @@ static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
 
 static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
 {
-    const float *n = mesh->normals[triangle[corner]];
-    const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
+    const Vec3 normal = vec3_of_floats(mesh->normals[triangle[corner]]);
     return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
@@ -45,9 +44,7 @@ static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t 
     }
     const double scale = sign_of(order) * (extent > 0 ? scalbn(1, -ilogb(extent)) : 1);
     for (int corner = 0; corner < 3; corner++) {
-        data->normals[corner][0] = (float)(normals[corner].x * scale);
-        data->normals[corner][1] = (float)(normals[corner].y * scale);
-        data->normals[corner][2] = (float)(normals[corner].z * scale);
+        vec3_store(data->normals[corner], vec3_scale(normals[corner], scale));
         data->normals[corner][3] = 0;
     }
 }

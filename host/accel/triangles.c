@@ -48,9 +48,8 @@ static void store_points(void *context, uint32_t first, uint32_t end)
 {
     const Storing *storing = context;
     for (uint32_t vertex = first; vertex < end; vertex++) {
-        const double *position = storing->mesh->positions[vertex];
-        const Vec3 p =
-            normalize_point(storing->normalization, vec3(position[0], position[1], position[2]));
+        const Vec3 p = normalize_point(storing->normalization,
+                                       vec3_of_doubles(storing->mesh->positions[vertex]));
         float *point = storing->points[vertex];
         point[0] = without_negative_zero((float)p.x);
         point[1] = without_negative_zero((float)p.y);

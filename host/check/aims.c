@@ -47,8 +47,7 @@ typedef struct {
 
 static Vec3 point_of(const Triangles *triangles, uint32_t vertex)
 {
-    const float *point = triangles->points[vertex];
-    return vec3((double)point[0], (double)point[1], (double)point[2]);
+    return vec3_of_floats(triangles->points[vertex]);
 }
 
 static Vec3 corner_of(const Triangles *triangles, uint32_t triangle, int corner)

@@ -61,8 +61,7 @@ static bool count_pinched(Closedness *closedness, const Fans *fans, Error *error
 
 static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
 {
-    const double *position = mesh->positions[mesh->triangles[triangle][corner]];
-    return vec3(position[0], position[1], position[2]);
+    return vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
 }
 
 // Returns six times the mesh's volume, scaled to prevent overflow. The result is positive if the

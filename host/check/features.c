@@ -12,8 +12,7 @@ static Shape shape_of(const Mesh *mesh, size_t triangle)
 {
     Shape shape;
     for (int corner = 0; corner < 3; corner++) {
-        const double *p = mesh->positions[mesh->triangles[triangle][corner]];
-        shape.corners[corner] = vec3(p[0], p[1], p[2]);
+        shape.corners[corner] = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
     }
     return shape;
 }

@@ -11,9 +11,9 @@ void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
     Vec3 least = *low, most = *high;
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++) {
-            const double *p = mesh->positions[mesh->triangles[triangle][corner]];
-            least = vec3_lower(least, vec3(p[0], p[1], p[2]));
-            most = vec3_upper(most, vec3(p[0], p[1], p[2]));
+            const Vec3 p = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
+            least = vec3_lower(least, p);
+            most = vec3_upper(most, p);
         }
     *low = least;
     *high = most;
@@ -109,7 +109,7 @@ static Vec3 turned(Vec3 v, const int source[3])
         const double value = given[abs(source[axis]) - 1];
         result[axis] = source[axis] < 0 ? -value : value;
     }
-    return vec3(result[0], result[1], result[2]);
+    return vec3_of_doubles(result);
 }
 
 void mesh_turn_up(Mesh *mesh, UpAxis up)
@@ -118,12 +118,11 @@ void mesh_turn_up(Mesh *mesh, UpAxis up)
         return;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double *p = mesh->positions[i];
-        const Vec3 position = turned(vec3(p[0], p[1], p[2]), sources[up]);
+        const Vec3 position = turned(vec3_of_doubles(p), sources[up]);
         p[0] = position.x, p[1] = position.y, p[2] = position.z;
     }
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++) {
         float *n = mesh->normals[i];
-        const Vec3 normal = turned(vec3((double)n[0], (double)n[1], (double)n[2]), sources[up]);
-        n[0] = (float)normal.x, n[1] = (float)normal.y, n[2] = (float)normal.z;
+        vec3_store(n, turned(vec3_of_floats(n), sources[up]));
     }
 }

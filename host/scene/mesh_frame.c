@@ -54,8 +54,8 @@ static Vec3 farthest(const Frame *frame, Vec3 d)
             most)
             continue;
         for (size_t corner = 0; corner < 3 * run->mesh.triangle_count; corner++) {
-            const double *p = run->mesh.positions[run->mesh.triangles[corner / 3][corner % 3]];
-            const Vec3 point = {p[0], p[1], p[2]};
+            const uint32_t *vertices = run->mesh.triangles[corner / 3];
+            const Vec3 point = vec3_of_doubles(run->mesh.positions[vertices[corner % 3]]);
             if (vec3_dot(point, d) > most) {
                 most = vec3_dot(point, d);
                 found = point;

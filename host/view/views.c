@@ -74,9 +74,9 @@ static void clear(const Frame *frame)
 {
     const Scene *scene = &frame->model->scene;
     const double gain = state_gain(frame->state);
-    const float color[3] = {(float)scene->background.x, (float)scene->background.y,
-                            (float)scene->background.z};
+    float color[3];
     unsigned char bytes[3];
+    vec3_store(color, scene->background);
     encode_channels(color, 3, frame->encoding, gain, bytes);
     glClearColor((float)bytes[0] / 255, (float)bytes[1] / 255, (float)bytes[2] / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

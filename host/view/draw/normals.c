@@ -5,16 +5,12 @@
 
 #define LINE_LENGTH 0.075
 
-static Vec3 point_at(const float point[4])
-{
-    return vec3((double)point[0], (double)point[1], (double)point[2]);
-}
-
 static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)
 {
     const Vec3 end = vec3_add(start, vec3_scale(vec3_normalize(normal), LINE_LENGTH));
-    const Box line = {{(float)start.x, (float)start.y, (float)start.z},
-                      {(float)end.x, (float)end.y, (float)end.z}};
+    Box line;
+    vec3_store(line.low, start);
+    vec3_store(line.high, end);
     return array_push(lines, line, error);
 }
 
@@ -22,10 +18,9 @@ static bool add_vertices(Boxes *lines, const Mesh *mesh, const float (*points)[4
 {
     bool ok = true;
     for (size_t vertex = 0; ok && vertex < mesh->vertex_count; vertex++) {
-        const float *n = mesh->normals[vertex];
-        const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
+        const Vec3 normal = vec3_of_floats(mesh->normals[vertex]);
         if (vec3_extent(normal) > 0)
-            ok = add_line(lines, point_at(points[vertex]), normal, error);
+            ok = add_line(lines, vec3_of_floats(points[vertex]), normal, error);
     }
     return ok;
 }
@@ -35,8 +30,8 @@ static bool add_faces(Boxes *lines, const Mesh *mesh, const float (*points)[4], 
     bool ok = true;
     for (size_t triangle = 0; ok && triangle < mesh->triangle_count; triangle++) {
         const uint32_t *corners = mesh->triangles[triangle];
-        const Vec3 a = point_at(points[corners[0]]), b = point_at(points[corners[1]]);
-        const Vec3 c = point_at(points[corners[2]]);
+        const Vec3 a = vec3_of_floats(points[corners[0]]), b = vec3_of_floats(points[corners[1]]);
+        const Vec3 c = vec3_of_floats(points[corners[2]]);
         const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
         const Vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
         ok = add_line(lines, middle, normal, error);

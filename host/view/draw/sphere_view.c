@@ -55,9 +55,7 @@ static void store_sphere(float *numbers, const Model *model, const Sphere *spher
     const Vec3 offset = vec3_sub(place, eye);
     const double radius = sphere->radius * model->normalization.scale;
     light_store_material(material, &model->scene.materials.data[sphere->material]);
-    numbers[0] = (float)offset.x;
-    numbers[1] = (float)offset.y;
-    numbers[2] = (float)offset.z;
+    vec3_store(numbers, offset);
     numbers[3] = (float)radius;
     memcpy(numbers + 4, material, sizeof material);
     numbers[HEIGHT_PLACE] = (float)(sqrt(vec3_dot(offset, offset)) - radius);

@@ -12,12 +12,9 @@
 // Stores step's direction, scaled so that its dot product with a point at depth 1 on the edge is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
-    const Vec3 v = {(double)step[0], (double)step[1], (double)step[2]};
+    const Vec3 v = vec3_of_floats(step);
     const double length = sqrt(vec3_dot(v, v));
-    const Vec3 scaled = vec3_scale(v, 1 / (length * length * pixels));
-    clip[0] = (float)scaled.x;
-    clip[1] = (float)scaled.y;
-    clip[2] = (float)scaled.z;
+    vec3_store(clip, vec3_scale(v, 1 / (length * length * pixels)));
 }
 
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
@@ -53,14 +50,9 @@ static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][
     size_t count = 0;
     for (; count < scene->lights.count && count < LIGHT_LIMIT; count++) {
         const Light *light = &scene->lights.data[count];
-        const Vec3 place = normalize_point(normalization, light->position);
-        lights[count][0] = (float)place.x;
-        lights[count][1] = (float)place.y;
-        lights[count][2] = (float)place.z;
+        vec3_store(lights[count], normalize_point(normalization, light->position));
         lights[count][3] = (float)light->intensity;
-        colors[count][0] = (float)light->color.x;
-        colors[count][1] = (float)light->color.y;
-        colors[count][2] = (float)light->color.z;
+        vec3_store(colors[count], light->color);
     }
     return (int)count;
 }
@@ -70,8 +62,8 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
 {
     float lights[LIGHT_LIMIT][4], colors[LIGHT_LIMIT][3];
     const int count = store_lights(lights, colors, scene, normalization);
-    const float background[3] = {(float)scene->background.x, (float)scene->background.y,
-                                 (float)scene->background.z};
+    float background[3];
+    vec3_store(background, scene->background);
     glUniform4fv(glGetUniformLocation(program, "lights"), count, lights[0]);
     glUniform3fv(glGetUniformLocation(program, "light_colors"), count, colors[0]);
     shader_set_integer(program, "light_count", count);

@@ -27,8 +27,8 @@ static Highlight highlight_case(int number, double shininess, Random *random)
                               random_between(random, 0, acos(-1))};
     const double angle = angles[number % 4];
     const Vec3 half = vec3_add(vec3_scale(normal, cos(angle)), vec3_scale(aside, sin(angle)));
-    vec3_store(made.normal, normal);
-    vec3_store(made.half_vector, number % 4 == 0 ? normal : vec3_normalize(half));
+    shape_store(made.normal, normal);
+    shape_store(made.half_vector, number % 4 == 0 ? normal : vec3_normalize(half));
     return made;
 }
 
@@ -102,7 +102,7 @@ static Scene square(const float z[4], const char *eye, const char *light)
     Mesh mesh = shape_plane(vec3(-1, -1, 0), vec3(2, 0, 0), vec3(0, 2, 0.25), 1);
     mesh.normals = require_memory(4, sizeof *mesh.normals);
     for (int i = 0; i < 4; i++)
-        vec3_store(mesh.normals[i], vec3(0, 0, (double)z[i]));
+        shape_store(mesh.normals[i], vec3(0, 0, (double)z[i]));
     shape_add(&scene, mesh, 2);
     return scene;
 }

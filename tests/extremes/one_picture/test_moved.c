@@ -29,7 +29,7 @@ static void move_mesh(Mesh *mesh, const Motion *motion)
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         shape_set_vertex(mesh, i, moved(motion, shape_vertex(mesh, i)));
         if (mesh->normals != NULL)
-            vec3_store(mesh->normals[i], moved_direction(motion, vec3_of(mesh->normals[i])));
+            shape_store(mesh->normals[i], moved_direction(motion, vec3_of(mesh->normals[i])));
     }
     if (motion->sign[0] * motion->sign[1] * motion->sign[2] < 0)
         shape_flip(mesh);

@@ -156,7 +156,7 @@ static void directions_of_special_values_leave_no_closed_shape_t21(void **state)
     rays.count = 0;
     for (size_t i = 0; i < DIRECTIONS * INNER_RAYS; i++) {
         TestRay ray = special_ray(i / INNER_RAYS, 0);
-        vec3_store(ray.origin, room_point(&room, &random));
+        shape_store(ray.origin, room_point(&room, &random));
         if (is_possible(ray.direction))
             rays.data[rays.count++] = ray;
     }
