@@ -92,7 +92,7 @@ static bool leaves_kernels_open(const Options *options)
 {
     const KernelRequest *request = &options->kernel;
     return options->action == ACTION_RENDER && request->family == 0 && request->nodes == 0 &&
-           request->lanes == 0 && request->precision == PRECISION_FP32 && options->uses_bvh &&
+           request->lanes == 0 && request->precision == PRECISION_FP32 && !options->no_bvh &&
            !options->statistics && options->specialization != SPECIALIZE_ALWAYS;
 }
 

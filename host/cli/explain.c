@@ -18,13 +18,12 @@ static bool has_pixel(const Run *run, Error *error)
 static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
                         Error *error)
 {
-    const char *path = options->json_path != NULL ? options->json_path : "-";
-    if (!options->json)
+    if (options->json_path == NULL)
         return explain_write_text(report, explainer, stdout, error) ? EXIT_DONE : EXIT_DEVICE;
     json_t *json = explain_json(report, explainer, error);
     if (json == NULL)
         return EXIT_DEVICE;
-    return json_file_write(json, path, error) ? EXIT_DONE : EXIT_OUTPUT;
+    return json_file_write(json, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)

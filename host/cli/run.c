@@ -124,7 +124,7 @@ bool run_await_device(Run *run, Error *error)
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
-    return options->uses_bvh && (option_is_given(options, "bvh") || !are_few);
+    return !options->no_bvh && (option_is_given(options, "bvh") || !are_few);
 }
 
 bool run_build_scene(Run *run, Error *error)

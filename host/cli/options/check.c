@@ -226,9 +226,7 @@ bool options_check_compare(Options *options, Error *error)
         return options->format == NULL ||
                error_set(error,
                          "--format is for the picture of differences: give one with -o FILE");
-    const bool json_on_stdout =
-        options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
-    if (strcmp(options->output_path, "-") == 0 && (json_on_stdout || !options->quiet))
+    if (strcmp(options->output_path, "-") == 0 && (options_print_json(options) || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
 }

@@ -140,7 +140,7 @@ typedef struct {
     int64_t max_level; // negative: the scene's
     bool fits_level;   // use the smallest max_level whose error is below half a step of the file's
     // values
-    bool uses_bvh;
+    bool no_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one
     uint32_t threads;           // 0: as many as the process may use
@@ -166,8 +166,8 @@ typedef struct {
     bool lists_json;       // ACTION_LIST_DEVICES prints JSON
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
-    bool json;             // of check, compare, --explain and --explain-pixel
-    const char *json_path; // NULL or "-": print JSON instead of the text on standard output
+    const char *json_path; // of check, compare, --explain and --explain-pixel: NULL for text; "-":
+                           // print JSON instead of the text on standard output
     bool quiet, verbose;
 } Options;
 
@@ -175,6 +175,12 @@ typedef struct {
 static inline bool options_are_adaptive(const Options *options)
 {
     return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;
+}
+
+// Returns whether JSON replaces the text on standard output.
+static inline bool options_print_json(const Options *options)
+{
+    return options->json_path != NULL && strcmp(options->json_path, "-") == 0;
 }
 
 // Returns whether the scene comes from standard input, which can be read only once.
