@@ -111,7 +111,6 @@ static inline Bounds bounds_of_center(const Bounds *bounds)
     return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};
 }
 
-// Returns the item's doubled center on an axis.
 static inline float item_center(const BuildItem *item, int axis)
 {
     return item->low[axis] - item->negated_high[axis];

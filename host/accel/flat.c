@@ -153,27 +153,44 @@ Box box_grow(const Box *box)
     return grown;
 }
 
+void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
+{
+    const Box grown =
+        box != NULL ? box_grow(box)
+                    : (Box){{0x1p100f, 0x1p100f, 0x1p100f}, {-0x1p100f, -0x1p100f, -0x1p100f}};
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        planes[2 * axis * children + child] = grown.low[axis];
+        planes[(2 * axis + 1) * children + child] = grown.high[axis];
+    }
+}
+
 // The triangles and, for most callers, the tree are intermediate results.
 
-bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error *error)
+bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
+                   Error *error)
 {
-    Triangles triangles = {0};
-    Bvh own = {0}, *tree = bvh != NULL ? bvh : &own;
+    CompileStages own = {0}, *kept = stages != NULL ? stages : &own;
     const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
-    const FlatSource stages = {.scene = source->scene,
-                               .triangles = &triangles,
-                               .bvh = tree,
-                               .normalization = source->normalization,
-                               .layout = source->layout,
-                               .pool = source->pool};
-    *tree = (Bvh){0};
-    const bool ok =
-        triangles_make(&triangles, source->scene, source->normalization, source->pool, error) &&
-        (!source->has_tree || bvh_build(tree, &triangles, &settings, source->pool, error)) &&
-        flat_make(flat, &stages, error);
-    triangles_free(&triangles);
-    bvh_free(&own);
+    const FlatSource flat_source = {.scene = source->scene,
+                                    .triangles = &kept->triangles,
+                                    .bvh = &kept->bvh,
+                                    .normalization = source->normalization,
+                                    .layout = source->layout,
+                                    .pool = source->pool};
+    *kept = (CompileStages){0};
+    const bool ok = triangles_make(&kept->triangles, source->scene, source->normalization,
+                                   source->pool, error) &&
+                    (!source->has_tree ||
+                     bvh_build(&kept->bvh, &kept->triangles, &settings, source->pool, error)) &&
+                    flat_make(flat, &flat_source, error);
+    compile_stages_free(&own);
     return ok;
+}
+
+void compile_stages_free(CompileStages *stages)
+{
+    triangles_free(&stages->triangles);
+    bvh_free(&stages->bvh);
 }
 
 // Inspects the materials that primitives use. A defined but unused material costs nothing.

@@ -67,8 +67,16 @@ typedef struct {
     ThreadPool *pool; // shares the work; NULL for none
 } CompileSource;
 
-// Fills flat. Stores the tree in *bvh unless bvh is NULL. The caller frees both.
-bool scene_compile(FlatScene *flat, Bvh *bvh, const CompileSource *source, Error *error);
+// The intermediate results of scene_compile.
+typedef struct {
+    Triangles triangles;
+    Bvh bvh;
+} CompileStages;
+
+// Fills flat, and *stages unless stages is NULL. The caller frees both.
+bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
+                   Error *error);
+void compile_stages_free(CompileStages *stages);
 
 // Derives SceneTraits, the switches of kernels/config.h, from a FlatScene. A program specialized by
 // them has no code for unused features. It renders the same picture as the general program.

@@ -150,25 +150,6 @@ static bool count_node(Walk *walk, const Part *part, Error *error)
     return ok;
 }
 
-static void write_planes(BvhWide *wide, uint32_t child, const Box *box)
-{
-    const Box grown = box_grow(box);
-    for (int axis = 0; axis < 3; axis++) {
-        wide->planes[axis][0][child] = grown.low[axis];
-        wide->planes[axis][1][child] = grown.high[axis];
-    }
-}
-
-// Writes a missing child. Its planes are inverted, so no ray hits it.
-static void write_missing(BvhWide *wide, uint32_t child)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        wide->planes[axis][0][child] = 0x1p100f;
-        wide->planes[axis][1][child] = -0x1p100f;
-    }
-    wide->child[child] = 0;
-}
-
 // Fills block `number` with the triangles at [first, first + count) of Bvh::order or, without a
 // tree, of the file.
 static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
@@ -213,14 +194,16 @@ static uint32_t write_node(Walk *walk, const Part *part)
     memset(wide->padding, 0, sizeof wide->padding);
     wide->child_count = gather_children(collapse->source->bvh, parts);
     for (uint32_t child = 0; child < wide->child_count; child++) {
-        write_planes(wide, child, &parts[child].box);
+        box_store(wide->planes[0][0], WIDE, child, &parts[child].box);
         if (is_block(&parts[child]))
             wide->child[child] = write_block(walk, parts[child].first, parts[child].count);
         else
             wide->child[child] = write_node(walk, &parts[child]);
     }
-    for (uint32_t child = wide->child_count; child < WIDE; child++)
-        write_missing(wide, child);
+    for (uint32_t child = wide->child_count; child < WIDE; child++) {
+        box_store(wide->planes[0][0], WIDE, child, NULL);
+        wide->child[child] = 0;
+    }
     return number;
 }
 

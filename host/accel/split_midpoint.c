@@ -29,7 +29,6 @@ static void axes_by_extent(const Bounds *box, int axes[3])
             }
 }
 
-// Returns whether both sides get items and are smaller than the whole.
 static bool makes_progress(const BuildRange *range, Split *split)
 {
     const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);

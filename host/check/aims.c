@@ -147,7 +147,6 @@ static void aim_at_points(AimBuilder *builder)
             keep(builder, point_of(source->triangles, point), &builder->stars[point]);
 }
 
-// Returns the mean normal, the facing and the size of the triangles at an edge.
 static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t count)
 {
     Star star = {.facing = 1, .size = INFINITY, .triangle = sides[0].triangle};

@@ -145,36 +145,34 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
+// Fails if the object has triangles with the fault. text completes the message.
+static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
+                     const char *text, Error *error)
+{
+    return fault.count == 0 || error_set(error, "%s: triangle %zu, the first of %zu such, %s",
+                                         scene->inputs.data[object->input],
+                                         fault.first + object->number_before, fault.count, text);
+}
+
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)
 {
-    for (size_t object = 0; object < scene->objects.count; object++) {
-        const MeshObject *owner = &scene->objects.data[object];
-        const MeshFault *equal = &owner->mesh.equal_corners;
-        if (equal->count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has two equal corners and "
-                             "is left out",
-                             scene->inputs.data[owner->input], equal->first + owner->number_before,
-                             equal->count);
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        ok = has_none(scene, object, object->mesh.equal_corners,
+                      "has two equal corners and is left out", error);
     }
-    return true;
+    return ok;
 }
 
 bool bad_geometry_none(const Scene *scene, Error *error)
 {
-    for (size_t object = 0; object < scene->objects.count; object++) {
-        const MeshObject *owner = &scene->objects.data[object];
-        const char *path = scene->inputs.data[owner->input];
-        const MeshFault *equal = &owner->mesh.equal_corners;
-        if (equal->count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has two equal corners", path,
-                             equal->first + owner->number_before, equal->count);
-        const MeshFault flat = flat_triangles(&owner->mesh);
-        if (flat.count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has its corners on a line",
-                             path, flat.first + owner->number_before, flat.count);
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        ok = has_none(scene, object, object->mesh.equal_corners, "has two equal corners", error) &&
+             has_none(scene, object, flat_triangles(&object->mesh), "has its corners on a line",
+                      error);
     }
-    return true;
+    return ok;
 }

@@ -109,7 +109,6 @@ static ExitCode report(const Check *check, double start, Error *error)
     return outcome;
 }
 
-// Prints the readers' notes about data that they dropped.
 static void print_notes(const Options *options, const Scene *scene)
 {
     for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)

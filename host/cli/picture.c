@@ -33,7 +33,6 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// Draws the picture once and records its time.
 static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
@@ -166,7 +165,6 @@ static bool write_reference(const Picture *picture, Error *error)
            reference_write(picture, path, error);
 }
 
-// Allocates the film, which is empty at first.
 static bool open_film(Picture *picture, Error *error)
 {
     const RenderSettings *settings = &picture->run->settings;
@@ -178,7 +176,6 @@ static bool open_film(Picture *picture, Error *error)
     return ok;
 }
 
-// Returns the number of frames in the film.
 static uint32_t add_to_film(Picture *picture)
 {
     Framebuffer *film = &picture->film;
@@ -264,7 +261,6 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees the previous frame.
 static void clear(Picture *picture)
 {
     Run *run = picture->run;
@@ -277,7 +273,6 @@ static void clear(Picture *picture)
     run->report.frame_count = 0;
 }
 
-// Sets the viewpoint of frame `number`.
 static void set_view(Picture *picture, uint32_t number)
 {
     Run *run = picture->run;

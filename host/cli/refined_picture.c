@@ -27,7 +27,6 @@ static double error_left(const Run *run)
     return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
 }
 
-// Allocates run->samples if the options select channels.
 static bool keep_counts(Picture *picture, Error *error)
 {
     Run *run = picture->run;

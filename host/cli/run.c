@@ -129,7 +129,7 @@ static bool wants_tree(const Options *options, NodeLayout layout, uint64_t trian
 
 bool run_build_scene(Run *run, Error *error)
 {
-    Bvh bvh;
+    CompileStages stages;
     double moment = clock_seconds();
     const Options *options = run->options;
     const NodeLayout layout = run->async_device.setup.source.choice.nodes;
@@ -140,16 +140,15 @@ bool run_build_scene(Run *run, Error *error)
         .builder = options->builder,
         .has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene)),
         .pool = thread_pool_open(threads_allowed(options->threads))};
-    const bool ok = scene_compile(&run->flat, &bvh, &source, error);
+    const bool ok = scene_compile(&run->flat, &stages, &source, error);
     thread_pool_close(source.pool);
     run->report.build += run_lap(&moment);
     if (ok)
-        report_count_scene(&run->report, &run->scene, &bvh);
-    bvh_free(&bvh);
+        report_count_scene(&run->report, &run->scene, &stages.bvh);
+    compile_stages_free(&stages);
     return ok;
 }
 
-// Opens the renderer once the kernel is ready, and stores its costs in the report.
 static bool open_renderer(Run *run, Error *error)
 {
     AsyncDevice *async = &run->async_device;

@@ -49,3 +49,30 @@ double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
 // can compare them.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);
+
+typedef enum {
+    LIMIT_RMSE,
+    LIMIT_MAX,
+    LIMIT_PSNR,   // a lower limit; all others are upper limits
+    LIMIT_SHARE1, // share of pixels off by more than 1/255
+    LIMIT_SHARE4,
+    LIMIT_HITS, // share of pixels whose first hits differ
+    LIMIT_KINDS
+} LimitKind;
+
+typedef struct {
+    bool given[LIMIT_KINDS];
+    double values[LIMIT_KINDS];
+} Limits;
+
+// Adds the limits in text. Returns false if the text is invalid; cause then holds the reason.
+bool limits_parse(Limits *limits, const char *text, Error *cause);
+
+// As users write them.
+extern const char *const limit_names[LIMIT_KINDS];
+
+// Returns the measured value that the limit applies to; NAN if the files lack the required channel.
+double limit_measured(LimitKind kind, const Difference *difference);
+
+// Returns whether the measured value is within the limit. A missing value is not within any limit.
+bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);

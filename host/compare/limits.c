@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Parses limits by the names that reports also use.
-#include "compare/limits.h"
+#include "compare/difference.h"
 
 #include "base/number.h"
 
 #include <math.h>
 #include <string.h>
 
-static const char *const names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
-
-const char *limit_name(LimitKind kind)
-{
-    return names[kind];
-}
+const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
 
 static int kind_named(const char *name, size_t length)
 {
     for (int kind = 0; kind < LIMIT_KINDS; kind++)
-        if (strlen(names[kind]) == length && strncmp(names[kind], name, length) == 0)
+        if (strlen(limit_names[kind]) == length && strncmp(limit_names[kind], name, length) == 0)
             return kind;
     return -1;
 }

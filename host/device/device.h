@@ -7,6 +7,7 @@
 #include "base/error.h"
 
 #include <CL/cl.h>
+#include <pthread.h>
 #include <stdint.h>
 
 typedef struct {
@@ -45,6 +46,10 @@ typedef struct {
 
 // Stores all devices in entries. Returns their number; 0, with an error, if no device exists.
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);
+
+// Starts a thread that may build programs. OpenCL compilers recurse deeply, and the default stack
+// of a thread may be too small. Returns false if the system grants no thread.
+bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context);
 
 // Returns the number of threads for the program itself: count or, if count is 0, the process's
 // usable processors.

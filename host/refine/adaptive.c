@@ -115,14 +115,6 @@ static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error
     return true;
 }
 
-static Marking marking_of(const Adaptive *adaptive, float threshold)
-{
-    return (Marking){.tree = &adaptive->tree,
-                     .footprints = &adaptive->footprints,
-                     .thin_parts = &adaptive->thin_parts,
-                     .threshold = threshold};
-}
-
 static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
 {
     const PixelWants wants = {&adaptive->pixel_contrasts, &adaptive->thin_parts, threshold};
@@ -135,9 +127,12 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
                                 Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = marking_of(adaptive, threshold);
-    marking.first = first;
-    marking.end = end;
+    Marking marking = {.tree = tree,
+                       .footprints = &adaptive->footprints,
+                       .thin_parts = &adaptive->thin_parts,
+                       .threshold = threshold,
+                       .first = first,
+                       .end = end};
     if (first >= end || !adaptive_is_whole(adaptive))
         return true;
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);

@@ -139,7 +139,6 @@ static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
     group->beyond_levels[side] = (uint8_t)name.level;
 }
 
-// Fills a new group with the samples that exist before it is traced.
 static void begin_group(const RefineTree *tree, CellGroup *group, const SampleData *middle)
 {
     group->cells[GROUP_MIDDLE] = *middle;
@@ -271,7 +270,6 @@ uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
     return count;
 }
 
-// Computes the mean color of a square with that side from its color sum.
 static void mean_of(const ColorSum sum, uint64_t side, float mean[3])
 {
     for (int channel = 0; channel < 3; channel++)
@@ -285,7 +283,6 @@ void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
     mean_of(sum, refine_tree_cell_side(tree->groups.data[group].level - 1), mean);
 }
 
-// Computes the color of a pixel that is not subdivided.
 static void pixel_color(const RefineTree *tree, uint32_t x, uint32_t y, float color[3])
 {
     const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];

@@ -109,7 +109,6 @@ static void cover_pixels_of_piece(void *context, uint32_t first, uint32_t end)
         search->found = true;
 }
 
-// Adds the cells of the level that the searched triangles cover.
 static void cover_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
     Search *search = context;

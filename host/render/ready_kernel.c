@@ -96,7 +96,6 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
-// Returns a copy of setup with this kernel choice.
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 {
     RendererSetup other = *setup;

@@ -42,7 +42,6 @@ static bool add_runs(Frame *frame, const Mesh *mesh, Error *error)
     return true;
 }
 
-// Returns the vertex that lies farthest in direction d, relative to the center.
 static Vec3 farthest(const Frame *frame, Vec3 d)
 {
     Vec3 found = frame->center;

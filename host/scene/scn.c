@@ -24,7 +24,6 @@ typedef struct {
     Error *error;
 } Parser;
 
-// Returns whether the statement has another token.
 static bool has_more(const Tokens *tokens)
 {
     Tokens ahead = *tokens;

@@ -36,7 +36,6 @@ static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
     return !(commands & COMMAND_RELOAD) || viewer_renew(viewer, error);
 }
 
-// Requests the explanation of a clicked pixel.
 static void explain(Viewer *viewer, const Event *event)
 {
     WorkerRequest *request = &viewer->request;

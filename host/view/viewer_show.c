@@ -47,7 +47,6 @@ void frame_times_free(FrameTimes *times)
     *times = (FrameTimes){0};
 }
 
-// Returns whether the worker has explained the clicked pixel.
 static bool is_explained(const Viewer *viewer)
 {
     return viewer->explained > 0 && viewer->status.done.explains == viewer->explained;

@@ -69,7 +69,6 @@ static Tone tone_of(const Frame *frame)
     return (Tone){state_gain(frame->state), frame->encoding == ENCODE_SRGB};
 }
 
-// Clears the target to the displayed background.
 static void clear(const Frame *frame)
 {
     const Scene *scene = &frame->model->scene;

@@ -4,7 +4,7 @@
 
 #include "accel/bvh.h"
 #include "base/error.h"
-#include "compare/limits.h"
+#include "compare/difference.h"
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"

@@ -231,7 +231,6 @@ static void draw_corners(TextView *view)
     glBindVertexArray(0);
 }
 
-// Draws a text below top, and returns its lower end.
 static float draw_text(TextView *view, const char *text, const TextOverlay *overlay, float top)
 {
     Pen pen, start = {.view = view, .size = SIZE * overlay->density};
