@@ -5,7 +5,6 @@
 
 #include "base/output_file.h"
 #include "compare/difference.h"
-#include "compare/report.h"
 #include "image/image_file.h"
 #include "image/stored_image.h"
 

@@ -7,7 +7,7 @@
 #include "cli/report.h"
 #include "image/stored_image.h"
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "image/image_file.h"
 #include "refine/refine_tree.h"
 #include "render/aov_pass.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 #include "scene/camera.h"
 
 #include <stdio.h>

@@ -4,7 +4,7 @@
 
 #include "accel/bvh.h"
 #include "image/json_file.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <inttypes.h>
 #include <string.h>

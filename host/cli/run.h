@@ -6,7 +6,7 @@
 
 #include "accel/flat.h"
 #include "cli/options/options.h"
-#include "cli/progress.h"
+#include "cli/process.h"
 #include "cli/report.h"
 #include "mesh/ply.h"
 

@@ -2,7 +2,7 @@
 // Channels describe only the ray through a pixel's center. If the channels agree, the samples
 // decide. If both pictures have the same samples, the difference is rounding, which can also change
 // what a sample hits. Otherwise, every difference above rounding counts as coverage.
-#include "compare/report.h"
+#include "compare/difference.h"
 
 #include <math.h>
 #include <stdio.h>

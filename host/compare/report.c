@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JSON contains shares as fractions; the text contains percent.
-#include "compare/report.h"
+#include "compare/difference.h"
 
 #include "image/json_file.h"
 

@@ -4,7 +4,7 @@
 
 #include "image/stored_image.h"
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 
 #include "accel/flat.h"
 #include "base/processors.h"
-#include "library/check.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The caller's numbers -> the materials, spheres, lights and cameras of a scene.
 #include "base/limits.h"
-#include "library/check.h"
 #include "library/handles.h"
 
 static bool check_material(const ClrtMaterial *material, ClrtError *error)

@@ -4,7 +4,7 @@
 #include "render/certifier.h"
 
 #include "device/buffer.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "render/renderer.h"
 
 #include "device/buffer.h"
-#include "render/tile.h"
 
 #include <stdlib.h>
 

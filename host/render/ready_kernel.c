@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "device/buffer.h"
 #include "render/renderer.h"
-#include "render/sampler.h"
 
 #include <string.h>
 

@@ -113,3 +113,52 @@ typedef struct {
 // Starts a kernel for the tile of a frame.
 bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
                           const FrameData *frame, Error *error);
+
+// Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
+// draw.
+typedef struct {
+    uint32_t x, y, width, height; // in pixels of the crop
+} Tile;
+
+// Return the number of tiles to draw, and the position and size of one of them.
+uint64_t tile_count(const RenderSettings *settings);
+Tile tile_at(const RenderSettings *settings, uint64_t number);
+
+// Returns the size of the largest tile, with x and y 0.
+Tile tile_largest(const RenderSettings *settings);
+
+// Returns the number of pixels in all tiles to draw.
+uint64_t tile_pixels(const RenderSettings *settings);
+
+// Sets the tile that the frame draws.
+void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
+
+// Stores in grid the number of work-items along both sides of a tile, rounded up to whole
+// work-groups. All tiles have the same grid, including clipped tiles.
+void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);
+
+// Sample positions in a picture -> the color and signature of the camera ray at each position.
+// Signatures differ if rays hit different surfaces or different lights reach them.
+
+// A position in sub-pixels of the whole picture. The kernel skips samples whose x is NOTHING.
+typedef struct {
+    uint32_t x, y;
+} SamplePlace;
+
+// Requests and their results in the kernel's layout. KERNEL_SAMPLES uses SamplePlace and
+// SampleData; KERNEL_LADDER uses PixelRequest and PixelSums.
+typedef struct {
+    const void *requests;
+    void *results; // output; undefined for skipped requests
+    uint32_t count;
+} SampleList;
+
+// Traces the requests in list. The renderer's kernel must be KERNEL_SAMPLES or KERNEL_LADDER.
+// renderer->progress counts launches as tiles and adds to its previous counts. If the observer
+// returns false, tiles_done stays below tiles and some results are missing.
+bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
+                   const RenderObserver *observer, Error *error);
+
+// Runs the kernel once on a skipped request, because some drivers finish compiling at the first
+// run.
+bool sampler_warm_up(Renderer *renderer, Error *error);

@@ -2,7 +2,7 @@
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
 // never waits. PoCL compiles a kernel again for each kind of grid. Launches are small enough that
 // all grids are of one kind.
-#include "render/sampler.h"
+#include "render/renderer.h"
 
 #include "device/buffer.h"
 
