@@ -142,7 +142,9 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-Box box_grow(const Box *box)
+// Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
+// makes the device's culling conservative (kernels/search.cl).
+static Box box_grow(const Box *box)
 {
     const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
     Box grown;

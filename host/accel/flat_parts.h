@@ -37,7 +37,3 @@ static inline float box_half_area(const Box *box)
 // Stores the grown planes of a child in a node with `children` children, or, if box is NULL, planes
 // that no ray hits. The low planes of all children precede the high ones, axis by axis.
 void box_store(float *planes, uint32_t children, uint32_t child, const Box *box);
-
-// Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
-// makes the device's culling conservative (kernels/search.cl).
-Box box_grow(const Box *box);

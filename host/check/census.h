@@ -27,9 +27,6 @@ typedef struct {
     double offset;        // largest coordinate of the bounds' center
 } Features;
 
-// Returns whether the triangle's corners lie on one line, up to the rounding of fp64.
-bool features_is_flat(const Mesh *mesh, size_t triangle);
-
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
 // Both report the first object with an offender, as the path of its file, the first offending

@@ -35,7 +35,8 @@ static bool is_flat(const Shape *shape)
     return vec3_extent(doubled_area(shape)) == 0;
 }
 
-bool features_is_flat(const Mesh *mesh, size_t triangle)
+// Returns whether the triangle's corners lie on one line, up to the rounding of fp64.
+static bool features_is_flat(const Mesh *mesh, size_t triangle)
 {
     const Shape shape = shape_of(mesh, triangle);
     return is_flat(&shape);

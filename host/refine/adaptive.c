@@ -50,8 +50,16 @@ static void take_samples(void *context, uint32_t first, uint32_t end)
     }
 }
 
-bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
-                         const RenderObserver *observer, Error *error)
+// Returns whether the last pass completed without a stop by the observer.
+static bool adaptive_is_whole(const Adaptive *adaptive)
+{
+    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
+}
+
+// Traces the groups from `first` on and the samples that seams need. If the observer stops it,
+// removes these groups.
+static bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
+                                const RenderObserver *observer, Error *error)
 {
     RefineTree *tree = &adaptive->tree;
     const uint32_t groups = (uint32_t)tree->groups.count - first, cut = ADAPTIVE_CUT * groups;
@@ -103,7 +111,8 @@ static void list_pixels(void *context, uint32_t first, uint32_t end)
         }
 }
 
-bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error)
+// Takes one sample per pixel.
+static bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error)
 {
     RefineTree *tree = &adaptive->tree;
     const uint32_t count = refine_tree_places(tree);
@@ -210,11 +219,6 @@ static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
             return false;
     }
     return true;
-}
-
-bool adaptive_is_whole(const Adaptive *adaptive)
-{
-    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
 
 static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error *error)

@@ -46,23 +46,12 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
-// Returns whether the last pass completed without a stop by the observer.
-bool adaptive_is_whole(const Adaptive *adaptive);
-
 // Stores the picture in its current state.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
 
 void adaptive_close(Adaptive *adaptive);
 
 // One pass of adaptive anti-aliasing traces the requested samples as one list.
-
-// Takes one sample per pixel.
-bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error);
-
-// Traces the groups from `first` on and the samples that seams need. If the observer stops it,
-// removes these groups.
-bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
-                         const RenderObserver *observer, Error *error);
 
 // Decides by contrast which pixels are subdivided and which only get seams. Pixels are visited
 // block by block, so that consecutive samples are near each other.

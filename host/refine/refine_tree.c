@@ -223,7 +223,10 @@ bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Erro
     return true;
 }
 
-void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS])
+// Computes the color sum of each cell of a group from its sample and the group's seams. Ignores
+// subdivisions of the cells.
+static void refine_tree_cells(const RefineTree *tree, const CellGroup *group,
+                              ColorSum sums[GROUP_CELLS])
 {
     const uint32_t side = refine_tree_cell_side(group->level);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
@@ -276,7 +279,8 @@ static void mean_of(const ColorSum sum, uint64_t side, float mean[3])
         mean[channel] = (float)((sum[channel] + side * side) / (2 * side * side)) * 0x1p-32f;
 }
 
-void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
+// Computes the mean color of the cell that a group subdivides.
+static void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
 {
     ColorSum sum = {0};
     add_group(tree, group, sum);

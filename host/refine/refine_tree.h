@@ -169,13 +169,6 @@ void refine_tree_cell_place(const CellGroup *group, uint32_t cell, uint32_t plac
 // Returns the number of samples of a pixel.
 uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y);
 
-// Computes the color sum of each cell of a group from its sample and the group's seams. Ignores
-// subdivisions of the cells.
-void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS]);
-
-// Computes the mean color of the cell that a group subdivides.
-void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3]);
-
 // Computes the mean colors of a row of pixels.
 void refine_tree_store_row(const RefineTree *tree, uint32_t y, float (*colors)[3]);
 

@@ -53,7 +53,3 @@ bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
 UpAxis up_axis_of_shape(const Scene *scene);
 
 // Cameras for a mesh without a scene.
-
-// Adds six viewpoints: three-quarter, front, right, back, left and top. From each, the meshes fill
-// 80 % of the picture's width or height, whichever is less. All meshes are inside the sphere.
-bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error);

@@ -115,7 +115,9 @@ static Viewpoint view_from(const Frame *frame, Vec3 back, Vec3 up)
                        .width_degrees = field_of_view(width)};
 }
 
-bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
+// Adds six viewpoints: three-quarter, front, right, back, left and top. From each, the meshes fill
+// 80 % of the picture's width or height, whichever is less. All meshes are inside the sphere.
+static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
                                            {0, 1, 0},    {-1, 0, 0}, {0, 0, 1}};

@@ -64,7 +64,8 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-void orbit_turn(Orbit *orbit, double right, double down)
+// Apply a mouse drag in pixels, within the course's limits.
+static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
     orbit->azimuth =
@@ -76,12 +77,14 @@ static void set_distance(Orbit *orbit, double distance)
     orbit->distance = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
 }
 
-void orbit_zoom(Orbit *orbit, double down)
+static void orbit_zoom(Orbit *orbit, double down)
 {
     set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
-void orbit_pan(Orbit *orbit, double right, double down)
+// Moves camera and pivot sideways by a mouse drag in pixels. The pivot follows the pointer if the
+// window has the course's height.
+static void orbit_pan(Orbit *orbit, double right, double down)
 {
     const Viewpoint view = orbit_viewpoint(orbit);
     const Vec3 ahead = vec3_normalize(vec3_sub(view.look_at, view.eye));
@@ -95,7 +98,8 @@ void orbit_pan(Orbit *orbit, double right, double down)
     orbit->look_at = vec3_add(orbit->look_at, step);
 }
 
-void orbit_wheel(Orbit *orbit, double notches)
+// Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.
+static void orbit_wheel(Orbit *orbit, double notches)
 {
     set_distance(orbit, orbit->distance * pow(WHEEL_FACTOR, notches));
 }

@@ -24,17 +24,6 @@ Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 // Returns the camera at the orbit's current position.
 Viewpoint orbit_viewpoint(const Orbit *orbit);
 
-// Apply a mouse drag in pixels, within the course's limits.
-void orbit_turn(Orbit *orbit, double right, double down);
-void orbit_zoom(Orbit *orbit, double down);
-
-// Moves camera and pivot sideways by a mouse drag in pixels. The pivot follows the pointer if the
-// window has the course's height.
-void orbit_pan(Orbit *orbit, double right, double down);
-
-// Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.
-void orbit_wheel(Orbit *orbit, double notches);
-
 // Keys are typed characters. These constants stand for keys without a character.
 enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_FULL_SCREEN };
 

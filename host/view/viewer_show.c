@@ -10,7 +10,8 @@
 
 // Sorts the times to find the median and the slowest frames.
 
-bool frame_times_add(FrameTimes *times, double moment, Error *error)
+// Records a displayed frame of a moving camera. moment is in seconds.
+static bool frame_times_add(FrameTimes *times, double moment, Error *error)
 {
     const double before = times->latest;
     times->latest = moment;
@@ -137,7 +138,7 @@ static void update_title(Viewer *viewer, const Figures *figures)
     char text[STATE_SIZE] = "";
     status_text_title(text, sizeof text, &viewer->state, figures);
     if (is_news(viewer->title, text))
-        window_set_title(&viewer->window, text);
+        glfwSetWindowTitle(viewer->window.handle, text);
 }
 
 // Prints a new failure once, and with -v a changed state once nothing moves. The window continues
@@ -188,7 +189,7 @@ bool viewer_draw(Viewer *viewer, Error *error)
     const Figures figures = figures_of(viewer);
     draw_text(viewer, &figures);
     update_title(viewer, &figures);
-    window_show(&viewer->window);
+    glfwSwapBuffers(viewer->window.handle);
     print_news(viewer, &figures);
     count_frame(viewer, was_settled);
     return true;
