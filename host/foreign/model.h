@@ -57,6 +57,7 @@ typedef struct {
     size_t triangles;
     size_t others;    // faces that are points or lines
     bool is_textured; // the color of a part has a texture
+    bool is_colored;  // a part's vertices have colors
 } PartCounts;
 
 // Sends every part after its material. Facet normals are omitted, because the corners already

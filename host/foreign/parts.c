@@ -146,6 +146,7 @@ static bool is_within(const struct aiFace *face, size_t vertex_count)
 static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mirror)
 {
     const uint32_t base = (uint32_t)sender->part.mesh.vertex_count;
+    sender->counts->is_colored |= mesh->mColors[0] != NULL;
     for (size_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
         if (face->mNumIndices != 3) {

@@ -51,8 +51,6 @@ void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
 
 void adaptive_close(Adaptive *adaptive);
 
-// One pass of adaptive anti-aliasing traces the requested samples as one list.
-
 // Decides by contrast which pixels are subdivided and which only get seams. Pixels are visited
 // block by block, so that consecutive samples are near each other.
 typedef struct {

@@ -136,18 +136,20 @@ static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error
 
 static const char studio[] =
     "background 0.8 0.84 0.88\n"
-    "ambient 0.27\n"
+    "ambient 0.3\n"
     "define clay blinn_phong diffuse 0.93 0.85 0.76 kd 1 ks 0.25 shininess 40\n"
-    "define floor matte diffuse 0.82 0.86 0.9\n";
+    "define floor matte diffuse 0.8815 0.9314 0.9899\n";
 
-// A key light from the left, a fill light from the right and a rim light from behind, as seen by
-// the first camera. Positions are relative to the meshes' center, in radii.
-static const Light lights[3] = {{{-12, -26, 30}, 0.60, {1, 0.97, 0.92}},
+// A key light from the left, a fill light from the right and a light from behind, as seen by the
+// first camera. The directions point to them.
+static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
-                                {{6, 16, 32}, 0.20, {1, 1, 1}}};
+                                {{-8, 26, 16}, 0.30, {1, 1, 1}}};
 
-// In radii. The floor is the top of a sphere that is too large to look round.
-#define FLOOR_RADIUS 1000
+// In radii. The floor is the top of a sphere that is too large to look round. Lights are so far
+// that they light all of it alike, and its color is the background's: no horizon is seen.
+#define FLOOR_RADIUS   1e4
+#define LIGHT_DISTANCE 1e4
 
 bool mesh_scene_is_mesh(const char *bytes, size_t size)
 {
@@ -171,7 +173,7 @@ static bool add_studio(Scene *scene, Error *error)
               (is_empty || array_push(&scene->spheres, floor, error));
     for (int i = 0; ok && i < 3; i++) {
         Light light = lights[i];
-        light.position = vec3_add(center, vec3_scale(light.position, radius));
+        light.position = vec3_add(center, vec3_scale(light.position, LIGHT_DISTANCE * radius));
         ok = array_push(&scene->lights, light, error);
     }
     return ok;

@@ -170,9 +170,8 @@ static bool read_normals(Parser *parser)
     MeshLoadOptions *mesh = &parser->mesh;
     if (!read_choice(parser, "flat", "smooth", &mesh->is_flat))
         return false;
-    Tokens ahead = parser->tokens;
     mesh->crease_degrees = CREASE_DEGREES;
-    return mesh->is_flat || tokens_next(&ahead).text == NULL ||
+    return mesh->is_flat || !has_more(&parser->tokens) ||
            tokens_number_within(&parser->tokens, &mesh->crease_degrees, 0, 180);
 }
 

@@ -190,24 +190,19 @@ static void run(const RayBatch *batch, BatchTask task, size_t items, TestHit *hi
                     "read hits");
 }
 
-// The properties that the rays of a packet share, and then the ray's index.
+// The ray's properties by which rays are sorted, so that alike ones form beams, and its index.
 typedef struct {
-    uint32_t kind;
-    float origin[3];              // zeros for reflected rays, which share none
-    uint32_t longest_axis, signs; // of the direction
+    uint32_t kind, signs; // signs of the direction
+    float origin[3];
     uint32_t index;
 } RayOrder;
 
-static RayOrder order_of(const TestRay *ray, uint32_t index, bool shares_origin)
+static RayOrder order_of(const TestRay *ray, uint32_t index)
 {
     RayOrder order = {.kind = ray->kind, .index = index};
-    if (shares_origin && ray->kind != RAY_REFLECTED)
-        memcpy(order.origin, ray->origin, sizeof order.origin);
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        if (fabsf(ray->direction[axis]) > fabsf(ray->direction[order.longest_axis]))
-            order.longest_axis = axis;
+    memcpy(order.origin, ray->origin, sizeof order.origin);
+    for (uint32_t axis = 0; axis < 3; axis++)
         order.signs = 2 * order.signs + (signbit(ray->direction[axis]) != 0);
-    }
     return order;
 }
 
@@ -216,13 +211,12 @@ static int compare_orders(const void *first, const void *second)
     return memcmp(first, second, sizeof(RayOrder));
 }
 
-// Returns the rays' orders, sorted so that the rays of a packet follow each other. The caller frees
-// them.
-static RayOrder *sorted_orders(Rays rays, bool share_origins)
+// Returns the rays' orders, sorted. The caller frees them.
+static RayOrder *sorted_orders(Rays rays)
 {
     RayOrder *orders = require_memory(rays.count, sizeof *orders);
     for (size_t i = 0; i < rays.count; i++)
-        orders[i] = order_of(&rays.data[i], (uint32_t)i, share_origins);
+        orders[i] = order_of(&rays.data[i], (uint32_t)i);
     qsort(orders, rays.count, sizeof *orders, compare_orders);
     return orders;
 }
@@ -272,7 +266,7 @@ static TestHit *trace_ordered(RayBatch *batch, BatchTask task, Rays rays, const 
     TestHit *found = require_memory(BATCH_RAYS, sizeof *found);
     for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
         const Rays chunk = chunk_of(rays, first);
-        RayOrder *orders = sorted_orders(chunk, nodes == NULL);
+        RayOrder *orders = sorted_orders(chunk);
         for (size_t i = 0; i < chunk.count; i++)
             ordered[i] = chunk.data[orders[i].index];
         if (nodes != NULL)

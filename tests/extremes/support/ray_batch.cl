@@ -94,9 +94,12 @@ static inline void trace_kind(const Tracer *tracer, const TestRays *all, RayKind
 }
 
 // Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
-static inline void trace_rays(const Tracer *tracer, const TestRays *all, bool are_shadows,
-                              global TestHit *hits)
+static inline void trace_rays(const Tracer *tracer, global const TestRay *rays, uint count,
+                              bool are_shadows, global TestHit *hits)
 {
+    TestRays all[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        all[i] = test_rays(rays, count, i);
     for (uint kind = RAY_CAMERA; kind <= RAY_SHADOW; kind++) {
         bool any = false;
         for (uint i = 0; i < PACKETS; i++)
@@ -119,19 +122,13 @@ static inline void trace_rays(const Tracer *tracer, const TestRays *all, bool ar
 kernel void batch_nearest(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    TestRays all[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        all[i] = test_rays(rays, count, i);
-    trace_rays(&tracer, all, false, hits);
+    trace_rays(&tracer, rays, count, false, hits);
 }
 
 kernel void batch_blocked(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    TestRays all[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        all[i] = test_rays(rays, count, i);
-    trace_rays(&tracer, all, true, hits);
+    trace_rays(&tracer, rays, count, true, hits);
 }
 
 // The id of a ray that hits nothing, from a surface that the point at its end does not light.
