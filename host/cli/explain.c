@@ -45,19 +45,17 @@ static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *err
 
 ExitCode explain_pixel(Run *run, Error *error)
 {
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
-    if (!command_files_check(run->options, &run->scene, error))
-        return EXIT_OUTPUT;
+    ExitCode code = run_start(run, error);
+    if (code != EXIT_DONE)
+        return code;
     if (!has_pixel(run, error)) {
         async_device_decide(&run->async_device, false);
         return EXIT_USAGE;
     }
     run->settings.specialization = SPECIALIZE_NEVER; // too few rays to repay compiling
-    const ExitCode prepared = run_prepare(run, error);
-    if (prepared != EXIT_DONE)
-        return prepared;
+    code = run_prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
     const ExplainerSource source = {.setup = &run->async_device.setup,
                                     .renderer = &run->renderer,

@@ -206,14 +206,11 @@ static json_t *whole_json(const Run *run)
 ExitCode explain_scene(Run *run, Error *error)
 {
     const Options *options = run->options;
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
-    if (!command_files_check(options, &run->scene, error))
-        return EXIT_OUTPUT;
-    const ExitCode prepared = run_prepare(run, error);
-    if (prepared != EXIT_DONE)
-        return prepared;
+    ExitCode code = run_start(run, error);
+    if (code == EXIT_DONE)
+        code = run_prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
     if (options->json_path != NULL)
         return json_file_write(whole_json(run), options->json_path, error) ? EXIT_DONE
                                                                            : EXIT_OUTPUT;

@@ -249,11 +249,10 @@ static ExitCode prepare(Run *run, Error *error)
 {
     picture_warn_of_goal(run->options);
     image_prepare(run->options->format);
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
-    if (!command_files_check(run->options, &run->scene, error) ||
-        !image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+    const ExitCode started = run_start(run, error);
+    if (started != EXIT_DONE)
+        return started;
+    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)

@@ -174,6 +174,14 @@ void run_begin(Run *run)
     async_device_begin(&run->async_device, run->options, setup);
 }
 
+ExitCode run_start(Run *run, Error *error)
+{
+    run_begin(run);
+    if (!run_load_scene(run, error))
+        return EXIT_SCENE;
+    return command_files_check(run->options, &run->scene, error) ? EXIT_DONE : EXIT_OUTPUT;
+}
+
 ExitCode run_prepare(Run *run, Error *error)
 {
     if (!run_await_device(run, error))

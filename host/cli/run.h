@@ -78,6 +78,10 @@ void run_begin(Run *run);
 // failure, it cancels the making of the kernel.
 bool run_load_scene(Run *run, Error *error);
 
+// Calls run_begin and run_load_scene, and checks the scene's files against the outputs. Returns the
+// exit status.
+ExitCode run_start(Run *run, Error *error);
+
 // Waits for the device and chooses the kernels for device and scene. The kernels determine the
 // layout of nodes.
 bool run_await_device(Run *run, Error *error);

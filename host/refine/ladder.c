@@ -212,9 +212,8 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
 typedef struct {
     const Ladder *ladder;
     double fractions[STRATA_COUNT]; // 0 if no further pixel is to be selected
-    uint32_t *pixels;               // each chunk stores its selection at the index of its first
-    // pixel
-    uint32_t *counts; // the number of selected pixels of each chunk
+    uint32_t *pixels;               // each chunk's selection, from its first pixel's index on
+    uint32_t *counts;               // the number of selected pixels of each chunk
 } Choosing;
 
 // Returns a number in [0, 1) that is constant while the pixel stays on its rung.

@@ -95,10 +95,9 @@ typedef struct {
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // dot products with right and down are in cells of the last
-    // level at depth 1
-    double width, height;   // of the picture, in cells of the last level
-    ProjectedPoint *points; // of the mesh's vertices
+    Vec3 eye, right, down, forward; // right and down: in cells of the last level at depth 1
+    double width, height;           // of the picture, in cells of the last level
+    ProjectedPoint *points;         // of the mesh's vertices
 } Projection;
 
 // Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.

@@ -25,15 +25,13 @@ typedef struct {
     SampleData ends[SEAM_ENDS]; // the samples at from and at to
     uint32_t x, y;              // start of the line
     uint32_t group, next;       // next seam of the group or pixel; 0 at the end
-    uint8_t stride;             // between indices of adjacent cells: 1 along a row, GROUP_SIDE
-    // along a column
-    uint8_t cells, side; // the number of cells on the line, and the side of each cell
-    uint8_t line;        // index in the group, 0 to 2
-    uint8_t from, to;    // the interval to which the seam applies
-    uint8_t low, high;   // positions of the nearest samples before and after the seam
-    uint8_t assumed;     // the end that uses a sample from beyond the line; SEAM_ENDS for
-    // neither
-    uint8_t samples; // taken to locate the seam
+    uint8_t stride;             // from cell to cell: 1 along a row, GROUP_SIDE along a column
+    uint8_t cells, side;        // the number of cells on the line, and the side of each cell
+    uint8_t line;               // index in the group, 0 to 2
+    uint8_t from, to;           // the interval to which the seam applies
+    uint8_t low, high;          // positions of the nearest samples before and after the seam
+    uint8_t assumed;            // the end with a sample from beyond the line, or SEAM_ENDS
+    uint8_t samples;            // taken to locate the seam
 } Seam;
 
 // The samples of a line: its cells, and one beyond each end.
@@ -89,10 +87,9 @@ typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW, SIDE_COUNT } CellS
 
 // Cells are numbered row by row.
 typedef struct {
-    uint32_t x, y;                 // of the center, in cells of the last level
-    uint32_t level;                // of the cells, from 1
-    SampleData beyond[SIDE_COUNT]; // samples of the adjacent cells, which are as large as the
-    // group or larger
+    uint32_t x, y;                     // of the center, in cells of the last level
+    uint32_t level;                    // of the cells, from 1
+    SampleData beyond[SIDE_COUNT];     // of the adjacent cells, as large as the group or larger
     uint8_t beyond_levels[SIDE_COUNT]; // levels of these cells; level - 1 outside of the picture
     SampleData cells[GROUP_CELLS];
     uint32_t groups[GROUP_CELLS]; // the groups that subdivide the cells; 0: not subdivided

@@ -185,8 +185,7 @@ static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t strid
 static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
 {
     const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);
-    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // UINT32_MAX steps back by
-    // one
+    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // or one back
     uint32_t place[2] = {line->start[0], line->start[1]};
     place[line->stride == 1 ? 0 : 1] += step;
     if (place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID)

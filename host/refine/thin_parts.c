@@ -15,11 +15,10 @@
 typedef struct {
     ThinParts *parts;
     const ThinSource *source;
-    Projection projection; // of the mesh
-    MeshPieces pieces;     // of the mesh
-    uint32_t first, count; // the piece's triangles, in the order of the pieces
-    uint8_t *depths;       // in that order: the number of levels to search for each
-    // triangle
+    Projection projection;          // of the mesh
+    MeshPieces pieces;              // of the mesh
+    uint32_t first, count;          // the piece's triangles, in the order of the pieces
+    uint8_t *depths;                // in that order: the number of levels to search
     CellSet covered[REFINE_LEVELS]; // cells whose samples the piece contains
     CellSet wide;                   // pixels at which the piece is wide
     _Atomic uint32_t top, bottom;   // the piece covers rows of pixels top to bottom - 1

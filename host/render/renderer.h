@@ -7,8 +7,7 @@
 
 // The program that draws: general, or specialized for this scene. The picture is the same.
 typedef enum {
-    SPECIALIZE_AUTO, // specialized if already compiled, or if it saves more time than compiling
-                     // takes
+    SPECIALIZE_AUTO, // specialized if compiled already, or if that saves more than compiling takes
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;

@@ -9,8 +9,7 @@
 // Options that exclude each other, regardless of their values.
 typedef struct {
     const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
-    const char *sentence;                               // a format; %s is the name of the first
-    // option
+    const char *sentence;                               // a format; %s is the first name
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"

@@ -62,8 +62,7 @@ typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
     const char *name;
-    const char *argument; // for --help; "a|b" for OPTION_WORD; "[=X]" if optional; NULL: no
-                          // argument
+    const char *argument; // for --help; "a|b" for OPTION_WORD; "[=X]" if optional; NULL: none
     char letter;          // the short form; 0: none
     OptionKind kind;
     size_t offset;        // of the field in Options
@@ -127,8 +126,7 @@ typedef struct {
     unsigned use;         // one FOR_... bit; the command accepts the options with this bit
     const char *operands; // the arguments after the name, for --help
     const char *help;
-    const char *two_operands; // describes two file operands for a message; NULL: one scene, or the
-    // parts of merge
+    const char *two_operands; // two file operands, for messages; NULL: one scene, or parts
 } Command;
 
 extern const Command command_table[];

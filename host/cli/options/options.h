@@ -79,8 +79,7 @@ typedef enum {
 // The exit status. If a signal stopped the process, the status is 128 + the signal's number.
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // failing findings of check, exceeded limits of compare, an unexpected hash,
-    // or a missed goal
+    EXIT_FAULTS = 1, // findings of check, limits of compare, an unexpected hash, a missed goal
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
@@ -118,9 +117,8 @@ typedef enum {
 typedef struct {
     Action action;
     uint64_t given;         // bit i: the command line contains the option of row i of option_table
-    const char *scene_path; // the first picture of ACTION_COMPARE; NULL for ACTION_WARM without a
-    // scene
-    char **part_paths; // part_count file names of ACTION_MERGE
+    const char *scene_path; // the first picture of ACTION_COMPARE; may be NULL for ACTION_WARM
+    char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
     const char *output_path; // "-": standard output; NULL: no -o, so the window opens
@@ -138,8 +136,7 @@ typedef struct {
     bool resume;
     Frames frames;
     int64_t max_level; // negative: the scene's
-    bool fits_level;   // use the smallest max_level whose error is below half a step of the file's
-    // values
+    bool fits_level;   // use the smallest max_level whose error no file of the format shows
     bool no_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one
@@ -160,8 +157,7 @@ typedef struct {
     bool hash;                 // print the hash of the pixels
     const char *expected_hash; // of the pixels; NULL: do not check
     const char *keys;          // key presses to play in the window; NULL for none
-    uint32_t quit_after;       // the number of frames before the window closes; 0: the user closes
-    // it
+    uint32_t quit_after;       // frames before the window closes; 0: the user closes it
     BadGeometry bad_geometry;
     bool lists_json;       // ACTION_LIST_DEVICES prints JSON
     Limits limits;         // of ACTION_COMPARE
