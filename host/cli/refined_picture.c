@@ -152,8 +152,8 @@ bool certain_picture_make(Picture *picture, const CameraData *camera, Error *err
     Run *run = picture->run;
     FlatScene flat = {0};
     double moment = clock_seconds();
-    const RenderSettings *settings = &run->settings;
-    if (!certainty_map_make(&picture->certainty, settings->width, settings->height, error))
+    const Framebuffer *frame = &picture->framebuffer;
+    if (!certainty_map_make(&picture->certainty, frame->width, frame->height, error))
         return false;
     if (picture->stopped_by != 0)
         return true;

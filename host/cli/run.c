@@ -49,13 +49,14 @@ static uint32_t max_level_of(const Options *options, const Scene *scene)
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
+    const bool small = options->parts > 0 && !option_is_given(options, "tile");
     return (RenderSettings){
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
         .samples = options->samples,
         .max_level = max_level_of(options, scene),
-        .tile_width = options->tile_width,
-        .tile_height = options->tile_height,
+        .tile_width = small ? OPTIONS_PART_TILE : options->tile_width,
+        .tile_height = small ? OPTIONS_PART_TILE : options->tile_height,
         .part = options->parts > 0 ? options->part - 1 : 0,
         .parts = options->parts,
         .group_width = options->group_width,

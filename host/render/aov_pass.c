@@ -133,7 +133,7 @@ static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
-            const uint32_t x = tile->x + column, y = tile->y + row;
+            const uint32_t x = tile->left + column, y = tile->top + row;
             const AovPixel pixel = {&pass->host_paths[place],
                                     pass->counts_tests ? pass->host_tests[place] : NULL,
                                     samples_of(pass, x, y), certainty_at(pass, x, y)};

@@ -130,7 +130,7 @@ static void take_tile(const Certifier *certifier, const Tile *tile, const Certif
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
-            const size_t pixel = (size_t)(tile->y + row) * map->width + tile->x + column;
+            const size_t pixel = (size_t)(tile->top + row) * map->width + tile->left + column;
             const CertaintyMark *mark = &certifier->host_marks[place];
             map->marks[pixel] = *mark;
             map->counts[mark->certainty]++;

@@ -108,7 +108,7 @@ static cl_int read_pixels(const Drawing *drawing, Slot *slot)
     Framebuffer *framebuffer = drawing->framebuffer;
     const Tile *tile = &slot->tile;
     const size_t pixel = sizeof *framebuffer->pixels;
-    const size_t from[3] = {0, 0, 0}, to[3] = {tile->x * pixel, tile->y, 0};
+    const size_t from[3] = {0, 0, 0}, to[3] = {tile->left * pixel, tile->top, 0};
     const size_t region[3] = {tile->width * pixel, tile->height, 1};
     return clEnqueueReadBufferRect(slot->queue, slot->pixels, CL_FALSE, from, to, region,
                                    tile->width * pixel, 0, framebuffer->width * pixel, 0,

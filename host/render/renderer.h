@@ -20,7 +20,7 @@ typedef struct {
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
     uint64_t ready_tiles; // first tiles that exist already and are skipped
-    uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
+    uint32_t part, parts; // draws one of so many parts (render/renderer.h); 0, 0 draws all
     uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;
@@ -90,7 +90,8 @@ void renderer_close(Renderer *renderer);
 // Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture that camera sees into framebuffer, which must have the settings' size. If the
+// Draws the picture that camera sees into framebuffer, which must have the size of
+// tile_frame_size. If the
 // observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
@@ -114,10 +115,15 @@ bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
                           const FrameData *frame, Error *error);
 
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
-// draw.
+// draw. A part draws every parts-th tile of each row, and starts in another column in each row.
 typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
+    uint32_t left, top;           // position in the framebuffer
 } Tile;
+
+// Stores the size of the framebuffer in which the tiles are drawn. A part's framebuffer contains
+// only the part's tiles, below each other.
+void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
 // Return the number of tiles to draw, and the position and size of one of them.
 uint64_t tile_count(const RenderSettings *settings);

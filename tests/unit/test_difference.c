@@ -42,14 +42,6 @@ static Difference measured(const float (*a)[4], const float (*b)[4])
     return difference;
 }
 
-TEST(equal_pictures_differ_by_nothing)
-{
-    const Difference difference = measured(plain, plain);
-    assert_true(difference.rmse == 0 && difference.maximum == 0);
-    assert_int_equal(difference.off_by_1 + difference.off_by_4 + difference.wrong_hits, 0);
-    assert_true(isinf(difference_psnr(&difference)) && difference_psnr(&difference) > 0);
-}
-
 TEST(all_three_colors_of_all_pixels_count_alike)
 {
     float other[PIXELS][4];

@@ -91,33 +91,6 @@ static Mesh cube(void)
     return mesh;
 }
 
-TEST(a_cube_stays_sharp)
-{
-    FREED_BY(mesh_free) Mesh mesh = cube();
-    compute(&mesh, CREASE_DEGREES);
-    assert_int_equal(mesh.vertex_count, 24);
-    for (size_t triangle = 0; triangle < 12; triangle++)
-        for (int corner = 0; corner < 3; corner++) {
-            const Vec3 flat = flat_normal(&mesh, triangle);
-            const Vec3 normal = normal_at(&mesh, triangle, corner);
-            assert_true(normal.x == flat.x && normal.y == flat.y && normal.z == flat.z);
-        }
-}
-
-// At the crease angle of 180 degrees, a corner is the mean of three faces of equal angles.
-TEST(a_cube_becomes_round_if_no_edge_is_sharp)
-{
-    FREED_BY(mesh_free) Mesh mesh = cube();
-    compute(&mesh, 180);
-    assert_int_equal(mesh.vertex_count, 8);
-    for (size_t triangle = 0; triangle < 12; triangle++)
-        for (int corner = 0; corner < 3; corner++) {
-            const Vec3 center = {0.5, 0.5, 0.5};
-            const Vec3 outward = vec3_sub(position_at(&mesh, triangle, corner), center);
-            assert_true(degrees_between(normal_at(&mesh, triangle, corner), outward) < 1e-4);
-        }
-}
-
 // 1e-4 degrees cover the rounding of coordinates and normals to float.
 TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
 {
@@ -134,48 +107,6 @@ TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
             }
         }
     }
-}
-
-TEST(the_tip_of_a_cone_is_no_dome)
-{
-    static const double rings[1][2] = {{1, 0}};
-    FREED_BY(mesh_free) Mesh mesh = revolved(rings, 1, 24, 0, 2);
-    compute(&mesh, CREASE_DEGREES);
-    for (size_t triangle = 0; triangle < mesh.triangle_count; triangle++)
-        for (int corner = 0; corner < 3; corner++)
-            assert_true(degrees_between(normal_at(&mesh, triangle, corner),
-                                        flat_normal(&mesh, triangle)) < 7.5);
-}
-
-// The fronts and backs of a tilted square are split along different diagonals, so their sums cancel
-// except for rounding.
-TEST(faces_that_cancel_each_other_keep_their_own_normals)
-{
-    FREED_BY(mesh_free) Mesh mesh = new_mesh(4, 4);
-    mesh.triangle_count = 0;
-    for (uint32_t i = 0; i < 4; i++) {
-        const double x = i == 1 || i == 2, y = i > 1;
-        set_vertex(&mesh, i, x - 0.3 * y, 0.7 * y + 0.1 * x, 0.6 * x + 0.9 * y);
-    }
-    add_triangle(&mesh, 0, 1, 2);
-    add_triangle(&mesh, 0, 2, 3);
-    add_triangle(&mesh, 1, 0, 3);
-    add_triangle(&mesh, 1, 3, 2);
-    compute(&mesh, 180);
-    for (size_t triangle = 0; triangle < 4; triangle++)
-        for (int corner = 0; corner < 3; corner++)
-            assert_true(degrees_between(normal_at(&mesh, triangle, corner),
-                                        flat_normal(&mesh, triangle)) < 1e-4);
-}
-
-TEST(vertices_at_one_position_are_one_point)
-{
-    FREED_BY(mesh_free) Mesh mesh = cylinder(17);
-    FREED_BY(mesh_free) Mesh soup = soup_of(&mesh);
-    soup.positions[0][2] = -0.0;
-    compute(&mesh, CREASE_DEGREES);
-    compute(&soup, CREASE_DEGREES);
-    expect_same_normals(&mesh, &soup);
 }
 
 TEST(given_normals_are_kept)

@@ -16,10 +16,9 @@ static bool in_range(int64_t number)
     return number >= 1 && number <= FRAMES_MOST;
 }
 
-bool frames_parse(Frames *frames, const char *text)
+static bool parse_range(Frames *frames, const char *text, const char *end)
 {
     int64_t first, last, step = 1;
-    const char *end = text + strlen(text);
     const char *next = integer_parse(text, end, &first);
     if (next == NULL || *next != '-')
         return false;
@@ -34,17 +33,41 @@ bool frames_parse(Frames *frames, const char *text)
     return true;
 }
 
-bool frames_are_many(const Frames *frames)
+bool frames_parse(Frames *frames, const char *text, Error *error)
 {
-    return frames->last > 0 || frames->turntable > 0;
+    const char *end = text + strcspn(text, ","), *share = *end == ',' ? end + 1 : text;
+    if (strchr(text, '/') == NULL)
+        return parse_range(frames, text, text + strlen(text));
+    return (share == text || parse_range(frames, text, end)) &&
+           share_parse(&frames->share, share, FRAMES_MOST, error);
 }
 
-void frames_complete(Frames *frames)
+bool frames_are_many(const Frames *frames)
 {
-    if (frames->last > 0 || frames->turntable == 0)
-        return;
-    frames->first = frames->step = 1;
-    frames->last = frames->turntable;
+    return frames->last > 0 || frames->turntable > 0 || frames->share.count > 0;
+}
+
+bool frames_complete(Frames *frames, Error *error)
+{
+    Share *share = &frames->share;
+    if (frames->last == 0 && frames->turntable == 0)
+        return error_set(error, "--frames I/N divides the pictures of a turntable or of a range: "
+                                "give --turntable, or --frames A-B,I/N");
+    if (frames->last == 0) {
+        frames->first = frames->step = 1;
+        frames->last = frames->turntable;
+    }
+    const uint32_t count = frames_count(frames), first = frames->first;
+    if (share->count > count)
+        return error_set(error, "--frames: %u pictures make at most %u runs, not %u", count, count,
+                         share->count);
+    if (share->count > 0) {
+        frames->first = first + share_begin(share, count) * frames->step;
+        share->index++; // the run ends where the next one begins
+        frames->last = first + (share_begin(share, count) - 1) * frames->step;
+        *share = (Share){0};
+    }
+    return true;
 }
 
 uint32_t frames_count(const Frames *frames)

@@ -197,19 +197,22 @@ bool set_time(Options *options, const char *text, Error *error)
 
 bool set_frames(Options *options, const char *text, Error *error)
 {
-    return frames_parse(&options->frames, text) ||
-           error_set(error, "--frames wants A-B or A-B:S, from 1 to %d, not '%s'", FRAMES_MOST,
-                     text);
+    return frames_parse(&options->frames, text, error) ||
+           error_set(error,
+                     "--frames wants A-B or A-B:S, from 1 to %d, or I/N, auto/N, A-B,I/N or "
+                     "A-B,auto/N, not '%s'",
+                     FRAMES_MOST, text);
 }
 
 bool set_part(Options *options, const char *text, Error *error)
 {
-    int64_t part[2];
-    if (!read_pair(text, '/', 1, PARTS_MAX, part) || part[0] > part[1])
-        return error_set(error, "--part wants I/N, I from 1 to N and N up to %d, not '%s'",
+    Share share;
+    if (!share_parse(&share, text, PARTS_MAX, error))
+        return error_set(error,
+                         "--part wants I/N or auto/N, I from 1 to N and N up to %d, not '%s'",
                          PARTS_MAX, text);
-    options->part = (uint32_t)part[0];
-    options->parts = (uint32_t)part[1];
+    options->part = share.index;
+    options->parts = share.count;
     return true;
 }
 

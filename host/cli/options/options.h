@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "base/error.h"
+#include "cli/options/share.h"
 #include "compare/difference.h"
 #include "image/image_file.h"
 #include "render/aov.h"
@@ -22,16 +23,20 @@ typedef struct {
     uint32_t first, last, step; // last is 0 without --frames
     uint32_t turntable;         // steps per full turn; 0: frames are views
     bool is_film;               // one animated file instead of numbered files
+    Share share;                // of the frames above, until frames_complete
+    bool skips_finished;        // skip frames whose files exist, and write only whole frames
 } Frames;
 
-// Parses "A-B" or "A-B:S"; returns false if text is malformed.
-bool frames_parse(Frames *frames, const char *text);
+// Parses "A-B" or "A-B:S", a share, or both with a comma between them. Returns false if text is
+// malformed, and fills error as share_parse does.
+bool frames_parse(Frames *frames, const char *text, Error *error);
 
 // Returns whether --frames or --turntable is given.
 bool frames_are_many(const Frames *frames);
 
-// Without --frames, selects all steps of the turntable.
-void frames_complete(Frames *frames);
+// Without a range, selects all steps of the turntable. Reduces first and last to the share. Fails
+// if there are fewer frames than shares.
+bool frames_complete(Frames *frames, Error *error);
 
 // Returns the number of pictures.
 uint32_t frames_count(const Frames *frames);
@@ -83,7 +88,8 @@ typedef enum {
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
-    EXIT_OUTPUT = 5
+    EXIT_OUTPUT = 5,
+    EXIT_BUSY = 75 // another process draws the picture; EX_TEMPFAIL of sysexits.h
 } ExitCode;
 
 // The treatment of triangles without area.
@@ -101,8 +107,10 @@ typedef enum {
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 
-// The default side of a tile in pixels. The window chooses other sizes.
-#define OPTIONS_TILE 128
+// The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
+// so that each part has more of them and takes about as long as the others.
+#define OPTIONS_TILE      128
+#define OPTIONS_PART_TILE 64
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
@@ -133,7 +141,7 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
-    bool resume;
+    bool resume;          // one picture; frames have their own flag
     Frames frames;
     int64_t max_level; // negative: the scene's
     bool fits_level;   // use the smallest max_level whose error no file of the format shows

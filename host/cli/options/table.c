@@ -71,7 +71,7 @@ const Option option_table[] = {
     {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "build no tree and test every triangle"},
     {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
-     "size of the tiles in which the picture is traced (default: 128x128)"},
+     "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE, "size of the device's work-groups (default: 8x8; for packets 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
@@ -87,13 +87,16 @@ const Option option_table[] = {
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
      "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
-    {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw views A to B, or pictures A to B of the turntable, or every S-th of them"},
+    {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
+     "draw views A to B, or pictures A to B of the turntable, or every S-th of them; I/N draws the "
+     "I-th of N equal runs of them, or of the whole turntable, and auto/N is as for --part"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw only every N-th tile, from the I-th on; clrt merge joins the N parts"},
+     "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
+     "takes "
+     "I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
-     "incomplete EXR file"},
+     "incomplete EXR file; of many pictures, skip those whose files exist"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
