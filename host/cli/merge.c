@@ -8,7 +8,7 @@
 #include "cli/report.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 #include "jobs/stored_tiles.h"
 #include "refine/refine_tree.h"
 #include "render/aov_pass.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 #include "scene/camera.h"
 
 #include <stdio.h>
@@ -35,7 +35,6 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// Draws the picture once and records its time.
 static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
@@ -169,7 +168,6 @@ static bool write_reference(const Picture *picture, Error *error)
            reference_write(picture, path, error);
 }
 
-// Allocates the film, which is empty at first.
 static bool open_film(Picture *picture, Error *error)
 {
     const RenderSettings *settings = &picture->run->settings;
@@ -181,7 +179,6 @@ static bool open_film(Picture *picture, Error *error)
     return ok;
 }
 
-// Returns the number of frames in the film.
 static uint32_t add_to_film(Picture *picture)
 {
     Framebuffer *film = &picture->film;
@@ -263,12 +260,11 @@ static ExitCode prepare(Run *run, Error *error)
 {
     picture_warn_of_goal(run->options);
     image_prepare(run->options->format);
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
+    const ExitCode started = run_start(run, error);
+    if (started != EXIT_DONE)
+        return started;
     picture_warn_of_few_tiles(run);
-    if (!command_files_check(run->options, &run->scene, error) ||
-        !image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)
@@ -276,7 +272,6 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees the previous frame.
 static void clear(Picture *picture)
 {
     Run *run = picture->run;
@@ -289,7 +284,6 @@ static void clear(Picture *picture)
     run->report.frame_count = 0;
 }
 
-// Sets the viewpoint of frame `number`.
 static void set_view(Picture *picture, uint32_t number)
 {
     Run *run = picture->run;

@@ -110,12 +110,10 @@ static void transform_normal(const struct aiVector3D *given, const NormalMatrix 
     const double parts[3] = {unit.x, unit.y, unit.z};
     for (int i = 0; i < 3; i++) {
         const double *c = normal_matrix->columns[i];
-        turned = vec3_add(turned, vec3_scale(vec3(c[0], c[1], c[2]), parts[i]));
+        turned = vec3_add(turned, vec3_scale(vec3_of_doubles(c), parts[i]));
     }
     turned = vec3_normalize(turned);
-    normal[0] = (float)turned.x;
-    normal[1] = (float)turned.y;
-    normal[2] = (float)turned.z;
+    vec3_store(normal, turned);
 }
 
 static void place_normals(const Sender *sender, const struct aiMesh *mesh,

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "image/exr_file.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 typedef struct {
     RenderSettings whole; // without part

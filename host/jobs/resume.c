@@ -3,7 +3,7 @@
 #include "jobs/resume.h"
 
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "jobs/stored_tiles.h"
 
 #include "cli/options/options.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <assert.h>
 #include <stdlib.h>

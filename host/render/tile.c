@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tiles at the right and bottom edges are clipped.
-#include "render/tile.h"
+#include "render/renderer.h"
 
 static uint32_t smaller(uint32_t a, uint32_t b)
 {

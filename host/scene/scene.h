@@ -6,7 +6,7 @@
 #include "../kernels/shared.h"
 #include "base/array.h"
 #include "base/vec.h"
-#include "mesh/up_axis.h"
+#include "mesh/mesh.h"
 
 // Limits that keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 131072

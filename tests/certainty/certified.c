@@ -2,6 +2,7 @@
 // Draws the plain picture with the kernels that clrt chooses.
 #include "certainty/certified.h"
 
+#include "accel/flat.h"
 #include "extremes/support/check.h"
 #include "scene/camera.h"
 

@@ -67,7 +67,7 @@ class Results:
     def add(self, test, form, words):
         figures = {m[1]: int(m[2]) for m in map(FIELD.match, words) if m}
         measured = ("ulp=", "rmse=", "error=", "times=", "leaks=", "hits=", "blocked=", "depth=",
-                    "largest_leaf=", "met=", "refused=", "megabytes=", "seeds=")
+                    "largest_leaf=", "met=", "refused=", "seeds=")
         details = [w for w in words if not FIELD.match(w)]
         key = " ".join(w for w in details if not any(m in w for m in measured))
         case = self.cases.setdefault((test, key), {"forms": {}, "notes": {}})

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares differences of small pictures with values computed by hand, and tests the limits.
 #include "compare/difference.h"
-#include "compare/limits.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests the arrays that the device reads, and the kernel features that a scene needs.
 #include "accel/flat.h"
-#include "accel/traits.h"
 #include "unit/parsed.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests that pieces of meshes are correct for any number of threads.
-#include "refine/mesh_pieces.h"
+#include "refine/thin_parts.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parts share the tiles of a picture evenly, wherever the costly tiles are.
 #include "cmocka_all.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 

@@ -3,8 +3,8 @@
 // boxes, changed files, and pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
-#include "view/draw/boxes.h"
 #include "view/draw/canvas.h"
+#include "view/draw/draw.h"
 #include "view/plan.h"
 #include "view/watch.h"
 

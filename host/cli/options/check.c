@@ -2,8 +2,6 @@
 // Checks combinations of options. clrt rejects options that would have no effect.
 #include "cli/options/option.h"
 
-#include "cli/options/table.h"
-
 #include <string.h>
 
 #define NAMES_MOST 4
@@ -11,8 +9,7 @@
 // Options that exclude each other, regardless of their values.
 typedef struct {
     const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
-    const char *sentence;                               // a format; %s is the name of the first
-    // option
+    const char *sentence;                               // a format; %s is the first name
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"
@@ -232,9 +229,7 @@ bool options_check_compare(Options *options, Error *error)
         return options->format == NULL ||
                error_set(error,
                          "--format is for the picture of differences: give one with -o FILE");
-    const bool json_on_stdout =
-        options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
-    if (strcmp(options->output_path, "-") == 0 && (json_on_stdout || !options->quiet))
+    if (strcmp(options->output_path, "-") == 0 && (options_print_json(options) || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
 }

@@ -32,7 +32,7 @@ static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t l
         const Vec3 along = vec3_sub(direction, vec3_scale(normal, vec3_dot(normal, direction)));
         direction = vec3_normalize(vec3_add(along, vec3_scale(normal, height)));
     }
-    vec3_store(leaving->outward[ray], direction);
+    shape_store(leaving->outward[ray], direction);
 }
 
 // Counts two tries for each ray that left a surface: a reflected ray and a shadow ray. The ray
@@ -156,7 +156,7 @@ EXTREME(a_ray_that_leaves_a_sphere_never_meets_it_again_t38)
         const double away = radius * pow(10, random_between(&random, 0, 5));
         const Vec3 center = vec3_scale(random_direction(&random), away);
         SphereData sphere = {.radius = (float)radius};
-        vec3_store(sphere.center, center);
+        shape_store(sphere.center, center);
         for (size_t ray = 0; ray < leaving.rays.count; ray++) {
             const Vec3 from = random_direction(&random), to = random_direction(&random);
             if (rays_move_origin(ray, 64))

@@ -12,8 +12,8 @@ __extension__ typedef __float128 Quad;
 static SphereData sphere_of(Vec3 center, double radius)
 {
     SphereData data = {.radius = (float)radius};
-    vec3_store(data.center, center);
-    vec3_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
+    shape_store(data.center, center);
+    shape_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
     data.radius_low = (float)(radius - (double)data.radius);
     return data;
 }

@@ -13,7 +13,7 @@ static Mesh smooth_globe(void)
     Mesh globe = shape_bumpy(&random, vec3(0, 0, 0));
     globe.normals = require_memory(globe.vertex_count, sizeof *globe.normals);
     for (size_t vertex = 0; vertex < globe.vertex_count; vertex++)
-        vec3_store(globe.normals[vertex], shape_vertex(&globe, vertex));
+        shape_store(globe.normals[vertex], shape_vertex(&globe, vertex));
     return globe;
 }
 

@@ -19,7 +19,7 @@ static TestRay along_an_axis(Vec3 through, Random *random)
     const double sign = random_below(random, 2) == 0 ? -1 : 1;
     const Vec3 step = {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
     TestRay ray = ray_between(vec3_sub(through, vec3_scale(step, 2)), through);
-    vec3_store(ray.direction, step);
+    shape_store(ray.direction, step);
     return ray;
 }
 

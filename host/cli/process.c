@@ -3,9 +3,11 @@
 // tiles. Before the first tile, a signal ends the process, as compilation cannot be interrupted.
 #include "cli/process.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
@@ -56,4 +58,43 @@ void stop_wait_for_tiles(void)
 int stop_signal(void)
 {
     return stopped_by;
+}
+
+// RLIMIT_STACK bounds the main thread's stack and sets the default for other threads.
+#define STACK_LEAST ((rlim_t)8 << 20)
+#define STACK_SIZE  ((size_t)16 << 20)
+
+typedef struct {
+    void (*work)(void *context);
+    void *context;
+} Task;
+
+static void *run_task(void *context)
+{
+    const Task *task = context;
+    task->work(task->context);
+    return NULL;
+}
+
+static bool run_on_thread(Task *task)
+{
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    pthread_setattr_default_np(&attributes);
+    const bool ok = pthread_create(&thread, &attributes, run_task, task) == 0;
+    pthread_attr_destroy(&attributes);
+    if (ok)
+        pthread_join(thread, NULL);
+    return ok;
+}
+
+void stack_run(void (*work)(void *context), void *context)
+{
+    struct rlimit limit;
+    Task task = {work, context};
+    const bool is_small = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LEAST;
+    if (!is_small || !run_on_thread(&task))
+        work(context);
 }
