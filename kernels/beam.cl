@@ -167,7 +167,7 @@ static inline void walk_tree(Beam *beam)
     uint slot;
     beam->stack.count = 0;
     expand_node(beam, 0, searching);
-    while (pop_child(&beam->stack, reach, &slot)) {
+    while (searching != 0 && pop_child(&beam->stack, reach, &slot)) {
         uint bits[PACKETS];
         const uint parents = beam->inside[beam->stack.count] & searching;
         const uint packets = packets_entering(beam, slot, parents, bits);
@@ -203,7 +203,7 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     beam->kind = rays->kind;
     for (uint number = 0; number < beam->count; number++) {
         packet_prepare(&beam->packets[number], tracer, &rays[number]);
-        beam->live[number] = beam->packets[number].active;
+        beam->live[number] = lane_bits(rays[number].active);
         update_packet(beam, number);
     }
     beam->bounds = bounds_over(beam->packets, (1u << beam->count) - 1);

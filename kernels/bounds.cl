@@ -125,8 +125,9 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
     return (bounds->axes[axis].negative ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
-// Returns bits of the triangles that some ray may hit before `reach`: a third of a block's.
-// Testing one triangle against all lanes costs as much as this call.
+// Returns bits of the triangles that some ray may hit before `reach`: a third of a block's. Testing
+// one triangle against all lanes costs as much as this call. Sharing the bounds' comparison with
+// children_near makes pictures 2 to 4 % slower.
 static inline uint triangles_near(global const TriangleBlock *block, const Bounds *bounds,
                                   float reach)
 {

@@ -10,14 +10,12 @@
 
 typedef struct {
     Search rays;   // inactive lanes copy an active one
-    uint active;   // bits of the lanes with a ray
     bool one_axis; // all rays have the same longest axis
     uint axes[3];  // if so, the shear's x, y and z
 } Packet;
 
 static inline void packet_prepare(Packet *packet, const Tracer *tracer, const Ray *ray)
 {
-    packet->active = lane_bits(ray->active);
     packet->rays = search_along(tracer, ray);
     const ShearAxes axes = packet->rays.axes;
     packet->axes[0] = lane_uint(&axes.x, 0);

@@ -18,12 +18,10 @@ typedef struct {
     BuildCounts *counts; // by subtree
 } Whole;
 
-static void number_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void number_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Whole *whole = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)whole->build.triangles->count);
-    (void)worker;
-    for (uint32_t place = chunk * CHUNK_ELEMENTS; place < end; place++)
+    for (uint32_t place = first; place < end; place++)
         whole->build.bvh->order[place] = place;
 }
 
@@ -109,7 +107,7 @@ static bool build_all(Whole *whole, BvhBuilder builder, Error *error)
     bvh->order = memory_raw(total, sizeof *bvh->order, error);
     if (bvh->nodes == NULL || bvh->order == NULL)
         return false;
-    thread_pool_run(whole->pool, chunk_count(total), number_chunk, whole);
+    thread_pool_share(whole->pool, total, CHUNK_ELEMENTS, number_chunk, whole);
     // The midpoint split is defined on triangles, so it cannot divide cells.
     const bool ok = builder == BVH_MIDPOINT
                         ? array_push(&whole->upper.subtrees, root, error)

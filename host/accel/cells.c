@@ -2,7 +2,7 @@
 // Sorts triangles by the grid cell of their center, with a radix sort of two passes. Threads
 // process chunks of triangles. Prefix sums over digits and chunks give each chunk its own
 // destinations, which keeps the sort stable.
-#include "accel/cells.h"
+#include "accel/upper.h"
 
 #include <stdlib.h>
 
@@ -36,18 +36,16 @@ static Bounds bounds_of(const Sorting *sorting, uint32_t number)
     return bounds_of_triangle(sorting->source.triangles, number);
 }
 
-static void measure_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void measure_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
     Bounds centers = bounds_empty();
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+    for (uint32_t i = first; i < end; i++) {
         const Bounds box = bounds_of(sorting, sorting->source.numbers[i]);
         const Bounds center = bounds_of_center(&box);
         bounds_unite(&centers, &center);
     }
-    sorting->centers[chunk] = centers;
+    sorting->centers[first / CHUNK_ELEMENTS] = centers;
 }
 
 // Returns a grid of cubic cells, or of one cell if all centers are equal.
@@ -67,13 +65,11 @@ static Grid grid_of(const Bounds *centers)
     return grid;
 }
 
-static void key_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void key_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
     const Grid *grid = &sorting->grid;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+    for (uint32_t i = first; i < end; i++) {
         const uint32_t number = sorting->source.numbers[i];
         const Bounds box = bounds_of(sorting, number);
         const Float4 place = (box.low - box.negated_high - grid->origin) * grid->scale;
@@ -83,25 +79,21 @@ static void key_chunk(void *context, uint32_t chunk, uint32_t worker)
     }
 }
 
-static void count_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void count_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
-    uint32_t *counts = sorting->places[chunk];
-    (void)worker;
+    uint32_t *counts = sorting->places[first / CHUNK_ELEMENTS];
     for (uint32_t digit = 0; digit < DIGITS; digit++)
         counts[digit] = 0;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
+    for (uint32_t i = first; i < end; i++)
         counts[sorting->entries[0][i].cell >> sorting->shift & (DIGITS - 1)]++;
 }
 
-static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void move_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
-    uint32_t *places = sorting->places[chunk];
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+    uint32_t *places = sorting->places[first / CHUNK_ELEMENTS];
+    for (uint32_t i = first; i < end; i++) {
         const CellEntry entry = sorting->entries[0][i];
         sorting->entries[1][places[entry.cell >> sorting->shift & (DIGITS - 1)]++] = entry;
     }
@@ -110,7 +102,7 @@ static void move_chunk(void *context, uint32_t chunk, uint32_t worker)
 // Turns the counts in places into destinations, ordered by digit and then by chunk.
 static void place_digits(Sorting *sorting)
 {
-    const uint32_t chunks = chunk_count(sorting->source.count);
+    const uint32_t chunks = range_count(sorting->source.count, CHUNK_ELEMENTS);
     uint32_t place = 0;
     for (uint32_t digit = 0; digit < DIGITS; digit++)
         for (uint32_t chunk = 0; chunk < chunks; chunk++) {
@@ -122,11 +114,11 @@ static void place_digits(Sorting *sorting)
 
 static void sort(Sorting *sorting, ThreadPool *pool)
 {
-    const uint32_t chunks = chunk_count(sorting->source.count);
+    const uint32_t count = sorting->source.count;
     for (sorting->shift = 0; sorting->shift < 2 * DIGIT_BITS; sorting->shift += DIGIT_BITS) {
-        thread_pool_run(pool, chunks, count_chunk, sorting);
+        thread_pool_share(pool, count, CHUNK_ELEMENTS, count_chunk, sorting);
         place_digits(sorting);
-        thread_pool_run(pool, chunks, move_chunk, sorting);
+        thread_pool_share(pool, count, CHUNK_ELEMENTS, move_chunk, sorting);
         CellEntry *sorted = sorting->entries[1];
         sorting->entries[1] = sorting->entries[0];
         sorting->entries[0] = sorted;
@@ -138,15 +130,13 @@ static bool begins_cell(const CellEntry *entries, uint32_t place)
     return place == 0 || entries[place - 1].cell != entries[place].cell;
 }
 
-static void count_cells(void *context, uint32_t chunk, uint32_t worker)
+static void count_cells(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
     uint32_t count = 0;
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
+    for (uint32_t i = first; i < end; i++)
         count += begins_cell(sorting->entries[0], i);
-    sorting->cell_counts[chunk] = count;
+    sorting->cell_counts[first / CHUNK_ELEMENTS] = count;
 }
 
 // Makes the cell whose triangles begin at position `first`. Returns where the next cell begins.
@@ -169,24 +159,21 @@ static uint32_t make_cell(const Sorting *sorting, uint32_t number, uint32_t firs
     return place;
 }
 
-static void make_cells(void *context, uint32_t chunk, uint32_t worker)
+static void make_cells(void *context, uint32_t first, uint32_t end)
 {
     const Sorting *sorting = context;
-    const uint32_t end = chunk_end(chunk, sorting->source.count);
-    uint32_t number = sorting->cell_counts[chunk];
-    uint32_t place = chunk * CHUNK_ELEMENTS;
-    (void)worker;
-    while (place < end && !begins_cell(sorting->entries[0], place))
-        place++;
-    while (place < end)
-        place = make_cell(sorting, number++, place);
+    uint32_t number = sorting->cell_counts[first / CHUNK_ELEMENTS];
+    while (first < end && !begins_cell(sorting->entries[0], first))
+        first++;
+    while (first < end)
+        first = make_cell(sorting, number++, first);
 }
 
 static bool gather_cells(Sorting *sorting, ThreadPool *pool, Error *error)
 {
     Cells *cells = sorting->cells;
-    const uint32_t chunks = chunk_count(sorting->source.count);
-    thread_pool_run(pool, chunks, count_cells, sorting);
+    const uint32_t chunks = range_count(sorting->source.count, CHUNK_ELEMENTS);
+    thread_pool_share(pool, sorting->source.count, CHUNK_ELEMENTS, count_cells, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++) {
         const uint32_t count = sorting->cell_counts[chunk];
         sorting->cell_counts[chunk] = cells->count;
@@ -197,14 +184,14 @@ static bool gather_cells(Sorting *sorting, ThreadPool *pool, Error *error)
     cells->numbers = memory_raw(sorting->source.count, sizeof *cells->numbers, error);
     if (cells->items == NULL || cells->starts == NULL || cells->numbers == NULL)
         return false;
-    thread_pool_run(pool, chunks, make_cells, sorting);
+    thread_pool_share(pool, sorting->source.count, CHUNK_ELEMENTS, make_cells, sorting);
     cells->starts[cells->count] = sorting->source.count;
     return true;
 }
 
 static bool allocate(Sorting *sorting, Error *error)
 {
-    const uint32_t chunks = chunk_count(sorting->source.count);
+    const uint32_t chunks = range_count(sorting->source.count, CHUNK_ELEMENTS);
     sorting->entries[0] = memory_raw(sorting->source.count, sizeof(CellEntry), error);
     sorting->entries[1] = memory_raw(sorting->source.count, sizeof(CellEntry), error);
     sorting->centers = memory_raw(chunks, sizeof *sorting->centers, error);
@@ -216,13 +203,13 @@ static bool allocate(Sorting *sorting, Error *error)
 
 static bool sort_and_gather(Sorting *sorting, ThreadPool *pool, Error *error)
 {
-    const uint32_t chunks = chunk_count(sorting->source.count);
+    const uint32_t chunks = range_count(sorting->source.count, CHUNK_ELEMENTS);
     Bounds centers = bounds_empty();
-    thread_pool_run(pool, chunks, measure_chunk, sorting);
+    thread_pool_share(pool, sorting->source.count, CHUNK_ELEMENTS, measure_chunk, sorting);
     for (uint32_t chunk = 0; chunk < chunks; chunk++)
         bounds_unite(&centers, &sorting->centers[chunk]);
     sorting->grid = grid_of(&centers);
-    thread_pool_run(pool, chunks, key_chunk, sorting);
+    thread_pool_share(pool, sorting->source.count, CHUNK_ELEMENTS, key_chunk, sorting);
     sort(sorting, pool);
     return gather_cells(sorting, pool, error);
 }

@@ -5,7 +5,10 @@
 
 #include "accel/flat_parts.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 BvhLeaves flat_leaves(NodeLayout layout)
 {
@@ -32,13 +35,9 @@ static void flatten_sphere(SphereData *data, const Sphere *sphere,
 static void flatten_light(PointLight *data, const Light *light, const Normalization *normalization)
 {
     const Vec3 position = normalize_point(normalization, light->position);
-    data->position[0] = (float)position.x;
-    data->position[1] = (float)position.y;
-    data->position[2] = (float)position.z;
+    vec3_store(data->position, position);
     data->intensity = (float)light->intensity;
-    data->color[0] = (float)light->color.x;
-    data->color[1] = (float)light->color.y;
-    data->color[2] = (float)light->color.z;
+    vec3_store(data->color, light->color);
 }
 
 static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
@@ -55,9 +54,7 @@ static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
 
 static void flatten_constants(FlatScene *flat, const Scene *scene)
 {
-    flat->background[0] = (float)scene->background.x;
-    flat->background[1] = (float)scene->background.y;
-    flat->background[2] = (float)scene->background.z;
+    vec3_store(flat->background, scene->background);
     flat->ambient = (float)scene->ambient;
     for (uint32_t i = 0; i < flat->material_count; i++)
         flat->materials[i] = scene->materials.data[i];
@@ -102,15 +99,139 @@ void flat_free(FlatScene *flat)
     *flat = (FlatScene){0};
 }
 
-size_t flat_size(const FlatScene *flat)
+void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
 {
-    const size_t common =
-        flat->light_count * sizeof *flat->lights + flat->material_count * sizeof *flat->materials +
-        flat->sphere_count * sizeof *flat->spheres + flat->normals_count * sizeof *flat->normals;
-    if (flat->layout == NODES_WIDE)
-        return common + flat->node_count * sizeof *flat->wides +
-               flat->block_count * sizeof *flat->blocks +
-               flat->triangle_count * sizeof *flat->looks;
-    return common + flat->node_count * sizeof *flat->pairs +
-           flat->triangle_count * sizeof *flat->triangles;
+    const bool is_wide = flat->layout == NODES_WIDE;
+    const FlatArray nodes =
+        is_wide ? (FlatArray){"nodes", flat->wides, flat->node_count * sizeof *flat->wides}
+                : (FlatArray){"nodes", flat->pairs, flat->node_count * sizeof *flat->pairs};
+    const FlatArray triangles =
+        is_wide ? (FlatArray){"triangles", flat->blocks, flat->block_count * sizeof *flat->blocks}
+                : (FlatArray){"triangles", flat->triangles,
+                              flat->triangle_count * sizeof *flat->triangles};
+    const size_t looks = is_wide ? flat->triangle_count : 0;
+    const FlatArray all[FLAT_ARRAYS] = {
+        {"lights", flat->lights, flat->light_count * sizeof *flat->lights},
+        {"materials", flat->materials, flat->material_count * sizeof *flat->materials},
+        {"spheres", flat->spheres, flat->sphere_count * sizeof *flat->spheres},
+        nodes,
+        triangles,
+        {"looks", flat->looks, looks * sizeof *flat->looks},
+        {"normals", flat->normals, flat->normals_count * sizeof *flat->normals}};
+    memcpy(arrays, all, sizeof all);
+}
+
+// Adds the slack in fp64, where the sum is nearly exact. Rounds the sum outward to float.
+
+static float largest_coordinate(const Box *box)
+{
+    float largest = 0;
+    for (int axis = 0; axis < 3; axis++)
+        largest = fmaxf(largest, fmaxf(fabsf(box->low[axis]), fabsf(box->high[axis])));
+    return largest;
+}
+
+static float rounded_down(double value)
+{
+    const float nearest = (float)value;
+    return (double)nearest <= value ? nearest : nextafterf(nearest, -INFINITY);
+}
+
+static float rounded_up(double value)
+{
+    return -rounded_down(-value);
+}
+
+// Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
+// makes the device's culling conservative (kernels/search.cl).
+static Box box_grow(const Box *box)
+{
+    const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
+    Box grown;
+    for (int axis = 0; axis < 3; axis++) {
+        grown.low[axis] = rounded_down((double)box->low[axis] - slack);
+        grown.high[axis] = rounded_up((double)box->high[axis] + slack);
+    }
+    return grown;
+}
+
+void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
+{
+    const Box grown =
+        box != NULL ? box_grow(box)
+                    : (Box){{0x1p100f, 0x1p100f, 0x1p100f}, {-0x1p100f, -0x1p100f, -0x1p100f}};
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        planes[2 * axis * children + child] = grown.low[axis];
+        planes[(2 * axis + 1) * children + child] = grown.high[axis];
+    }
+}
+
+// The triangles and, for most callers, the tree are intermediate results.
+
+bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
+                   Error *error)
+{
+    CompileStages own = {0}, *kept = stages != NULL ? stages : &own;
+    const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
+    const FlatSource flat_source = {.scene = source->scene,
+                                    .triangles = &kept->triangles,
+                                    .bvh = &kept->bvh,
+                                    .normalization = source->normalization,
+                                    .layout = source->layout,
+                                    .pool = source->pool};
+    *kept = (CompileStages){0};
+    const bool ok = triangles_make(&kept->triangles, source->scene, source->normalization,
+                                   source->pool, error) &&
+                    (!source->has_tree ||
+                     bvh_build(&kept->bvh, &kept->triangles, &settings, source->pool, error)) &&
+                    flat_make(flat, &flat_source, error);
+    compile_stages_free(&own);
+    return ok;
+}
+
+void compile_stages_free(CompileStages *stages)
+{
+    triangles_free(&stages->triangles);
+    bvh_free(&stages->bvh);
+}
+
+// Inspects the materials that primitives use. A defined but unused material costs nothing.
+
+static void add_material(SceneTraits *traits, const Material *material)
+{
+    traits->mirrors |= material->reflectivity > 0;
+    traits->shaded |= material->shader != SHADER_SILHOUETTE;
+}
+
+static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
+{
+    return flat->layout == NODES_WIDE ? flat->looks[triangle].material
+                                      : flat->triangles[triangle].material & ~TRIANGLE_MARKS;
+}
+
+SceneTraits traits_of(const FlatScene *flat, bool statistics)
+{
+    SceneTraits traits = {.spheres = flat->sphere_count > 0,
+                          .triangles = flat->triangle_count > 0,
+                          .bvh = flat->node_count > 0,
+                          .statistics = statistics};
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        add_material(&traits, &flat->materials[flat->spheres[i].material]);
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        add_material(&traits, &flat->materials[material_of(flat, i)]);
+    return traits;
+}
+
+SceneTraits traits_general(bool statistics)
+{
+    return (SceneTraits){true, true, true, true, true, statistics};
+}
+
+void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])
+{
+    snprintf(options, TRAITS_OPTIONS_SIZE,
+             "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
+             "-DCLRT_SHADED=%d -DCLRT_STATISTICS=%d",
+             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
+             traits->statistics);
 }

@@ -44,5 +44,57 @@ BvhLeaves flat_leaves(NodeLayout layout);
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
-// Returns the size in bytes of all arrays that are uploaded to the device.
-size_t flat_size(const FlatScene *flat);
+// An array as the kernels read it.
+typedef struct {
+    const char *name; // for users
+    const void *data;
+    size_t bytes; // 0 if the scene needs none
+} FlatArray;
+
+#define FLAT_ARRAYS 7
+
+// Lists the arrays in the order of the kernels' arguments: lights, materials, spheres, nodes,
+// triangles, looks and normals.
+void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS]);
+
+// Scene -> FlatScene by all stages: triangles, tree, flattening.
+typedef struct {
+    const Scene *scene;
+    const Normalization *normalization; // of the scene
+    NodeLayout layout;
+    BvhBuilder builder;
+    bool has_tree;    // otherwise rays test every triangle
+    ThreadPool *pool; // shares the work; NULL for none
+} CompileSource;
+
+// The intermediate results of scene_compile.
+typedef struct {
+    Triangles triangles;
+    Bvh bvh;
+} CompileStages;
+
+// Fills flat, and *stages unless stages is NULL. The caller frees both.
+bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
+                   Error *error);
+void compile_stages_free(CompileStages *stages);
+
+// Derives SceneTraits, the switches of kernels/config.h, from a FlatScene. A program specialized by
+// them has no code for unused features. It renders the same picture as the general program.
+typedef struct {
+    bool spheres, triangles;
+    bool bvh;        // rays find triangles with a tree
+    bool mirrors;    // a used material reflects
+    bool shaded;     // a used material is more than a silhouette
+    bool statistics; // the kernels count rays and tests
+} SceneTraits;
+
+SceneTraits traits_of(const FlatScene *flat, bool statistics);
+
+// Returns the traits of the program that renders every scene. statistics is the user's choice and
+// does not depend on the scene.
+SceneTraits traits_general(bool statistics);
+
+#define TRAITS_OPTIONS_SIZE 160
+
+// Writes the compiler options that set the switches, as a zero-terminated string.
+void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE]);

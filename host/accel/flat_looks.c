@@ -21,8 +21,7 @@ static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
 
 static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
 {
-    const float *n = mesh->normals[triangle[corner]];
-    const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
+    const Vec3 normal = vec3_of_floats(mesh->normals[triangle[corner]]);
     return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
@@ -45,9 +44,7 @@ static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t 
     }
     const double scale = sign_of(order) * (extent > 0 ? scalbn(1, -ilogb(extent)) : 1);
     for (int corner = 0; corner < 3; corner++) {
-        data->normals[corner][0] = (float)(normals[corner].x * scale);
-        data->normals[corner][1] = (float)(normals[corner].y * scale);
-        data->normals[corner][2] = (float)(normals[corner].z * scale);
+        vec3_store(data->normals[corner], vec3_scale(normals[corner], scale));
         data->normals[corner][3] = 0;
     }
 }
@@ -94,16 +91,14 @@ static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uin
     return true;
 }
 
-static void make_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void make_chunk(void *context, uint32_t first, uint32_t end)
 {
     const ObjectLooks *looks = context;
     const MeshObject *object = looks->object;
     const Mesh *mesh = &object->mesh;
-    const uint32_t end = chunk_end(chunk, (uint32_t)mesh->triangle_count);
     const uint32_t material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
     const bool smooth = looks->normals != NULL;
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+    for (uint32_t i = first; i < end; i++) {
         const uint32_t *triangle = mesh->triangles[i];
         const CornerOrder *order = &corner_orders[looks->orders[i]];
         looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
@@ -137,7 +132,7 @@ bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
         ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
                              smooth ? flat->normals + flat->normals_count : NULL,
                              flat->normals_count};
-        thread_pool_run(source->pool, chunk_count(count), make_chunk, &looks);
+        thread_pool_share(source->pool, count, CHUNK_ELEMENTS, make_chunk, &looks);
         first += count;
         flat->normals_count += smooth ? count : 0;
     }

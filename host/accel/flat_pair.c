@@ -2,8 +2,6 @@
 // Numbers the inner nodes depth first. The depth of the tree bounds the recursion.
 #include "accel/flat_parts.h"
 
-#include "accel/box.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,25 +12,6 @@ uint32_t flat_pair_count(const Bvh *bvh)
     return bvh->node_count - bvh->leaf_count;
 }
 
-static void write_planes(BvhPair *pair, int child, const Box *box)
-{
-    const Box grown = box_grow(box);
-    for (int axis = 0; axis < 3; axis++) {
-        pair->planes[axis][0][child] = grown.low[axis];
-        pair->planes[axis][1][child] = grown.high[axis];
-    }
-}
-
-// Writes a missing child. Its planes are inverted, so no ray hits it.
-static void write_missing(BvhPair *pair, int child)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        pair->planes[axis][0][child] = 0x1p100f;
-        pair->planes[axis][1][child] = -0x1p100f;
-    }
-    pair->count[child] = 1;
-}
-
 // Writes an inner node as pairs[number], followed by the nodes below it, depth first. Returns the
 // number of pairs written so far.
 static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, const BvhNode *node)
@@ -40,7 +19,7 @@ static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, con
     uint32_t count = number + 1;
     for (int side = 0; side < 2; side++) {
         const BvhNode *child = &bvh->nodes[node->first + (uint32_t)side];
-        write_planes(&pairs[number], side, &child->box);
+        box_store(pairs[number].planes[0][0], 2, (uint32_t)side, &child->box);
         pairs[number].count[side] = child->count;
         pairs[number].first[side] = child->count > 0 ? child->first : count;
         if (child->count == 0)
@@ -57,10 +36,11 @@ void flat_pair_write(BvhPair *pairs, const Bvh *bvh)
         write_inner(pairs, 0, bvh, &bvh->nodes[0]);
         return;
     }
-    write_planes(&pairs[0], 0, &bvh->nodes[0].box);
+    box_store(pairs[0].planes[0][0], 2, 0, &bvh->nodes[0].box);
+    box_store(pairs[0].planes[0][0], 2, 1, NULL);
     pairs[0].first[0] = pairs[0].first[1] = 0;
     pairs[0].count[0] = bvh->nodes[0].count;
-    write_missing(&pairs[0], 1);
+    pairs[0].count[1] = 1;
 }
 
 static void place_triangles(FlatScene *flat, const FlatSource *source)

@@ -8,8 +8,6 @@
 // position. Nodes and blocks are in depth-first order.
 #include "accel/flat_parts.h"
 
-#include "accel/box.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -152,25 +150,6 @@ static bool count_node(Walk *walk, const Part *part, Error *error)
     return ok;
 }
 
-static void write_planes(BvhWide *wide, uint32_t child, const Box *box)
-{
-    const Box grown = box_grow(box);
-    for (int axis = 0; axis < 3; axis++) {
-        wide->planes[axis][0][child] = grown.low[axis];
-        wide->planes[axis][1][child] = grown.high[axis];
-    }
-}
-
-// Writes a missing child. Its planes are inverted, so no ray hits it.
-static void write_missing(BvhWide *wide, uint32_t child)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        wide->planes[axis][0][child] = 0x1p100f;
-        wide->planes[axis][1][child] = -0x1p100f;
-    }
-    wide->child[child] = 0;
-}
-
 // Fills block `number` with the triangles at [first, first + count) of Bvh::order or, without a
 // tree, of the file.
 static void fill_block(const Collapse *collapse, uint32_t number, uint32_t first, uint32_t count)
@@ -215,14 +194,16 @@ static uint32_t write_node(Walk *walk, const Part *part)
     memset(wide->padding, 0, sizeof wide->padding);
     wide->child_count = gather_children(collapse->source->bvh, parts);
     for (uint32_t child = 0; child < wide->child_count; child++) {
-        write_planes(wide, child, &parts[child].box);
+        box_store(wide->planes[0][0], WIDE, child, &parts[child].box);
         if (is_block(&parts[child]))
             wide->child[child] = write_block(walk, parts[child].first, parts[child].count);
         else
             wide->child[child] = write_node(walk, &parts[child]);
     }
-    for (uint32_t child = wide->child_count; child < WIDE; child++)
-        write_missing(wide, child);
+    for (uint32_t child = wide->child_count; child < WIDE; child++) {
+        box_store(wide->planes[0][0], WIDE, child, NULL);
+        wide->child[child] = 0;
+    }
     return number;
 }
 
@@ -286,12 +267,10 @@ static bool collapse_tree(Collapse *collapse, Error *error)
     return true;
 }
 
-static void write_list_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void write_list_chunk(void *context, uint32_t first, uint32_t end)
 {
     const Collapse *collapse = context;
-    const uint32_t end = chunk_end(chunk, collapse->flat->triangle_count);
-    (void)worker;
-    for (uint32_t first = chunk * CHUNK_ELEMENTS; first < end; first += WIDE)
+    for (; first < end; first += WIDE)
         fill_block(collapse, first / WIDE, first, end - first < WIDE ? end - first : WIDE);
 }
 
@@ -301,17 +280,15 @@ static bool write_list(Collapse *collapse, Error *error)
     flat->block_count = (flat->triangle_count + WIDE - 1) / WIDE;
     if (!allocate(flat, error))
         return false;
-    thread_pool_run(collapse->source->pool, chunk_count(flat->triangle_count), write_list_chunk,
-                    collapse);
+    thread_pool_share(collapse->source->pool, flat->triangle_count, CHUNK_ELEMENTS,
+                      write_list_chunk, collapse);
     return true;
 }
 
-static void unmark_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void unmark_chunk(void *context, uint32_t first, uint32_t end)
 {
     const FlatScene *flat = context;
-    const uint32_t end = chunk_end(chunk, flat->triangle_count);
-    (void)worker;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++)
+    for (uint32_t i = first; i < end; i++)
         flat->looks[i].material &= ~TRIANGLE_MARKS;
 }
 
@@ -322,6 +299,6 @@ bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
                                                 : write_list(&collapse, error);
     free(collapse.branches.memory);
     if (ok)
-        thread_pool_run(source->pool, chunk_count(flat->triangle_count), unmark_chunk, flat);
+        thread_pool_share(source->pool, flat->triangle_count, CHUNK_ELEMENTS, unmark_chunk, flat);
     return ok;
 }

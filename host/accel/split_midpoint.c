@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The course's split: a plane through the middle of the box, across its longest axis first. The
 // split rejects an axis if a side stays empty or a child is hardly smaller than its parent.
-#include "accel/split.h"
+#include "accel/build.h"
 
 #define LEAF_TRIANGLES    4
 #define SMALLEST_PROGRESS 0.9f // largest extent of a child, as a fraction of its parent's
@@ -29,7 +29,6 @@ static void axes_by_extent(const Bounds *box, int axes[3])
             }
 }
 
-// Returns whether both sides get items and are smaller than the whole.
 static bool makes_progress(const BuildRange *range, Split *split)
 {
     const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);

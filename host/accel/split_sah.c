@@ -2,7 +2,7 @@
 // The binned surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
 // hierarchies", 2007). It takes the plane with the lowest expected cost per ray, out of up to 15
 // per axis. A small node becomes a leaf if no plane is cheaper than testing its triangles.
-#include "accel/split.h"
+#include "accel/build.h"
 
 #define BINS 16
 

@@ -44,15 +44,12 @@ static float without_negative_zero(float value)
     return value + 0.0f;
 }
 
-static void store_points(void *context, uint32_t chunk, uint32_t worker)
+static void store_points(void *context, uint32_t first, uint32_t end)
 {
     const Storing *storing = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)storing->mesh->vertex_count);
-    (void)worker;
-    for (uint32_t vertex = chunk * CHUNK_ELEMENTS; vertex < end; vertex++) {
-        const double *position = storing->mesh->positions[vertex];
-        const Vec3 p =
-            normalize_point(storing->normalization, vec3(position[0], position[1], position[2]));
+    for (uint32_t vertex = first; vertex < end; vertex++) {
+        const Vec3 p = normalize_point(storing->normalization,
+                                       vec3_of_doubles(storing->mesh->positions[vertex]));
         float *point = storing->points[vertex];
         point[0] = without_negative_zero((float)p.x);
         point[1] = without_negative_zero((float)p.y);
@@ -61,12 +58,10 @@ static void store_points(void *context, uint32_t chunk, uint32_t worker)
     }
 }
 
-static void store_corners(void *context, uint32_t chunk, uint32_t worker)
+static void store_corners(void *context, uint32_t first, uint32_t end)
 {
     const Storing *storing = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)storing->mesh->triangle_count);
-    (void)worker;
-    for (uint32_t triangle = chunk * CHUNK_ELEMENTS; triangle < end; triangle++) {
+    for (uint32_t triangle = first; triangle < end; triangle++) {
         const uint32_t *vertices = storing->mesh->triangles[triangle];
         for (int corner = 0; corner < 3; corner++)
             storing->corners[triangle][corner] = storing->first_point + vertices[corner];
@@ -85,8 +80,9 @@ static void store_mesh(Triangles *triangles, const Mesh *mesh, const Normalizati
                        triangles->corners + triangles->count,
                        triangles->orders + triangles->count,
                        (uint32_t)triangles->point_count};
-    thread_pool_run(pool, chunk_count((uint32_t)mesh->vertex_count), store_points, &storing);
-    thread_pool_run(pool, chunk_count((uint32_t)mesh->triangle_count), store_corners, &storing);
+    thread_pool_share(pool, (uint32_t)mesh->vertex_count, CHUNK_ELEMENTS, store_points, &storing);
+    thread_pool_share(pool, (uint32_t)mesh->triangle_count, CHUNK_ELEMENTS, store_corners,
+                      &storing);
     triangles->point_count += mesh->vertex_count;
     triangles->count += mesh->triangle_count;
 }

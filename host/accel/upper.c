@@ -3,8 +3,6 @@
 // few cells but many triangles gets its own, finer grid.
 #include "accel/upper.h"
 
-#include "accel/cells.h"
-
 #include <stdlib.h>
 #include <string.h>
 

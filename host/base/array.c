@@ -2,10 +2,32 @@
 // Grows ARRAYs by doubling, and reports failed allocations through Error.
 #include "base/array.h"
 
+#include "base/error.h"
+
+#include <stdarg.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+
+// Formats the first failure into the caller's Error.
+
+bool error_set(Error *error, const char *format, ...)
+{
+    if (error->text[0] == '\0') {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->text, sizeof error->text, format, arguments);
+        va_end(arguments);
+    }
+    return false;
+}
+
+bool error_out_of_memory(Error *error, unsigned long long bytes)
+{
+    return error_set(error, "out of memory: %llu bytes could not be allocated", bytes);
+}
 
 // Devices that read host arrays in place need this alignment for their widest vectors.
 #define ALIGNMENT ((size_t)64)
@@ -75,4 +97,11 @@ void *memory_zeroed(size_t count, size_t size, Error *error)
 {
     void *memory = memory_raw(count, size, error);
     return memory != NULL ? memset(memory, 0, byte_count(count, size)) : NULL;
+}
+
+char *text_copy(const char *text, Error *error)
+{
+    const size_t size = strlen(text) + 1;
+    char *copy = memory_raw(size, 1, error);
+    return copy != NULL ? memcpy(copy, text, size) : NULL;
 }

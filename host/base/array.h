@@ -32,5 +32,8 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
+// Returns a copy of text, which the caller frees, or NULL if memory runs out.
+char *text_copy(const char *text, Error *error);
+
 // Like memory_raw, but without the alignment and without huge pages: for mostly untouched arrays.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -18,25 +18,6 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-typedef enum { END_PARENT, END_CHILD } SocketEnd;
-
-static bool open_sockets(int ends[2])
-{
-    return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
-}
-
-// Keeps the parent's end if the child has started.
-static bool keep_child(ChildProcess *child, pid_t id, const int ends[2])
-{
-    close(ends[END_CHILD]);
-    *child = (ChildProcess){0};
-    if (id > 0)
-        *child = (ChildProcess){id, ends[END_PARENT]};
-    else
-        close(ends[END_PARENT]);
-    return id > 0;
-}
-
 static int spawn(pid_t *id, const char *program, const char *argument, int output)
 {
     posix_spawn_file_actions_t actions;
@@ -63,12 +44,18 @@ static int spawn(pid_t *id, const char *program, const char *argument, int outpu
 
 bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause)
 {
-    int ends[2];
+    int ends[2]; // the parent's and the child's
     pid_t id = 0;
-    if (!open_sockets(ends))
+    *child = (ChildProcess){0};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return error_set(cause, "%s", strerror(errno));
-    const int fault = spawn(&id, program, argument, ends[END_CHILD]);
-    return keep_child(child, fault == 0 ? id : 0, ends) || error_set(cause, "%s", strerror(fault));
+    const int fault = spawn(&id, program, argument, ends[1]);
+    close(ends[1]);
+    if (fault == 0)
+        *child = (ChildProcess){id, ends[0]};
+    else
+        close(ends[0]);
+    return fault == 0 || error_set(cause, "%s", strerror(fault));
 }
 
 int child_end(ChildProcess *child)

@@ -12,15 +12,6 @@
 
 #define LINKS_MOST 40 // links in a chain; the system follows no more
 
-static char *copy_text(const char *text, Error *error)
-{
-    const size_t size = strlen(text) + 1;
-    char *copy = memory_raw(size, 1, error);
-    if (copy != NULL)
-        memcpy(copy, text, size);
-    return copy;
-}
-
 static void take_identity(PlannedFile *file, const struct stat *status)
 {
     file->device = (uint64_t)status->st_dev;
@@ -43,7 +34,7 @@ static char *read_link(const char *path, Error *error)
 // of its links. The caller frees the result.
 static char *follow_links(const char *path, Error *error)
 {
-    char *end = copy_text(path, error);
+    char *end = text_copy(path, error);
     for (int links = 0; end != NULL && links < LINKS_MOST; links++) {
         char *next = read_link(end, error);
         if (next == NULL)
@@ -62,7 +53,7 @@ static bool identify_new(PlannedFile *file, Error *error)
     if (path == NULL)
         return false;
     const char *slash = strrchr(path, '/');
-    file->name = copy_text(slash != NULL ? slash + 1 : path, error);
+    file->name = text_copy(slash != NULL ? slash + 1 : path, error);
     char *folder = file_path_beside(path, ".", error);
     if (folder != NULL && stat(folder, &status) == 0)
         take_identity(file, &status);
@@ -90,7 +81,7 @@ bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *pa
     const bool exists = stat_file(path, use, &status);
     if (exists ? !S_ISREG(status.st_mode) : use == FILE_INPUT)
         return true;
-    PlannedFile file = {.use = use, .role = role, .path = copy_text(path, error)};
+    PlannedFile file = {.use = use, .role = role, .path = text_copy(path, error)};
     if (exists)
         take_identity(&file, &status);
     const bool ok = file.path != NULL && (exists || identify_new(&file, error));

@@ -2,8 +2,113 @@
 // Queries the system at every call, because affinity and quotas can change while a process runs.
 #include "base/processors.h"
 
+#include <math.h>
 #include <sched.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
 #include <unistd.h>
+
+// In version 2, /proc/self/cgroup has one line "0::/path", and each group has a file cpu.max. In
+// version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group has a file
+// for the quota and one for the period. In a container, the path may not exist below the mount,
+// because the mount begins at the container's group. The search therefore reads every parent folder
+// up to the mount.
+
+#define PATH_SIZE 4096
+
+static bool read_numbers(const char *folder, const char *name, int count, double *numbers)
+{
+    char path[2 * PATH_SIZE + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    if (file == NULL)
+        return false;
+    const int found = count == 2 ? fscanf(file, "%lf %lf", &numbers[0], &numbers[1])
+                                 : fscanf(file, "%lf", &numbers[0]);
+    fclose(file);
+    return found == count;
+}
+
+// Returns the group's quota in processors, rounded up. A quota of "max" or -1 means no limit, for
+// which it returns UINT32_MAX.
+static uint32_t group_grant(const char *folder)
+{
+    double time[2]; // quota and period
+    if (!read_numbers(folder, "cpu.max", 2, time) &&
+        !(read_numbers(folder, "cpu.cfs_quota_us", 1, &time[0]) &&
+          read_numbers(folder, "cpu.cfs_period_us", 1, &time[1])))
+        return UINT32_MAX;
+    const double processors = ceil(time[0] / time[1]);
+    return processors >= 1 && processors < 65536 ? (uint32_t)processors : UINT32_MAX;
+}
+
+static uint32_t least_grant(const char *mount, const char *group)
+{
+    char folder[2 * PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    const size_t root = strlen(mount);
+    snprintf(folder, sizeof folder, "%s%s", mount, group);
+    for (;;) {
+        const uint32_t grant = group_grant(folder);
+        if (grant < least)
+            least = grant;
+        char *slash = strrchr(folder + root, '/');
+        if (slash == NULL)
+            return least;
+        *slash = '\0';
+    }
+}
+
+static bool names_cpu(char *controllers)
+{
+    for (char *name; (name = strsep(&controllers, ",")) != NULL;)
+        if (strcmp(name, "cpu") == 0)
+            return true;
+    return false;
+}
+
+// Returns the least quota of a version 1 group. Its controller is mounted alone, as "cpu", or
+// together with others, as "cpu,cpuacct".
+static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
+{
+    char folder[PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    char names[2][128] = {"cpu", ""};
+    snprintf(names[1], sizeof names[1], "%s", controllers);
+    if (!names_cpu(controllers))
+        return least;
+    for (int i = 0; i < 2; i++) {
+        snprintf(folder, sizeof folder, "%s/%s", mount, names[i]);
+        const uint32_t grant = least_grant(folder, group);
+        if (grant < least)
+            least = grant;
+    }
+    return least;
+}
+
+uint32_t cgroup_processors(const char *membership, const char *mount)
+{
+    char line[PATH_SIZE];
+    uint32_t least = UINT32_MAX;
+    FILE *file = fopen(membership, "r");
+    if (file == NULL)
+        return least;
+    while (fgets(line, sizeof line, file) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        char *group = line;
+        strsep(&group, ":");
+        char *controllers = strsep(&group, ":");
+        if (group == NULL)
+            continue;
+        const uint32_t grant = controllers[0] == '\0' ? least_grant(mount, group)
+                                                      : controller_grant(mount, controllers, group);
+        if (grant < least)
+            least = grant;
+    }
+    fclose(file);
+    return least;
+}
 
 uint32_t processors_present(void)
 {

@@ -134,3 +134,24 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
     while (atomic_load(&pool->busy) > 0)
         sched_yield();
 }
+
+typedef struct {
+    ThreadPoolPart *work;
+    void *context;
+    uint32_t count, part;
+} Ranges;
+
+static void run_range(void *context, uint32_t task, uint32_t worker)
+{
+    (void)worker;
+    const Ranges *ranges = context;
+    const uint32_t first = task * ranges->part, left = ranges->count - first;
+    ranges->work(ranges->context, first, first + (left < ranges->part ? left : ranges->part));
+}
+
+void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
+                       void *context)
+{
+    Ranges ranges = {work, context, count, part};
+    thread_pool_run(pool, range_count(count, part), run_range, &ranges);
+}

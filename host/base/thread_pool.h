@@ -21,17 +21,19 @@ uint32_t thread_pool_size(const ThreadPool *pool);
 // finished. `work` must not use the pool.
 void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, void *context);
 
-// The number of array elements in a chunk, which one task processes.
+// Processes elements first to end - 1.
+typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
+
+// Calls `work` for ranges of `part` consecutive elements, of which the last may be shorter, like
+// thread_pool_run for tasks. The ranges cover elements 0 to count - 1.
+void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
+                       void *context);
+
+// A usual number of elements in a range.
 #define CHUNK_ELEMENTS 16384
 
-static inline uint32_t chunk_count(uint32_t elements)
+// Returns the number of ranges of `part` elements.
+static inline uint32_t range_count(uint32_t elements, uint32_t part)
 {
-    return elements / CHUNK_ELEMENTS + (elements % CHUNK_ELEMENTS > 0);
-}
-
-// Returns the index after the chunk's last element. The first is chunk * CHUNK_ELEMENTS.
-static inline uint32_t chunk_end(uint32_t chunk, uint32_t elements)
-{
-    const uint32_t first = chunk * CHUNK_ELEMENTS;
-    return elements - first < CHUNK_ELEMENTS ? elements : first + CHUNK_ELEMENTS;
+    return elements / part + (elements % part > 0);
 }

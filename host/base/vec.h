@@ -13,6 +13,24 @@ static inline Vec3 vec3(double x, double y, double z)
     return (Vec3){x, y, z};
 }
 
+static inline Vec3 vec3_of_floats(const float v[3])
+{
+    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
+}
+
+static inline Vec3 vec3_of_doubles(const double v[3])
+{
+    return (Vec3){v[0], v[1], v[2]};
+}
+
+// Rounds the components to float.
+static inline void vec3_store(float out[3], Vec3 v)
+{
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
 static inline Vec3 vec3_add(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x + b.x, a.y + b.y, a.z + b.z};

@@ -47,8 +47,7 @@ typedef struct {
 
 static Vec3 point_of(const Triangles *triangles, uint32_t vertex)
 {
-    const float *point = triangles->points[vertex];
-    return vec3((double)point[0], (double)point[1], (double)point[2]);
+    return vec3_of_floats(triangles->points[vertex]);
 }
 
 static Vec3 corner_of(const Triangles *triangles, uint32_t triangle, int corner)
@@ -148,7 +147,6 @@ static void aim_at_points(AimBuilder *builder)
             keep(builder, point_of(source->triangles, point), &builder->stars[point]);
 }
 
-// Returns the mean normal, the facing and the size of the triangles at an edge.
 static Star edge_star(const AimSource *source, const EdgeSide *sides, size_t count)
 {
     Star star = {.facing = 1, .size = INFINITY, .triangle = sides[0].triangle};

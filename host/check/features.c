@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares squared lengths, so only a new minimum needs a square root.
-#include "check/features.h"
+#include "check/census.h"
 
 #define FLOAT_DIGITS 23 // bits of a float's fraction
 
@@ -12,8 +12,7 @@ static Shape shape_of(const Mesh *mesh, size_t triangle)
 {
     Shape shape;
     for (int corner = 0; corner < 3; corner++) {
-        const double *p = mesh->positions[mesh->triangles[triangle][corner]];
-        shape.corners[corner] = vec3(p[0], p[1], p[2]);
+        shape.corners[corner] = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
     }
     return shape;
 }
@@ -36,7 +35,8 @@ static bool is_flat(const Shape *shape)
     return vec3_extent(doubled_area(shape)) == 0;
 }
 
-bool features_is_flat(const Mesh *mesh, size_t triangle)
+// Returns whether the triangle's corners lie on one line, up to the rounding of fp64.
+static bool features_is_flat(const Mesh *mesh, size_t triangle)
 {
     const Shape shape = shape_of(mesh, triangle);
     return is_flat(&shape);
@@ -146,36 +146,34 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
+// Fails if the object has triangles with the fault. text completes the message.
+static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
+                     const char *text, Error *error)
+{
+    return fault.count == 0 || error_set(error, "%s: triangle %zu, the first of %zu such, %s",
+                                         scene->inputs.data[object->input],
+                                         fault.first + object->number_before, fault.count, text);
+}
+
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)
 {
-    for (size_t object = 0; object < scene->objects.count; object++) {
-        const MeshObject *owner = &scene->objects.data[object];
-        const MeshFault *equal = &owner->mesh.equal_corners;
-        if (equal->count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has two equal corners and "
-                             "is left out",
-                             scene->inputs.data[owner->input], equal->first + owner->number_before,
-                             equal->count);
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        ok = has_none(scene, object, object->mesh.equal_corners,
+                      "has two equal corners and is left out", error);
     }
-    return true;
+    return ok;
 }
 
 bool bad_geometry_none(const Scene *scene, Error *error)
 {
-    for (size_t object = 0; object < scene->objects.count; object++) {
-        const MeshObject *owner = &scene->objects.data[object];
-        const char *path = scene->inputs.data[owner->input];
-        const MeshFault *equal = &owner->mesh.equal_corners;
-        if (equal->count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has two equal corners", path,
-                             equal->first + owner->number_before, equal->count);
-        const MeshFault flat = flat_triangles(&owner->mesh);
-        if (flat.count > 0)
-            return error_set(error,
-                             "%s: triangle %zu, the first of %zu such, has its corners on a line",
-                             path, flat.first + owner->number_before, flat.count);
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        ok = has_none(scene, object, object->mesh.equal_corners, "has two equal corners", error) &&
+             has_none(scene, object, flat_triangles(&object->mesh), "has its corners on a line",
+                      error);
     }
-    return true;
+    return ok;
 }

@@ -8,29 +8,10 @@
 // A mesh in every stage of preparation for the device, and its aims.
 typedef struct {
     Scene scene; // borrows the mesh
-    Triangles triangles;
-    Bvh bvh;
+    CompileStages stages;
     FlatScene flat;
     Aims aims;
 } StagedMesh;
-
-static bool stage_mesh(StagedMesh *staged, const RayCaster *caster, const LeakSetting *setting,
-                       Error *error)
-{
-    const Scene *scene = &staged->scene;
-    const BvhSettings tree = {setting->builder, flat_leaves(caster->nodes)};
-    const FlatSource source = {.scene = scene,
-                               .triangles = &staged->triangles,
-                               .bvh = &staged->bvh,
-                               .normalization = setting->normalization,
-                               .layout = caster->nodes,
-                               .pool = setting->pool};
-    return triangles_make(&staged->triangles, scene, setting->normalization, setting->pool,
-                          error) &&
-           (!setting->uses_bvh ||
-            bvh_build(&staged->bvh, &staged->triangles, &tree, setting->pool, error)) &&
-           flat_make(&staged->flat, &source, error);
-}
 
 static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *setting,
                       Error *error)
@@ -38,7 +19,7 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *s
     Weld weld = {0};
     Edges edges = {0};
     const AimSource source = {.mesh = mesh,
-                              .triangles = &staged->triangles,
+                              .triangles = &staged->stages.triangles,
                               .weld = &weld,
                               .edges = &edges,
                               .is_inside_out = setting->closedness->is_inside_out};
@@ -99,18 +80,23 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const Le
 {
     StagedMesh staged = {0};
     MeshObject object = {.mesh = *mesh, .two_sided = true};
+    const CompileSource source = {.scene = &staged.scene,
+                                  .normalization = setting->normalization,
+                                  .layout = caster->nodes,
+                                  .builder = setting->builder,
+                                  .has_tree = setting->uses_bvh,
+                                  .pool = setting->pool};
     *count = (LeakCount){0};
     bool ok =
         scene_init(&staged.scene, error) && array_push(&staged.scene.objects, object, error) &&
-        stage_mesh(&staged, caster, setting, error) && make_aims(&staged, mesh, setting, error) &&
-        ray_caster_load(caster, &staged.flat, error) &&
+        scene_compile(&staged.flat, &staged.stages, &source, error) &&
+        make_aims(&staged, mesh, setting, error) && ray_caster_load(caster, &staged.flat, error) &&
         trace_aims(&staged.aims, count, caster, error);
     sum_up(&staged.aims, count);
     ray_caster_unload(caster);
     aims_free(&staged.aims);
     flat_free(&staged.flat);
-    bvh_free(&staged.bvh);
-    triangles_free(&staged.triangles);
+    compile_stages_free(&staged.stages);
     if (staged.scene.objects.count > 0)
         staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller owns the mesh
     scene_free(&staged.scene);

@@ -2,9 +2,9 @@
 // PoCL compiles a kernel again for each local size. This must happen under the lock of the kernel
 // cache. The first launch therefore has no rays and runs under the lock, and all later launches
 // have the same size.
-#include "check/ray_caster.h"
+#include "check/leaks.h"
 
-#include "device/device.h"
+#include "device/buffer.h"
 
 #define LAUNCH_RAYS 65536
 
@@ -16,35 +16,23 @@ extern const char rays_source[];
 
 void ray_caster_unload(RayCaster *caster)
 {
-    cl_mem *buffers[] = {&caster->spheres, &caster->nodes_array, &caster->faces};
-    for (int i = 0; i < 3; i++) {
-        if (*buffers[i] != NULL)
-            clReleaseMemObject(*buffers[i]);
-        *buffers[i] = NULL;
-    }
+    for (int i = 0; i < CASTER_ARRAYS; i++)
+        device_release(&caster->arrays[i]);
 }
 
 bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error)
 {
-    const bool is_wide = flat->layout == NODES_WIDE;
+    bool ok = true;
+    FlatArray arrays[FLAT_ARRAYS];
+    const FlatArray *first = &arrays[CASTER_FIRST];
     ray_caster_unload(caster);
+    flat_arrays(flat, arrays);
     caster->frame = (FrameData){.sphere_count = flat->sphere_count,
                                 .triangle_count = flat->triangle_count,
                                 .uses_bvh = flat->node_count > 0};
-    const Device *device = caster->device;
-    const size_t nodes = flat->node_count;
-    if (!upload_array(device, flat->spheres, flat->sphere_count * sizeof *flat->spheres,
-                      &caster->spheres, error))
-        return false;
-    if (is_wide)
-        return upload_array(device, flat->wides, nodes * sizeof *flat->wides, &caster->nodes_array,
-                            error) &&
-               upload_array(device, flat->blocks, flat->block_count * sizeof *flat->blocks,
-                            &caster->faces, error);
-    return upload_array(device, flat->pairs, nodes * sizeof *flat->pairs, &caster->nodes_array,
-                        error) &&
-           upload_array(device, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
-                        &caster->faces, error);
+    for (int i = 0; ok && i < CASTER_ARRAYS; i++)
+        ok = upload_array(caster->device, &first[i], &caster->arrays[i], error);
+    return ok;
 }
 
 static bool launch(const RayCaster *caster, cl_uint count, Error *error)
@@ -54,9 +42,8 @@ static bool launch(const RayCaster *caster, cl_uint count, Error *error)
     const size_t group = is_wide ? 4 : 64;
     cl_kernel kernel = caster->kernel;
     cl_int status = clSetKernelArg(kernel, 0, sizeof caster->frame, &caster->frame);
-    status |= clSetKernelArg(kernel, 1, sizeof(cl_mem), &caster->spheres);
-    status |= clSetKernelArg(kernel, 2, sizeof(cl_mem), &caster->nodes_array);
-    status |= clSetKernelArg(kernel, 3, sizeof(cl_mem), &caster->faces);
+    for (cl_uint i = 0; i < CASTER_ARRAYS; i++)
+        status |= clSetKernelArg(kernel, i + 1, sizeof(cl_mem), &caster->arrays[i]);
     status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &caster->rays);
     status |= clSetKernelArg(kernel, 5, sizeof count, &count);
     status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &caster->distances);
@@ -69,15 +56,8 @@ static bool launch(const RayCaster *caster, cl_uint count, Error *error)
 
 static bool make_room(RayCaster *caster, Error *error)
 {
-    cl_int status;
-    cl_context context = caster->device->context;
-    caster->rays =
-        clCreateBuffer(context, CL_MEM_READ_ONLY, LAUNCH_RAYS * sizeof(AimRay), NULL, &status);
-    if (!cl_succeeded(status, "allocate room for rays", error))
-        return false;
-    caster->distances =
-        clCreateBuffer(context, CL_MEM_WRITE_ONLY, LAUNCH_RAYS * sizeof(float), NULL, &status);
-    return cl_succeeded(status, "allocate room for distances", error);
+    return device_buffer(caster->device, LAUNCH_RAYS * sizeof(AimRay), &caster->rays, error) &&
+           device_buffer(caster->device, LAUNCH_RAYS * sizeof(float), &caster->distances, error);
 }
 
 static bool make_kernel(RayCaster *caster, Error *error)
@@ -119,12 +99,9 @@ bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error
 void ray_caster_close(RayCaster *caster)
 {
     ray_caster_unload(caster);
-    if (caster->rays != NULL)
-        clReleaseMemObject(caster->rays);
-    if (caster->distances != NULL)
-        clReleaseMemObject(caster->distances);
-    if (caster->kernel != NULL)
-        clReleaseKernel(caster->kernel);
+    device_release(&caster->rays);
+    device_release(&caster->distances);
+    device_release_kernel(&caster->kernel);
     program_free(&caster->program);
     *caster = (RayCaster){0};
 }
@@ -132,14 +109,11 @@ void ray_caster_close(RayCaster *caster)
 static bool cast_launch(const RayCaster *caster, const AimRay *rays, size_t count, float *distances,
                         Error *error)
 {
-    cl_command_queue queue = caster->device->queue;
-    cl_int status = clEnqueueWriteBuffer(queue, caster->rays, CL_TRUE, 0, count * sizeof *rays,
-                                         rays, 0, NULL, NULL);
-    if (!cl_succeeded(status, "write rays", error) || !launch(caster, (cl_uint)count, error))
-        return false;
-    status = clEnqueueReadBuffer(queue, caster->distances, CL_TRUE, 0, count * sizeof *distances,
-                                 distances, 0, NULL, NULL);
-    return cl_succeeded(status, "read distances", error);
+    const cl_int status = clEnqueueWriteBuffer(caster->device->queue, caster->rays, CL_TRUE, 0,
+                                               count * sizeof *rays, rays, 0, NULL, NULL);
+    return cl_succeeded(status, "write rays", error) && launch(caster, (cl_uint)count, error) &&
+           device_read(caster->device, caster->distances, distances, count * sizeof *distances,
+                       error);
 }
 
 bool ray_caster_cast(const RayCaster *caster, const AimRay *rays, size_t count, float *distances,

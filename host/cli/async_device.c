@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A background thread opens the device and makes the general kernel. The specialized kernel depends
 // on the scene, which another thread is still reading.
-#include "cli/async_device.h"
+#include "cli/run.h"
 
 #include "base/clock.h"
 #include "render/ready_kernel.h"
-
-// OpenCL compilers recurse deeply, and the default stack of a thread may be too small.
-#define STACK_SIZE ((size_t)16 << 20)
 
 static void take_choice(AsyncDevice *async, KernelChoice choice)
 {
@@ -61,17 +58,13 @@ static void *start(void *context)
 
 void async_device_begin(AsyncDevice *async, const Options *options, RendererSetup setup)
 {
-    pthread_attr_t attributes;
     *async = (AsyncDevice){.setup = setup, .options = options};
     async->setup.device = &async->device;
     async->setup.ready = &async->ready;
     pthread_mutex_init(&async->mutex, NULL);
     pthread_cond_init(&async->changed, NULL);
     async->exists = true;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, STACK_SIZE);
-    async->is_running = pthread_create(&async->thread, &attributes, start, async) == 0;
-    pthread_attr_destroy(&attributes);
+    async->is_running = device_thread_start(&async->thread, start, async);
     if (!async->is_running) // fall back to opening the device on this thread
         publish_device(async, open_device(async), true);
 }
@@ -92,7 +85,7 @@ static bool leaves_kernels_open(const Options *options)
 {
     const KernelRequest *request = &options->kernel;
     return options->action == ACTION_RENDER && request->family == 0 && request->nodes == 0 &&
-           request->lanes == 0 && request->precision == PRECISION_FP32 && options->uses_bvh &&
+           request->lanes == 0 && request->precision == PRECISION_FP32 && !options->no_bvh &&
            !options->statistics && options->specialization != SPECIALIZE_ALWAYS;
 }
 

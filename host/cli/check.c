@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "check/features.h"
+#include "check/census.h"
 #include "check/findings.h"
 #include "cli/run.h"
 #include "device/device.h"
@@ -34,7 +34,7 @@ static bool count_leaks(Check *check, RayCaster *caster, Error *error)
             .closedness = &check->census.meshes[object].closedness,
             .pool = pool,
             .builder = options->builder,
-            .uses_bvh = options->uses_bvh,
+            .uses_bvh = !options->no_bvh,
         };
         const Mesh *mesh = &check->scene.objects.data[object].mesh;
         if (mesh->triangle_count > 0)
@@ -81,10 +81,9 @@ static bool find_leaks(Check *check, const Cache *cache, Error *error)
 
 static ExitCode write_report(const CheckReport *report, const Options *options, Error *error)
 {
-    const char *json = options->json_path != NULL ? options->json_path : "-";
-    if (options->json && !check_report_write_json(report, json, error))
+    if (options->json_path != NULL && !check_report_write_json(report, options->json_path, error))
         return EXIT_OUTPUT;
-    if (!options->quiet && !(options->json && strcmp(json, "-") == 0))
+    if (!options->quiet && !options_print_json(options))
         check_report_write_text(report, stdout);
     return findings_count_failing(report->findings) > 0 ? EXIT_FAULTS : EXIT_DONE;
 }
@@ -110,7 +109,6 @@ static ExitCode report(const Check *check, double start, Error *error)
     return outcome;
 }
 
-// Prints the readers' notes about data that they dropped.
 static void print_notes(const Options *options, const Scene *scene)
 {
     for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)

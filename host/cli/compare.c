@@ -5,7 +5,6 @@
 
 #include "base/output_file.h"
 #include "compare/difference.h"
-#include "compare/report.h"
 #include "image/image_file.h"
 #include "image/stored_image.h"
 
@@ -65,10 +64,9 @@ static ExitCode report(const Comparison *comparison, Error *error)
     const Options *options = comparison->options;
     const CompareReport whole = {&comparison->pair, &comparison->difference, &comparison->causes,
                                  &options->limits};
-    const char *json = options->json_path != NULL ? options->json_path : "-";
-    if (options->json && !compare_report_write_json(&whole, json, error))
+    if (options->json_path != NULL && !compare_report_write_json(&whole, options->json_path, error))
         return EXIT_OUTPUT;
-    if (!options->quiet && !(options->json && strcmp(json, "-") == 0))
+    if (!options->quiet && !options_print_json(options))
         compare_report_write_text(&whole, stdout);
     return compare_report_is_kept(&whole) ? EXIT_DONE : EXIT_FAULTS;
 }

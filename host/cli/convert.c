@@ -16,8 +16,7 @@
 typedef struct {
     const Options *options;
     Scene scene;
-    char **mesh_paths; // the PLY files beside the scene text; NULL if the output is one PLY mesh;
-    // owned
+    char **mesh_paths; // the PLY files beside the scene text; NULL for one PLY mesh; owned
     char **mesh_names; // point to the file names in mesh_paths; the array is owned
 } Conversion;
 

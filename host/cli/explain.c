@@ -2,7 +2,7 @@
 // --explain-pixel: text output prints each sample at once, and JSON output is written as a whole.
 #include "cli/commands.h"
 
-#include "explain/report.h"
+#include "explain/explainer.h"
 #include "image/json_file.h"
 #include "scene/camera.h"
 
@@ -18,13 +18,12 @@ static bool has_pixel(const Run *run, Error *error)
 static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
                         Error *error)
 {
-    const char *path = options->json_path != NULL ? options->json_path : "-";
-    if (!options->json)
+    if (options->json_path == NULL)
         return explain_write_text(report, explainer, stdout, error) ? EXIT_DONE : EXIT_DEVICE;
     json_t *json = explain_json(report, explainer, error);
     if (json == NULL)
         return EXIT_DEVICE;
-    return json_file_write(json, path, error) ? EXIT_DONE : EXIT_OUTPUT;
+    return json_file_write(json, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)
@@ -46,19 +45,17 @@ static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *err
 
 ExitCode explain_pixel(Run *run, Error *error)
 {
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
-    if (!command_files_check(run->options, &run->scene, error))
-        return EXIT_OUTPUT;
+    ExitCode code = run_start(run, error);
+    if (code != EXIT_DONE)
+        return code;
     if (!has_pixel(run, error)) {
         async_device_decide(&run->async_device, false);
         return EXIT_USAGE;
     }
     run->settings.specialization = SPECIALIZE_NEVER; // too few rays to repay compiling
-    const ExitCode prepared = run_prepare(run, error);
-    if (prepared != EXIT_DONE)
-        return prepared;
+    code = run_prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
     const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
     const ExplainerSource source = {.setup = &run->async_device.setup,
                                     .renderer = &run->renderer,

@@ -2,8 +2,7 @@
 // Formats --help with names on the left and wrapped sentences on the right.
 #include "cli/commands.h"
 
-#include "cli/options/command.h"
-#include "cli/options/table.h"
+#include "cli/options/option.h"
 
 #include <string.h>
 

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Reads the parts one after another and copies their tiles into the whole picture. The parts must
-// have the same scene, version and settings, and each part must occur once.
+// have the same scene, version and settings, and each part must occur once. Only formats other than
+// EXR need memory for the whole picture.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
 #include "cli/report.h"
-#include "image/stored_image.h"
+#include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
     const Options *options;
-    Framebuffer framebuffer;
+    Framebuffer framebuffer; // empty if joins
     Layers layers;
     Provenance provenance; // the first part's, with the devices of all parts
     StoredTiles first;     // of the first part
     const char **paths;    // paths[i] names part i, or is NULL if the part is missing; the array is
     // owned
+    bool joins; // the result is an EXR file, whose tiles are copied; otherwise decoded
+    ExrJoin join;
+    Error unopened; // the reason why a part cannot be opened
 } Merging;
 
 static bool is_picture(const Merging *merging, const StoredTiles *tiles)
@@ -68,9 +73,17 @@ static void note_device(Merging *merging, const StoredImage *image)
     }
 }
 
-static bool begin(Merging *merging, const StoredTiles *tiles, const StoredImage *image,
-                  const char *path, Error *error)
+// EXR files are joined without decoding them if their tiles are those of a whole picture.
+static bool can_join(const Options *options, const ExrFile *file)
 {
+    return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&
+           file->tile_height == EXR_TILE && !options->hash && options->expected_hash == NULL;
+}
+
+static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,
+                  Error *error)
+{
+    const StoredImage *image = &file->head;
     merging->first = *tiles;
     merging->first.whole = json_incref(tiles->whole);
     memcpy(merging->provenance.texts, image->texts, sizeof image->texts);
@@ -79,16 +92,35 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const StoredImage 
         return false;
     if (!stored_tiles_name_layers(image, &merging->layers))
         return error_set(error, "%s: has channels that clrt does not draw", path);
+    merging->joins = can_join(merging->options, file);
+    if (merging->joins)
+        return exr_join_begin(&merging->join, file, &tiles->settings, error);
     return framebuffer_make(&merging->framebuffer, image->width, image->height, error) &&
            layers_make(&merging->layers, image->width, image->height, error);
 }
 
-static bool take(Merging *merging, const StoredTiles *tiles, const StoredImage *image,
-                 const char *path, Error *error)
+static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
+                       const char *path, Error *error)
 {
+    const TileTarget target = {
+        .framebuffer = &merging->framebuffer, .layers = &merging->layers, .is_whole = true};
+    const RenderSettings *settings = &tiles->settings;
+    Error cause = {0};
+    return (merging->joins
+                ? exr_join_measure(&merging->join, file, settings, &cause)
+                : stored_tiles_copy(settings, tile_count(settings), file, &target, &cause)) ||
+           error_set(error, "%s: part %u of %u cannot be used: %s", path, settings->part + 1,
+                     settings->parts, cause.text);
+}
+
+static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,
+                 Error *error)
+{
+    const StoredImage *image = &file->head;
     if (strcmp(image->texts[STORED_COMPLETE], "yes") != 0)
-        return error_set(error, "%s: was stopped before its end", path);
-    if (merging->paths == NULL && !begin(merging, tiles, image, path, error))
+        return error_set(error, "%s: part %u of %u was stopped before its end", path,
+                         tiles->settings.part + 1, tiles->settings.parts);
+    if (merging->paths == NULL && !begin(merging, tiles, file, path, error))
         return false;
     const char *mismatch = mismatch_of(merging, tiles, image);
     if (mismatch != NULL)
@@ -97,23 +129,51 @@ static bool take(Merging *merging, const StoredTiles *tiles, const StoredImage *
     if (!note_part(merging, tiles, path, error))
         return false;
     note_device(merging, image);
-    stored_tiles_copy(&tiles->settings, tile_count(&tiles->settings), image, &merging->framebuffer,
-                      &merging->layers);
-    return true;
+    return take_tiles(merging, tiles, file, path, error);
 }
 
+// Reads the settings of a part, which an ExrFile's header contains.
+static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *path, Error *error)
+{
+    return (stored_tiles_read(tiles, &file->head) &&
+            tiles->settings.tile_width == file->tile_width &&
+            tiles->settings.tile_height == file->tile_height) ||
+           error_set(error, "%s: is no part of a picture that --part drew", path);
+}
+
+// A part that cannot be opened is missing, and the other parts show its number.
 static bool read_part(Merging *merging, const char *path, Error *error)
 {
-    StoredImage image;
+    ExrFile file;
     StoredTiles tiles = {0};
-    if (!image_read(&image, path, error))
-        return false;
-    const bool ok = stored_tiles_read(&tiles, &image)
-                        ? take(merging, &tiles, &image, path, error)
-                        : error_set(error, "%s: is no part of a picture that --part drew", path);
+    bool ok = exr_file_open(&file, path, &merging->unopened);
+    if (ok)
+        ok = read_settings(&tiles, &file, path, error) && take(merging, &tiles, &file, path, error);
+    else
+        ok = true;
     stored_tiles_free(&tiles);
-    stored_image_free(&image);
+    exr_file_close(&file);
     return ok;
+}
+
+// Lists the missing parts, in the syntax of a job array.
+static bool check_missing(const Merging *merging, Error *error)
+{
+    char list[1024] = "";
+    uint32_t missing = 0;
+    const uint32_t parts = merging->first.settings.parts;
+    const char *cause = merging->unopened.text, *colon = cause[0] == '\0' ? "" : ": ";
+    for (uint32_t part = 0; part < parts; part++) {
+        const size_t length = strlen(list);
+        if (merging->paths[part] == NULL && length + 12 < sizeof list)
+            snprintf(list + length, sizeof list - length, "%s%u", missing++ > 0 ? "," : "",
+                     part + 1);
+    }
+    if (parts > 0 && missing == 0)
+        return true;
+    return parts == 0 ? error_set(error, "%s", cause)
+                      : error_set(error, "part%s %s of %u %s missing%s%s", missing > 1 ? "s" : "",
+                                  list, parts, missing > 1 ? "are" : "is", colon, cause);
 }
 
 static bool read_parts(Merging *merging, Error *error)
@@ -122,11 +182,49 @@ static bool read_parts(Merging *merging, Error *error)
     for (int i = 0; i < options->part_count; i++)
         if (!read_part(merging, options->part_paths[i], error))
             return false;
-    const uint32_t parts = merging->first.settings.parts;
-    for (uint32_t part = 0; part < parts; part++)
-        if (merging->paths[part] == NULL)
-            return error_set(error, "part %u of %u is missing", part + 1, parts);
-    return true;
+    return check_missing(merging, error);
+}
+
+static bool join_part(const Merging *merging, const char *path, FILE *stream, Error *cause)
+{
+    ExrFile file;
+    StoredTiles tiles = {0};
+    bool ok = exr_file_open(&file, path, cause) && read_settings(&tiles, &file, path, cause);
+    if (ok)
+        ok = exr_join_copy(&merging->join, &file, &tiles.settings, stream) ||
+             error_set(cause, "%s", errno != 0 ? strerror(errno) : "a part changes meanwhile");
+    stored_tiles_free(&tiles);
+    exr_file_close(&file);
+    return ok;
+}
+
+static bool join_parts(Merging *merging, const char *path, Error *cause)
+{
+    ExrFile first = {0};
+    const Options *options = merging->options;
+    FILE *stream = fopen(path, "wbe");
+    bool ok = stream != NULL || error_set(cause, "%s", strerror(errno));
+    if (ok && exr_file_open(&first, options->part_paths[0], cause))
+        ok = exr_join_write_head(&merging->join, &first, &merging->provenance, stream) ||
+             error_set(cause, "%s", strerror(errno));
+    exr_file_close(&first);
+    for (int i = 0; ok && i < options->part_count; i++)
+        ok = join_part(merging, options->part_paths[i], stream, cause);
+    if (stream != NULL && fclose(stream) != 0)
+        ok = error_set(cause, "%s", strerror(errno));
+    return ok;
+}
+
+static bool write_joined(Merging *merging, Error *error)
+{
+    OutputFile file;
+    Error cause = {0};
+    const char *path = merging->options->output_path;
+    if (!output_file_begin(&file, path, error))
+        return false;
+    const bool ok = join_parts(merging, file.temporary, &cause);
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
 }
 
 static bool write_whole(Merging *merging, Error *error)
@@ -135,13 +233,18 @@ static bool write_whole(Merging *merging, Error *error)
     const RenderSettings *place = &merging->first.settings;
     Provenance *provenance = &merging->provenance;
     provenance_write_settings(provenance->texts[STORED_SETTINGS], merging->first.whole);
-    framebuffer_hash(&merging->framebuffer, provenance->texts[STORED_PIXEL_HASH]);
+    if (!merging->joins)
+        framebuffer_hash(&merging->framebuffer, provenance->texts[STORED_PIXEL_HASH]);
     provenance_list(provenance);
+    if (options->no_metadata)
+        provenance->count = 0;
+    if (merging->joins)
+        return write_joined(merging, error);
     const ImageSettings settings = {
         .format = options->format,
         .encoding = merging->first.encoding,
         .texts = provenance->list,
-        .text_count = options->no_metadata ? 0 : provenance->count,
+        .text_count = provenance->count,
         .left = place->left,
         .top = place->top,
         .whole_width = place->whole_width,
@@ -178,6 +281,7 @@ ExitCode merge_parts(const Options *options, Error *error)
     framebuffer_free(&merging.framebuffer);
     layers_free(&merging.layers);
     stored_tiles_free(&merging.first);
+    exr_join_free(&merging.join);
     free(merging.paths);
     return outcome;
 }

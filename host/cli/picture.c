@@ -8,14 +8,16 @@
 #include "cli/process.h"
 #include "cli/report.h"
 #include "image/image_file.h"
+#include "jobs/stored_tiles.h"
 #include "refine/refine_tree.h"
 #include "render/aov_pass.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 #include "scene/camera.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // The context of the render observer.
 typedef struct {
@@ -33,7 +35,6 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-// Draws the picture once and records its time.
 static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
@@ -136,7 +137,8 @@ static bool draw_layers(Picture *picture, Error *error)
                                   picture->certainty.marks != NULL ? &picture->certainty : NULL};
     aov_name_layers(aovs, &picture->layers);
     reference_name_layer(run->options, &picture->layers);
-    if (!layers_make(&picture->layers, settings->width, settings->height, error))
+    const Framebuffer *frame = &picture->framebuffer;
+    if (!layers_make(&picture->layers, frame->width, frame->height, error))
         return false;
     if (aovs == 0 || picture->stopped_by != 0)
         return true;
@@ -166,7 +168,6 @@ static bool write_reference(const Picture *picture, Error *error)
            reference_write(picture, path, error);
 }
 
-// Allocates the film, which is empty at first.
 static bool open_film(Picture *picture, Error *error)
 {
     const RenderSettings *settings = &picture->run->settings;
@@ -178,7 +179,6 @@ static bool open_film(Picture *picture, Error *error)
     return ok;
 }
 
-// Returns the number of frames in the film.
 static uint32_t add_to_film(Picture *picture)
 {
     Framebuffer *film = &picture->film;
@@ -202,19 +202,27 @@ static bool write_picture(Picture *picture, Error *error)
         return true;
     report_fill_provenance(&provenance, &run->report);
     provenance_list(&provenance);
-    const ImageSettings settings = {.format = options->format,
-                                    .encoding = options->encoding,
-                                    .exposure = options->exposure,
-                                    .frames = film_frames,
-                                    .left = run->settings.left,
-                                    .top = run->settings.top,
-                                    .whole_width = render_whole_width(&run->settings),
-                                    .whole_height = render_whole_height(&run->settings),
-                                    .texts = provenance.list,
-                                    .text_count = options->no_metadata ? 0 : provenance.count,
-                                    .layers = picture->layers.count > 0 ? &picture->layers : NULL};
+    ImageSettings settings = {.format = options->format,
+                              .encoding = options->encoding,
+                              .exposure = options->exposure,
+                              .frames = film_frames,
+                              .left = run->settings.left,
+                              .top = run->settings.top,
+                              .whole_width = render_whole_width(&run->settings),
+                              .whole_height = render_whole_height(&run->settings),
+                              .texts = provenance.list,
+                              .text_count = options->no_metadata ? 0 : provenance.count,
+                              .layers = picture->layers.count > 0 ? &picture->layers : NULL};
+    ImagePart part = {0};
+    if (run->settings.parts > 0) {
+        settings.part = &part;
+        if (!stored_tiles_list(&run->settings, &part, error))
+            return false;
+        part.tile_count = run->report.tiles_done;
+    }
     const bool ok = image_write(is_film ? &picture->film : &picture->framebuffer, picture->path,
                                 &settings, error);
+    free(part.tiles);
     run->report.write = run_lap(&moment);
     if (ok && picture->stopped_by == 0)
         picture_print_end(picture);
@@ -252,11 +260,11 @@ static ExitCode prepare(Run *run, Error *error)
 {
     picture_warn_of_goal(run->options);
     image_prepare(run->options->format);
-    run_begin(run);
-    if (!run_load_scene(run, error))
-        return EXIT_SCENE;
-    if (!command_files_check(run->options, &run->scene, error) ||
-        !image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+    const ExitCode started = run_start(run, error);
+    if (started != EXIT_DONE)
+        return started;
+    picture_warn_of_few_tiles(run);
+    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)
@@ -264,7 +272,6 @@ static ExitCode prepare(Run *run, Error *error)
     return prepared;
 }
 
-// Frees the previous frame.
 static void clear(Picture *picture)
 {
     Run *run = picture->run;
@@ -277,7 +284,6 @@ static void clear(Picture *picture)
     run->report.frame_count = 0;
 }
 
-// Sets the viewpoint of frame `number`.
 static void set_view(Picture *picture, uint32_t number)
 {
     Run *run = picture->run;
@@ -295,10 +301,11 @@ static bool begin_picture(Picture *picture, Error *error)
     Run *run = picture->run;
     Provenance own;
     RenderSettings *settings = &run->settings;
+    uint32_t width, height;
     report_fill_provenance(&own, &run->report);
-    const bool ok =
-        framebuffer_make(&picture->framebuffer, settings->width, settings->height, error) &&
-        resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
+    tile_frame_size(settings, &width, &height);
+    const bool ok = framebuffer_make(&picture->framebuffer, width, height, error) &&
+                    resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
     run->renderer.settings.ready_tiles = settings->ready_tiles;
     return ok;
 }
@@ -306,6 +313,10 @@ static bool begin_picture(Picture *picture, Error *error)
 static ExitCode finish(Picture *picture, double start, Error *error)
 {
     Run *run = picture->run;
+    if (run->options->frames.skips_finished && !run->report.complete) {
+        error_set(error, "stopped: %s is not written", picture->path);
+        return (ExitCode)(128 + picture->stopped_by);
+    }
     if (!write_picture(picture, error) || !write_reference(picture, error) ||
         !write_statistics(run, start, error))
         return EXIT_OUTPUT;
@@ -322,7 +333,9 @@ static ExitCode make_frame(Picture *picture, uint32_t number, double start, Erro
     clear(picture);
     set_view(picture, number);
     if (!begin_picture(picture, error))
-        return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_SCENE;
+        return picture->resume.journal.is_busy ? EXIT_BUSY
+               : picture->resume.is_broken     ? EXIT_OUTPUT
+                                               : EXIT_SCENE;
     picture_print_beginning(picture);
     stop_wait_for_tiles();
     if (!draw(picture, error))
@@ -351,7 +364,8 @@ static ExitCode make_frames(Picture *picture, double start, Error *error)
         if (name == NULL)
             return EXIT_OUTPUT;
         picture->path = frames->is_film ? picture->path : name;
-        const ExitCode code = make_frame(picture, number, start, error);
+        const bool is_finished = frames->skips_finished && access(name, F_OK) == 0;
+        const ExitCode code = is_finished ? EXIT_DONE : make_frame(picture, number, start, error);
         outcome = code > outcome ? code : outcome;
         free(name);
     }

@@ -26,6 +26,9 @@ typedef struct {
 // Prints a note if the error goal is so large that the user may have meant a percentage.
 void picture_warn_of_goal(const Options *options);
 
+// Prints a note if the parts have so few tiles that their times may differ much.
+void picture_warn_of_few_tiles(const Run *run);
+
 // With --verbose, print the scene, the device and the kernels, and the start of each picture.
 void picture_print_setup(const Run *run);
 void picture_print_beginning(const Picture *picture);

@@ -2,7 +2,7 @@
 // Prints notes about a picture, and describes pictures that miss a goal or are stopped.
 #include "cli/picture.h"
 
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,11 +11,28 @@
 // With a value of --error above this, the user may have meant percent.
 #define LARGE_ERROR 0.1
 
+// The number of tiles from which on the parts of a picture take about equal time
+// (docs/long-jobs.md).
+#define PART_TILES 128
+
 void picture_warn_of_goal(const Options *options)
 {
     if (options->error_goal > LARGE_ERROR && !options->quiet)
         fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
                 100 * options->error_goal, options->error_goal, options->error_goal);
+}
+
+void picture_warn_of_few_tiles(const Run *run)
+{
+    RenderSettings whole = run->settings;
+    whole.part = whole.parts = 0;
+    const unsigned long long tiles = tile_count(&whole);
+    const unsigned long long most = tiles / PART_TILES > 1 ? tiles / PART_TILES : 1;
+    if (run->settings.parts > most && !run->options->quiet)
+        fprintf(stderr,
+                "clrt: a part of fewer than %d tiles may take much longer than the others: "
+                "%llu tiles suffice for N=%llu\n",
+                PART_TILES, tiles, most);
 }
 
 void picture_print_setup(const Run *run)

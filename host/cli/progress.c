@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // On a terminal, one line is rewritten and shows the remaining time, or the time spent on compiling
 // kernels. A log gets a line for every tenth of the picture, but none in the first second.
-#include "cli/progress.h"
+#include "cli/process.h"
 
 #include "base/clock.h"
-#include "cli/process.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -126,7 +126,6 @@ static double join_halves(const Reference *reference, Framebuffer *mean)
     return sqrt(squares / (3 * (double)pixels));
 }
 
-// Returns an image that borrows the framebuffer's values.
 static StoredImage stored_view(const Framebuffer *framebuffer)
 {
     return (StoredImage){.width = framebuffer->width,
@@ -136,7 +135,6 @@ static StoredImage stored_view(const Framebuffer *framebuffer)
                          .values = framebuffer->pixels[0]};
 }
 
-// Returns the largest absolute difference among the three colors.
 static float error_of(const float drawn[3], const float truth[3])
 {
     float largest = 0;

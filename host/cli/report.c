@@ -4,7 +4,7 @@
 
 #include "accel/bvh.h"
 #include "image/json_file.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -155,7 +155,6 @@ static json_t *scene_json(const Report *report)
                      "dropped_triangles", integer(report->dropped_triangles));
 }
 
-// Returns a list with the number of inner nodes at each depth of the tree.
 static json_t *inner_nodes_json(const Report *report)
 {
     json_t *list = json_array();
@@ -229,7 +228,6 @@ static json_t *certainty_json(const Report *report)
                      integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
 }
 
-// Adds each section of the report under its name.
 static void add_parts(json_t *json, const Report *report)
 {
     json_object_set_new(json, "scene", scene_json(report));

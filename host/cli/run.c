@@ -2,10 +2,10 @@
 // The stages from a scene file to an open renderer.
 #include "cli/run.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "base/clock.h"
 #include "cli/commands.h"
-#include "cli/options/table.h"
+#include "cli/options/option.h"
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
@@ -49,13 +49,14 @@ static uint32_t max_level_of(const Options *options, const Scene *scene)
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
+    const bool small = options->parts > 0 && !option_is_given(options, "tile");
     return (RenderSettings){
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
         .samples = options->samples,
         .max_level = max_level_of(options, scene),
-        .tile_width = options->tile_width,
-        .tile_height = options->tile_height,
+        .tile_width = small ? OPTIONS_PART_TILE : options->tile_width,
+        .tile_height = small ? OPTIONS_PART_TILE : options->tile_height,
         .part = options->parts > 0 ? options->part - 1 : 0,
         .parts = options->parts,
         .group_width = options->group_width,
@@ -124,12 +125,12 @@ bool run_await_device(Run *run, Error *error)
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
-    return options->uses_bvh && (option_is_given(options, "bvh") || !are_few);
+    return !options->no_bvh && (option_is_given(options, "bvh") || !are_few);
 }
 
 bool run_build_scene(Run *run, Error *error)
 {
-    Bvh bvh;
+    CompileStages stages;
     double moment = clock_seconds();
     const Options *options = run->options;
     const NodeLayout layout = run->async_device.setup.source.choice.nodes;
@@ -140,16 +141,15 @@ bool run_build_scene(Run *run, Error *error)
         .builder = options->builder,
         .has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene)),
         .pool = thread_pool_open(threads_allowed(options->threads))};
-    const bool ok = scene_compile(&run->flat, &bvh, &source, error);
+    const bool ok = scene_compile(&run->flat, &stages, &source, error);
     thread_pool_close(source.pool);
     run->report.build += run_lap(&moment);
     if (ok)
-        report_count_scene(&run->report, &run->scene, &bvh);
-    bvh_free(&bvh);
+        report_count_scene(&run->report, &run->scene, &stages.bvh);
+    compile_stages_free(&stages);
     return ok;
 }
 
-// Opens the renderer once the kernel is ready, and stores its costs in the report.
 static bool open_renderer(Run *run, Error *error)
 {
     AsyncDevice *async = &run->async_device;
@@ -173,6 +173,14 @@ void run_begin(Run *run)
         .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
     async_device_begin(&run->async_device, run->options, setup);
+}
+
+ExitCode run_start(Run *run, Error *error)
+{
+    run_begin(run);
+    if (!run_load_scene(run, error))
+        return EXIT_SCENE;
+    return command_files_check(run->options, &run->scene, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 ExitCode run_prepare(Run *run, Error *error)

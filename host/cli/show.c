@@ -39,7 +39,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                      .height = options->height,
                                      .samples = options->samples > 1 ? options->samples : 2,
                                      .smooth = options->samples > 1,
-                                     .uses_bvh = options->uses_bvh,
+                                     .uses_bvh = !options->no_bvh,
                                      .encoding = options->encoding,
                                      .exposure = (int)lround(2 * options->exposure),
                                      .tracer = {.device = options->device,

@@ -5,7 +5,6 @@
 
 #include <stdio.h>
 
-// Makes the kernel, which stores it in the cache, and prints the time.
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
     ReadyKernel ready;

@@ -2,7 +2,7 @@
 // Channels describe only the ray through a pixel's center. If the channels agree, the samples
 // decide. If both pictures have the same samples, the difference is rounding, which can also change
 // what a sample hits. Otherwise, every difference above rounding counts as coverage.
-#include "compare/causes.h"
+#include "compare/difference.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,27 +11,20 @@
 // Rounding changes a color in [0, 1] by at most this much.
 #define ROUNDING_MOST 1e-5
 
-static const char *const names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
-                                               "reflection", "coverage", "rounding"};
-static const char *const meanings[CAUSE_KINDS] = {
+const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
+                                              "reflection", "coverage", "rounding"};
+const char *const cause_meanings[CAUSE_KINDS] = {
     "another primitive is hit first", "other lights reach it",
     "the limit ends its reflections", "its reflections differ",
     "it has other samples",           "the same samples: rounding, if the scene is the same"};
 
-const char *cause_name(CauseKind kind)
-{
-    return names[kind];
-}
-
-const char *cause_meaning(CauseKind kind)
-{
-    return meanings[kind];
-}
+// The channels that show causes.
+enum { PRIMITIVE, SHADOW, BOUNCES, SAMPLES, CHANNELS };
 
 typedef struct {
     const StoredImage *image;
-    int primitive, shadow, bounces, samples; // channel indices; -1 if missing
-    int level;                               // value of --max-level; -1 if not recorded
+    int channels[CHANNELS]; // indices; -1 if missing
+    int level;              // value of --max-level; -1 if not recorded
 } Side;
 
 // Returns the integer after `name` in the settings, JSON without blanks; -1 if it is missing.
@@ -47,34 +40,37 @@ static int setting_of(const StoredImage *image, const char *name)
 static Side side_of(const StoredImage *image)
 {
     return (Side){.image = image,
-                  .primitive = stored_image_channel(image, DIFFERENCE_HITS),
-                  .shadow = stored_image_channel(image, "shadow"),
-                  .bounces = stored_image_channel(image, "bounces"),
-                  .samples = stored_image_channel(image, "samples"),
+                  .channels = {stored_image_channel(image, DIFFERENCE_HITS),
+                               stored_image_channel(image, "shadow"),
+                               stored_image_channel(image, "bounces"),
+                               stored_image_channel(image, "samples")},
                   .level = setting_of(image, "\"max_level\":")};
 }
 
 static bool is_complete(const Side *side)
 {
-    return side->primitive >= 0 && side->shadow >= 0 && side->bounces >= 0;
+    return side->channels[PRIMITIVE] >= 0 && side->channels[SHADOW] >= 0 &&
+           side->channels[BOUNCES] >= 0;
 }
 
 static float value_at(const Side *side, size_t pixel, int channel)
 {
-    return side->image->values[pixel * side->image->channel_count + (size_t)channel];
+    const StoredImage *image = side->image;
+    return image->values[pixel * image->channel_count + (size_t)side->channels[channel]];
 }
 
 // Compares bits, because channels may hold integers.
-static bool are_equal(float a, float b)
+static bool differ(const Side sides[2], size_t pixel, int channel)
 {
-    return memcmp(&a, &b, sizeof a) == 0;
+    const float a = value_at(&sides[0], pixel, channel), b = value_at(&sides[1], pixel, channel);
+    return memcmp(&a, &b, sizeof a) != 0;
 }
 
 // Returns whether the shorter path ended at its --max-level, and the other picture's is higher.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
-    const float bounces[] = {value_at(&sides[0], pixel, sides[0].bounces),
-                             value_at(&sides[1], pixel, sides[1].bounces)};
+    const float bounces[] = {value_at(&sides[0], pixel, BOUNCES),
+                             value_at(&sides[1], pixel, BOUNCES)};
     const int shorter = bounces[0] < bounces[1] ? 0 : 1;
     return sides[shorter].level >= 0 && sides[shorter].level < sides[!shorter].level &&
            bounces[shorter] >= (float)(sides[shorter].level - 1);
@@ -95,28 +91,18 @@ static bool have_same_grid(const Side sides[2])
 
 static bool has_same_samples(const Side sides[2], size_t pixel)
 {
-    return sides[0].samples < 0 || sides[1].samples < 0 ||
-           are_equal(value_at(&sides[0], pixel, sides[0].samples),
-                     value_at(&sides[1], pixel, sides[1].samples));
-}
-
-static bool differ(const Side sides[2], size_t pixel, const int channels[2])
-{
-    return !are_equal(value_at(&sides[0], pixel, channels[0]),
-                      value_at(&sides[1], pixel, channels[1]));
+    return sides[0].channels[SAMPLES] < 0 || sides[1].channels[SAMPLES] < 0 ||
+           !differ(sides, pixel, SAMPLES);
 }
 
 // Returns the first cause that the channels show, or CAUSE_COVERAGE if the channels agree.
 static CauseKind cause_in_channels(const Side sides[2], size_t pixel)
 {
-    const int primitives[] = {sides[0].primitive, sides[1].primitive};
-    const int shadows[] = {sides[0].shadow, sides[1].shadow};
-    const int bounces[] = {sides[0].bounces, sides[1].bounces};
-    if (differ(sides, pixel, primitives))
+    if (differ(sides, pixel, PRIMITIVE))
         return CAUSE_PRIMITIVE;
-    if (differ(sides, pixel, shadows))
+    if (differ(sides, pixel, SHADOW))
         return CAUSE_SHADOW;
-    if (differ(sides, pixel, bounces))
+    if (differ(sides, pixel, BOUNCES))
         return is_truncated(sides, pixel) ? CAUSE_TRUNCATION : CAUSE_REFLECTION;
     return CAUSE_COVERAGE;
 }

@@ -6,6 +6,8 @@
 #include "image/framebuffer.h"
 #include "image/stored_image.h"
 
+#include <stdio.h>
+
 // The tolerance of off_by_1 and off_by_4. Rounding to float can make a difference of one 8-bit step
 // slightly larger than 1/255.
 #define DIFFERENCE_ROUNDING 0x1p-22
@@ -49,3 +51,68 @@ double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
 // can compare them.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);
+
+typedef enum {
+    LIMIT_RMSE,
+    LIMIT_MAX,
+    LIMIT_PSNR,   // a lower limit; all others are upper limits
+    LIMIT_SHARE1, // share of pixels off by more than 1/255
+    LIMIT_SHARE4,
+    LIMIT_HITS, // share of pixels whose first hits differ
+    LIMIT_KINDS
+} LimitKind;
+
+typedef struct {
+    bool given[LIMIT_KINDS];
+    double values[LIMIT_KINDS];
+} Limits;
+
+// Adds the limits in text. Returns false if the text is invalid; cause then holds the reason.
+bool limits_parse(Limits *limits, const char *text, Error *cause);
+
+// As users write them.
+extern const char *const limit_names[LIMIT_KINDS];
+
+// Returns the measured value that the limit applies to; NAN if the files lack the required channel.
+double limit_measured(LimitKind kind, const Difference *difference);
+
+// Returns whether the measured value is within the limit. A missing value is not within any limit.
+bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);
+
+// Writes the result of a comparison as text and as JSON.
+typedef enum {
+    CAUSE_PRIMITIVE,  // the rays through the center hit different primitives
+    CAUSE_SHADOW,     // different lights reach the hit point
+    CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner
+    CAUSE_REFLECTION, // the reflections differ for another reason
+    CAUSE_COVERAGE,   // the pictures have different samples there
+    CAUSE_ROUNDING,   // none of these: rounding, if both show the same scene
+    CAUSE_KINDS
+} CauseKind;
+
+typedef struct {
+    bool known;                   // both files have the required channels
+    double squares[CAUSE_KINDS];  // each cause's part of the mean square error
+    uint64_t pixels[CAUSE_KINDS]; // pixels that differ at all, by cause
+} Causes;
+
+// Splits the error of a pair that image_pair_check has accepted.
+void causes_find(Causes *causes, const ImagePair *pair);
+
+// The causes' names and meanings, as reports print them.
+extern const char *const cause_names[CAUSE_KINDS], *const cause_meanings[CAUSE_KINDS];
+
+typedef struct {
+    const ImagePair *pair;
+    const Difference *difference;
+    const Causes *causes;
+    const Limits *limits;
+} CompareReport;
+
+// Returns whether the difference is within all limits.
+bool compare_report_is_kept(const CompareReport *report);
+
+void compare_report_write_text(const CompareReport *report, FILE *stream);
+
+// Writes versioned JSON with sorted keys to path ("-": standard output).
+bool compare_report_write_json(const CompareReport *report, const char *path, Error *error);

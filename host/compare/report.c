@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JSON contains shares as fractions; the text contains percent.
-#include "compare/report.h"
+#include "compare/difference.h"
 
 #include "image/json_file.h"
 
@@ -40,9 +40,9 @@ static void write_causes(const CompareReport *report, FILE *stream)
     fputs("of the mean square error:\n", stream);
     for (int i = 0; i < CAUSE_KINDS; i++)
         if (report->causes->pixels[i] > 0)
-            fprintf(stream, "  %-10s %5.1f %% in %" PRIu64 " pixels: %s\n",
-                    cause_name((CauseKind)i), 100 * share_of(report, (CauseKind)i),
-                    report->causes->pixels[i], cause_meaning((CauseKind)i));
+            fprintf(stream, "  %-10s %5.1f %% in %" PRIu64 " pixels: %s\n", cause_names[i],
+                    100 * share_of(report, (CauseKind)i), report->causes->pixels[i],
+                    cause_meanings[i]);
 }
 
 static void write_limits(const CompareReport *report, FILE *stream)
@@ -52,7 +52,7 @@ static void write_limits(const CompareReport *report, FILE *stream)
             continue;
         const bool kept = limit_is_kept(report->limits, (LimitKind)kind, report->difference);
         fprintf(stream, "%s %s %.6g, the limit is %.6g\n",
-                kept ? "kept:" : "BROKEN:", limit_name((LimitKind)kind),
+                kept ? "kept:" : "BROKEN:", limit_names[kind],
                 limit_measured((LimitKind)kind, report->difference), report->limits->values[kind]);
     }
 }
@@ -102,7 +102,7 @@ static json_t *causes_json(const CompareReport *report)
     const Causes *causes = report->causes;
     json_t *all = causes->known ? json_object() : json_null();
     for (int i = 0; causes->known && i < CAUSE_KINDS; i++)
-        json_object_set_new(all, cause_name((CauseKind)i),
+        json_object_set_new(all, cause_names[i],
                             json_pack("{s:o, s:f, s:f}", "pixels",
                                       json_integer((json_int_t)causes->pixels[i]), "mean_square",
                                       causes->squares[i], "share", share_of(report, (CauseKind)i)));
@@ -115,7 +115,7 @@ static json_t *limits_json(const CompareReport *report)
     for (int kind = 0; kind < LIMIT_KINDS; kind++)
         if (report->limits->given[kind])
             json_object_set_new(
-                all, limit_name((LimitKind)kind),
+                all, limit_names[kind],
                 json_pack("{s:f, s:o, s:b}", "limit", report->limits->values[kind], "measured",
                           number(limit_measured((LimitKind)kind, report->difference)), "kept",
                           limit_is_kept(report->limits, (LimitKind)kind, report->difference)));

@@ -58,7 +58,8 @@ static void find_kernels(Cache *cache)
 
 void cache_open_for_library(Cache *cache)
 {
-    if (cache_take_folder(cache, getenv("XDG_CACHE_HOME"), "/clrt/library") ||
+    if (cache_take_folder(cache, getenv("POCL_CACHE_DIR"), "/clrt/library") ||
+        cache_take_folder(cache, getenv("XDG_CACHE_HOME"), "/clrt/library") ||
         cache_take_folder(cache, getenv("HOME"), "/.cache/clrt/library"))
         find_kernels(cache);
 }

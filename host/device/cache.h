@@ -19,13 +19,15 @@ typedef struct {
 } Cache;
 
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that is
-// writable and has free space. Otherwise chooses a private temporary folder. Sets POCL_CACHE_DIR to
+// writable and has free space. If the latter two lie on a file system that hosts share, chooses
+// clrt-hosts/HOST/clrt there. Otherwise chooses a private temporary folder. Sets POCL_CACHE_DIR to
 // a folder in it. If all folders are full, PoCL shows no device. Only main may call cache_open,
 // before the first OpenCL call.
 void cache_open(Cache *cache);
 
 // Opens a cache for libraries, which needs no cache_close. Leaves the environment unchanged, so
-// PoCL stores its kernels in its default folder. cache->folder is empty if no folder is writable.
+// PoCL stores its kernels in its default folder or in POCL_CACHE_DIR, which then holds the lock,
+// too. cache->folder is empty if no folder is writable.
 void cache_open_for_library(Cache *cache);
 
 // Removes the folder if it is temporary. No OpenCL object may be in use.

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Opens the cache of the program clrt. Only this file sets POCL_CACHE_DIR.
 #include "device/cache.h"
+#include "device/shared_disk.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 // The least free space. Compilers write a few megabytes, and even a cached build writes the
 // preprocessed source. LLVM ends the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
-#define OWN_FOLDER    "/clrt" // in the user's cache folder
-#define KERNEL_FOLDER "/pocl" // in OWN_FOLDER
+#define OWN_FOLDER    "/clrt"       // in the user's cache folder
+#define KERNEL_FOLDER "/pocl"       // in OWN_FOLDER
+#define HOSTS_FOLDER  "/clrt-hosts" // in a cache folder that hosts share
 
 // Returns whether the folder has enough free space, or the file system does not report it.
 static bool has_room(const Cache *cache)
@@ -50,6 +54,20 @@ static bool take_chosen(Cache *cache)
     return take(cache, base, OWN_FOLDER);
 }
 
+// Uses the user's cache folder. If hosts share it, uses a folder for this host in it, because a
+// common lock would let one host compile at a time.
+static bool take_users(Cache *cache, const char *base, const char *rest)
+{
+    Cache users;
+    char host[HOST_NAME_MAX + 1],
+        own[sizeof HOSTS_FOLDER "/" OWN_FOLDER + HOST_NAME_MAX] = OWN_FOLDER;
+    if (!cache_take_folder(&users, base, rest))
+        return false;
+    if (disk_is_shared(users.folder) && gethostname(host, sizeof host) == 0)
+        snprintf(own, sizeof own, HOSTS_FOLDER "/%s" OWN_FOLDER, host);
+    return take(cache, users.folder, own);
+}
+
 static bool take_temporary(Cache *cache)
 {
     char path[CACHE_PATH_SIZE];
@@ -67,8 +85,8 @@ static bool take_temporary(Cache *cache)
 
 void cache_open(Cache *cache)
 {
-    if (!take_chosen(cache) && !take(cache, getenv("XDG_CACHE_HOME"), OWN_FOLDER) &&
-        !take(cache, getenv("HOME"), "/.cache" OWN_FOLDER) && !take_temporary(cache))
+    if (!take_chosen(cache) && !take_users(cache, getenv("XDG_CACHE_HOME"), "") &&
+        !take_users(cache, getenv("HOME"), "/.cache") && !take_temporary(cache))
         *cache = (Cache){0};
     // PoCL cannot create a folder in a device file, and then lists no CPU.
     setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);

@@ -91,28 +91,15 @@ bool device_list(char *text, size_t size, Error *error)
     return true;
 }
 
-static bool contains_ignoring_case(const char *text, const char *part)
-{
-    const size_t length = strlen(part);
-    for (; *text != '\0'; text++)
-        if (strncasecmp(text, part, length) == 0)
-            return true;
-    return false;
-}
+static const struct {
+    const char *name;
+    cl_device_type type;
+} types[] = {{"cpu", CL_DEVICE_TYPE_CPU},
+             {"gpu", CL_DEVICE_TYPE_GPU},
+             {"accelerator", CL_DEVICE_TYPE_ACCELERATOR},
+             {"all", CL_DEVICE_TYPE_ALL}};
 
-static bool type_matches(const char *spec, cl_device_type type)
-{
-    return (strcasecmp(spec, "cpu") == 0 && (type & CL_DEVICE_TYPE_CPU)) ||
-           (strcasecmp(spec, "gpu") == 0 && (type & CL_DEVICE_TYPE_GPU)) ||
-           (strcasecmp(spec, "accelerator") == 0 && (type & CL_DEVICE_TYPE_ACCELERATOR)) ||
-           strcasecmp(spec, "all") == 0;
-}
-
-static bool is_type(const char *spec)
-{
-    return strcasecmp(spec, "cpu") == 0 || strcasecmp(spec, "gpu") == 0 ||
-           strcasecmp(spec, "accelerator") == 0 || strcasecmp(spec, "all") == 0;
-}
+#define TYPE_COUNT (sizeof types / sizeof *types)
 
 static bool matches(const Candidate *candidate, const char *spec)
 {
@@ -120,10 +107,11 @@ static bool matches(const Candidate *candidate, const char *spec)
     int length = 0;
     if (sscanf(spec, "%u:%u%n", &platform, &device, &length) == 2 && spec[length] == '\0')
         return candidate->platform == platform && candidate->device == device;
-    if (is_type(spec))
-        return type_matches(spec, candidate->type);
-    return contains_ignoring_case(candidate->name, spec) ||
-           contains_ignoring_case(candidate->platform_name, spec);
+    for (size_t i = 0; i < TYPE_COUNT; i++)
+        if (strcasecmp(spec, types[i].name) == 0)
+            return (types[i].type & candidate->type) != 0;
+    return strcasestr(candidate->name, spec) != NULL ||
+           strcasestr(candidate->platform_name, spec) != NULL;
 }
 
 static const Candidate *choose(const Candidates *candidates, const char *spec)
@@ -165,10 +153,10 @@ static void describe(Device *device)
 
 static const char *type_name(cl_device_type type)
 {
-    return (type & CL_DEVICE_TYPE_CPU) != 0           ? "cpu"
-           : (type & CL_DEVICE_TYPE_GPU) != 0         ? "gpu"
-           : (type & CL_DEVICE_TYPE_ACCELERATOR) != 0 ? "accelerator"
-                                                      : "other";
+    for (size_t i = 0; i + 1 < TYPE_COUNT; i++)
+        if ((types[i].type & type) != 0)
+            return types[i].name;
+    return "other";
 }
 
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error)
@@ -226,17 +214,12 @@ uint32_t threads_allowed(uint32_t count)
     return count > 0 ? count : processors_usable();
 }
 
-// OpenCL has no empty buffers, so an empty array gets a few bytes.
-bool upload_array(const Device *device, const void *data, size_t size, cl_mem *buffer, Error *error)
+bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context)
 {
-    static const _Alignas(64) char nothing[64];
-    if (size > device->largest_allocation)
-        return error_set(error, "the scene needs a buffer of %zu bytes and %s offers %llu at most",
-                         size, device->name, (unsigned long long)device->largest_allocation);
-    const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
-    void *source = (void *)(size > 0 ? data : nothing);
-    cl_int status;
-    *buffer = clCreateBuffer(device->context, CL_MEM_READ_ONLY | origin,
-                             size > 0 ? size : sizeof nothing, source, &status);
-    return cl_succeeded(status, "upload the scene", error);
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, (size_t)16 << 20);
+    const bool ok = pthread_create(thread, &attributes, work, context) == 0;
+    pthread_attr_destroy(&attributes);
+    return ok;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses an OpenCL device, opens a context and a queue on it, and makes buffers.
+// Chooses an OpenCL device, and opens a context and a queue on it.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -7,6 +7,7 @@
 #include "base/error.h"
 
 #include <CL/cl.h>
+#include <pthread.h>
 #include <stdint.h>
 
 typedef struct {
@@ -46,18 +47,16 @@ typedef struct {
 // Stores all devices in entries. Returns their number; 0, with an error, if no device exists.
 unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);
 
-// Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.
-bool cl_succeeded(cl_int status, const char *attempt, Error *error);
-
-// Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
-const char *cl_error_name(cl_int status);
+// Starts a thread that may build programs. OpenCL compilers recurse deeply, and the default stack
+// of a thread may be too small. Returns false if the system grants no thread.
+bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context);
 
 // Returns the number of threads for the program itself: count or, if count is 0, the process's
 // usable processors.
 uint32_t threads_allowed(uint32_t count);
 
-// Makes *buffer from `size` bytes at data, which must outlive it. An empty array also gives a
-// buffer, which kernels do not read. Fails if the device does not offer that size in one
-// allocation.
-bool upload_array(const Device *device, const void *data, size_t size, cl_mem *buffer,
-                  Error *error);
+// Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.
+bool cl_succeeded(cl_int status, const char *attempt, Error *error);
+
+// Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
+const char *cl_error_name(cl_int status);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// These switches and the scene's traits (accel/traits.h) specialize a program.
+// These switches and the scene's traits (accel/flat.h) specialize a program.
 #include "device/kernel_choice.h"
 
 #include <assert.h>

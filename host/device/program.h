@@ -2,7 +2,7 @@
 // Builds a program for a device from the embedded kernel source, SceneTraits and a KernelChoice.
 #pragma once
 
-#include "accel/traits.h"
+#include "accel/flat.h"
 #include "device/device.h"
 #include "device/kernel_choice.h"
 

@@ -2,6 +2,8 @@
 // Runs the kernel explain_sample and converts its results to scene coordinates.
 #include "explain/explainer.h"
 
+#include "device/buffer.h"
+
 #include <assert.h>
 #include <stdlib.h>
 
@@ -29,14 +31,6 @@ static size_t scalar_size(const Explainer *explainer)
     return explainer->is_fp64 ? sizeof(double) : sizeof(float);
 }
 
-static bool make_buffer(const Explainer *explainer, size_t size, cl_mem *buffer, Error *error)
-{
-    cl_int status;
-    *buffer = clCreateBuffer(explainer->renderer->device->context, CL_MEM_WRITE_ONLY, size, NULL,
-                             &status);
-    return cl_succeeded(status, "allocate room for an explanation", error);
-}
-
 static bool make_room(Explainer *explainer, Error *error)
 {
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
@@ -49,10 +43,11 @@ static bool make_room(Explainer *explainer, Error *error)
         memory_raw(levels * explainer->frame.light_count, sizeof *explainer->lights, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
            explainer->rays != NULL && explainer->lights != NULL &&
-           make_buffer(explainer, values * scalar, &explainer->values, error) &&
-           make_buffer(explainer, words * sizeof(uint32_t), &explainer->words, error) &&
-           make_buffer(explainer, 4 * scalar, &explainer->result, error) &&
-           make_buffer(explainer, sizeof(uint32_t), &explainer->count, error);
+           device_buffer(explainer->renderer->device, values * scalar, &explainer->values, error) &&
+           device_buffer(explainer->renderer->device, words * sizeof(uint32_t), &explainer->words,
+                         error) &&
+           device_buffer(explainer->renderer->device, 4 * scalar, &explainer->result, error) &&
+           device_buffer(explainer->renderer->device, sizeof(uint32_t), &explainer->count, error);
 }
 
 static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_uint column,
@@ -63,11 +58,10 @@ static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_ui
                               explainer->count};
     const size_t one = 1;
     cl_kernel kernel = explainer->kernel;
-    cl_uint place = 0;
-    cl_int status = clSetKernelArg(kernel, place++, sizeof *frame, frame);
-    for (int i = 0; i < RENDERER_ARRAYS; i++)
-        status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &renderer->arrays[i]);
-    status |= clSetKernelArg(kernel, place++, sizeof column, &column);
+    cl_uint place = FLAT_ARRAYS + 1;
+    if (!renderer_set_scene(renderer, kernel, frame, error))
+        return false;
+    cl_int status = clSetKernelArg(kernel, place++, sizeof column, &column);
     status |= clSetKernelArg(kernel, place++, sizeof row, &row);
     for (int i = 0; i < 4; i++)
         status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &outputs[i]);
@@ -121,13 +115,11 @@ bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *
 
 void explainer_close(Explainer *explainer)
 {
-    const cl_mem buffers[] = {explainer->values, explainer->words, explainer->result,
-                              explainer->count};
-    for (int i = 0; i < 4; i++)
-        if (buffers[i] != NULL)
-            clReleaseMemObject(buffers[i]);
-    if (explainer->kernel != NULL)
-        clReleaseKernel(explainer->kernel);
+    device_release(&explainer->values);
+    device_release(&explainer->words);
+    device_release(&explainer->result);
+    device_release(&explainer->count);
+    device_release_kernel(&explainer->kernel);
     program_free(&explainer->program);
     free(explainer->host_values);
     free(explainer->host_words);
@@ -228,19 +220,14 @@ static void take_ray(Explainer *explainer, uint32_t level)
 static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
     double result[4]; // fits floats and doubles
-    cl_command_queue queue = explainer->renderer->device->queue;
+    const Device *device = explainer->renderer->device;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
-    cl_int status = clEnqueueReadBuffer(queue, explainer->values, CL_TRUE, 0,
-                                        levels * level_values(explainer) * scalar,
-                                        explainer->host_values, 0, NULL, NULL);
-    status |= clEnqueueReadBuffer(queue, explainer->words, CL_TRUE, 0,
-                                  levels * level_words(explainer) * sizeof(uint32_t),
-                                  explainer->host_words, 0, NULL, NULL);
-    status |= clEnqueueReadBuffer(queue, explainer->result, CL_TRUE, 0, 4 * scalar, result, 0, NULL,
-                                  NULL);
-    status |= clEnqueueReadBuffer(queue, explainer->count, CL_TRUE, 0, sizeof sample->ray_count,
-                                  &sample->ray_count, 0, NULL, NULL);
-    if (!cl_succeeded(status, "read an explanation", error))
+    if (!device_read(device, explainer->values, explainer->host_values,
+                     levels * level_values(explainer) * scalar, error) ||
+        !device_read(device, explainer->words, explainer->host_words,
+                     levels * level_words(explainer) * sizeof(uint32_t), error) ||
+        !device_read(device, explainer->result, result, 4 * scalar, error) ||
+        !device_read(device, explainer->count, &sample->ray_count, sizeof sample->ray_count, error))
         return false;
     for (size_t i = 0; i < 3; i++)
         sample->steps[i] = scalar_at(explainer, result, i);

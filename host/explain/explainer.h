@@ -3,9 +3,13 @@
 // A separate kernel traces the sample again with the picture's functions.
 #pragma once
 
+#include "image/image_file.h"
 #include "render/renderer.h"
 #include "scene/normalize.h"
 #include "scene/scene.h"
+
+#include <jansson.h>
+#include <stdio.h>
 
 typedef struct {
     LightState state;
@@ -88,3 +92,21 @@ PrimitiveName name_primitive(const Scene *scene, uint32_t id);
 // Returns the name that a define statement gave the material, or the course's number. The scene
 // owns the string, or it is static.
 const char *name_material(const Scene *scene, uint32_t material);
+
+typedef struct {
+    const char *scene_path;
+    const Scene *scene;
+    const RenderSettings *settings;
+    uint32_t view; // number of the viewpoint, from 1
+    uint32_t pixel[2];
+    Encoding encoding;
+    bool is_brief; // only the first sample and its important rays, with fewer facts and digits
+} ExplainReport;
+
+// Traces the pixel's samples with a new explainer and writes them as text. Returns false if the
+// device fails.
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error);
+
+// Like explain_write_text, but returns JSON, or NULL if the device fails.
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes one paragraph per ray and one fact per line.
-#include "explain/report.h"
+#include "explain/explainer.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each file is read once and kept in memory, because Assimp opens it several times to guess its
 // format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
-#include "foreign/files.h"
+#include "foreign/model.h"
 
 #include <errno.h>
 #include <stdio.h>

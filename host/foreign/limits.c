@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The soft memory limit rises with each file read, up to a hard limit. Otherwise, a short file
 // whose nodes share children could use memory up to the hard limit.
-#include "foreign/files.h"
+#include "foreign/model.h"
 
 #include "base/child_process.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt-foreign PATH: reads one model with Assimp and writes it to standard output in the format of
 // mesh/foreign_stream.h. Only clrt runs this program.
-#include "foreign/files.h"
 #include "foreign/model.h"
 
 #include <fcntl.h>

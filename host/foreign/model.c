@@ -38,6 +38,8 @@ static void send_note(FILE *stream, const Files *files, const PartCounts *counts
         fprintf(text, "; %zu lines and points are left out", counts->others);
     if (counts->is_textured)
         fputs("; its textures are left out", text);
+    if (counts->is_colored)
+        fputs("; its colors per vertex are left out", text);
     if (lacks_materials(files))
         fprintf(text, "; its materials, %.200s, cannot be opened", files->missing);
     if (files->outside_count > 0)

@@ -2,12 +2,41 @@
 // Reads a model in any format of Assimp and writes the records of mesh/foreign_stream.h.
 #pragma once
 
-#include "foreign/files.h"
+#include "base/array.h"
+#include "base/file.h"
 #include "mesh/foreign_stream.h"
 
+#include <assimp/cfileio.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <stdio.h>
+
+// The files that Assimp may read for a model: the model file, and files in its folder or below.
+// Each file is read completely, once. Assimp cannot write files.
+typedef struct {
+    char *path;
+    File file;
+} OpenedFile;
+
+typedef struct {
+    struct aiFileIO interface; // passed to Assimp; its UserData points to this struct
+    const char *model;         // the model's path, which includes a folder
+    ARRAY(OpenedFile) opened;  // the files read so far; the model file is first
+    size_t outside_count;      // number of requests for files outside of the folder
+    char missing[256]; // path of the first missing material library, relative to the folder; or ""
+} Files;
+
+// Initializes files for the model at this path. The path must outlive files.
+void files_init(Files *files, const char *model);
+
+// Reads the model file. Returns false on failure.
+bool files_open_model(Files *files, Error *error);
+
+// Limits this process: gives up file descriptors, later privileges, file writing, memory and time.
+void limits_take(void);
+
+// Raises the memory limit for a file of `bytes` bytes, up to the overall limit.
+void limits_allow_file(size_t bytes);
 
 // Sends all records except a failure's. Returns false and the reason if the file has no model or
 // the receiver is gone.
@@ -28,6 +57,7 @@ typedef struct {
     size_t triangles;
     size_t others;    // faces that are points or lines
     bool is_textured; // the color of a part has a texture
+    bool is_colored;  // a part's vertices have colors
 } PartCounts;
 
 // Sends every part after its material. Facet normals are omitted, because the corners already

@@ -110,12 +110,10 @@ static void transform_normal(const struct aiVector3D *given, const NormalMatrix 
     const double parts[3] = {unit.x, unit.y, unit.z};
     for (int i = 0; i < 3; i++) {
         const double *c = normal_matrix->columns[i];
-        turned = vec3_add(turned, vec3_scale(vec3(c[0], c[1], c[2]), parts[i]));
+        turned = vec3_add(turned, vec3_scale(vec3_of_doubles(c), parts[i]));
     }
     turned = vec3_normalize(turned);
-    normal[0] = (float)turned.x;
-    normal[1] = (float)turned.y;
-    normal[2] = (float)turned.z;
+    vec3_store(normal, turned);
 }
 
 static void place_normals(const Sender *sender, const struct aiMesh *mesh,
@@ -148,6 +146,7 @@ static bool is_within(const struct aiFace *face, size_t vertex_count)
 static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mirror)
 {
     const uint32_t base = (uint32_t)sender->part.mesh.vertex_count;
+    sender->counts->is_colored |= mesh->mColors[0] != NULL;
     for (size_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
         if (face->mNumIndices != 3) {

@@ -3,6 +3,7 @@
 #include "image/image_file.h"
 
 #include "base/output_file.h"
+#include "image/exr_file.h"
 #include "image/formats.h"
 #include "image/image_process.h"
 
@@ -108,12 +109,18 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         if (bytes == NULL)
             return false;
     }
+    const ImagePart *part = settings->part;
     ImageModulePicture picture = {
         .path = path,
         .format = format->module,
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
-        .width = (int)framebuffer->width,
-        .height = (int)framebuffer->height,
+        .width = (int)(part != NULL ? part->width : framebuffer->width),
+        .height = (int)(part != NULL ? part->height : framebuffer->height),
+        .tile_width = (int)(part != NULL ? part->tile_width : EXR_TILE),
+        .tile_height = (int)(part != NULL ? part->tile_height : EXR_TILE),
+        .is_part = part != NULL,
+        .tiles = part != NULL ? part->tiles[0] : NULL,
+        .tile_count = part != NULL ? part->tile_count : 0,
         .frames = (int)settings->frames,
         .left = (int)settings->left,
         .top = (int)settings->top,

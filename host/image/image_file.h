@@ -13,6 +13,14 @@ typedef struct {
     const char *name, *value;
 } ImageText;
 
+// A part of a picture: the tiles that the framebuffer contains, below each other.
+typedef struct {
+    uint32_t width, height;           // of the whole picture
+    uint32_t tile_width, tile_height; // of unclipped tiles
+    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned
+    size_t tile_count;
+} ImagePart;
+
 typedef struct {
     const char *format; // png, jpg, tif, ppm, exr, hdr, gif or pfm
     Encoding encoding;  // for 8-bit formats; float formats store values unchanged
@@ -23,7 +31,8 @@ typedef struct {
     // A crop's position in the whole picture and the whole picture's size, for formats that store
     // them; 0 without a crop.
     uint32_t left, top, whole_width, whole_height;
-    const Layers *layers; // channels other than colors, for formats that store them; may be NULL
+    const ImagePart *part; // EXR only; NULL for a whole picture
+    const Layers *layers;  // channels other than colors, for formats that store them; may be NULL
 } ImageSettings;
 
 // Returns the format that the path's extension names, or NULL if this build writes no such format.

@@ -16,6 +16,10 @@ typedef struct {
     const char *format; /* OpenImageIO's name of the format */
     const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
     int width, height;
+    int tile_width, tile_height; /* of the tiles in an EXR file */
+    int is_part;                 /* pixels and layers contain only these tiles, below each other: */
+    const uint32_t *tiles;       /* tile_count positions in the picture, each X and Y */
+    size_t tile_count;
     int frames; /* of an animation, below each other; 0: one picture */
     int left, top, whole_width, whole_height; /* of a crop; whole_width is 0 without one */
     int is_float;

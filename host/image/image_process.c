@@ -15,9 +15,10 @@
 
 #define LARGEST_SENT ((size_t)64 << 20)
 
-// In the socket, zero-terminated strings, the pixels and the layers follow the request.
+// In the socket, zero-terminated strings, the pixels, the layers and the tiles follow the request.
 typedef struct {
     uint64_t width, height, frames, is_float, text_count;
+    uint64_t tile_width, tile_height, tile_count, is_part;
     uint64_t left, top, whole_width, whole_height;
     uint64_t string_size, pixel_size;
     uint64_t layer_count, layer_size;
@@ -47,16 +48,32 @@ ModuleFunction *open_module(const char *name, Error *cause)
     return function;
 }
 
+static size_t smaller(int a, int b)
+{
+    return (size_t)(a < b ? a : b);
+}
+
+static size_t pixel_count(const ImageModulePicture *picture)
+{
+    if (!picture->is_part)
+        return (size_t)picture->width * (size_t)picture->height;
+    return picture->tile_count * smaller(picture->tile_width, picture->width) *
+           smaller(picture->tile_height, picture->height);
+}
+
 static size_t pixel_size(const ImageModulePicture *picture)
 {
-    const size_t channel_size = picture->is_float ? sizeof(float) : 1;
-    return (size_t)picture->width * (size_t)picture->height * 3 * channel_size;
+    return pixel_count(picture) * 3 * (picture->is_float ? sizeof(float) : 1);
 }
 
 static size_t layer_size(const ImageModulePicture *picture)
 {
-    return (size_t)picture->width * (size_t)picture->height * picture->layer_count *
-           sizeof(uint32_t);
+    return pixel_count(picture) * picture->layer_count * sizeof(uint32_t);
+}
+
+static size_t tiles_size(const ImageModulePicture *picture)
+{
+    return picture->tile_count * 2 * sizeof *picture->tiles;
 }
 
 // Returns the number of strings in a request: path, format, texts and layer names, in this order.
@@ -78,6 +95,10 @@ static bool send_request(const ImageModulePicture *picture)
     Request request = {.width = (uint64_t)picture->width,
                        .height = (uint64_t)picture->height,
                        .frames = (uint64_t)picture->frames,
+                       .tile_width = (uint64_t)picture->tile_width,
+                       .tile_height = (uint64_t)picture->tile_height,
+                       .tile_count = picture->tile_count,
+                       .is_part = picture->is_part != 0,
                        .left = (uint64_t)picture->left,
                        .top = (uint64_t)picture->top,
                        .whole_width = (uint64_t)picture->whole_width,
@@ -95,7 +116,8 @@ static bool send_request(const ImageModulePicture *picture)
     for (size_t i = 0; ok && i < string_count(picture); i++)
         ok = child_send(writer.socket, string_at(picture, i), strlen(string_at(picture, i)) + 1);
     return ok && child_send(writer.socket, picture->pixels, request.pixel_size) &&
-           child_send(writer.socket, picture->layers, request.layer_size);
+           child_send(writer.socket, picture->layers, request.layer_size) &&
+           child_send(writer.socket, picture->tiles, tiles_size(picture));
 }
 
 // Points the picture's members into strings. texts must have 2 * text_count entries.
@@ -120,6 +142,10 @@ static ImageModulePicture picture_of(const Request *request)
     ImageModulePicture picture = {.width = (int)request->width,
                                   .height = (int)request->height,
                                   .frames = (int)request->frames,
+                                  .tile_width = (int)request->tile_width,
+                                  .tile_height = (int)request->tile_height,
+                                  .tile_count = request->tile_count,
+                                  .is_part = request->is_part != 0,
                                   .left = (int)request->left,
                                   .top = (int)request->top,
                                   .whole_width = (int)request->whole_width,
@@ -141,15 +167,19 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     char *strings = memory_raw(request->string_size, 1, &error);
     void *pixels = memory_raw(request->pixel_size, 1, &error);
     void *layers = memory_raw(request->layer_size, 1, &error);
+    uint32_t *tiles = memory_raw(tiles_size(&picture), 1, &error);
     const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
-    const bool held = strings != NULL && pixels != NULL && layers != NULL && texts != NULL;
+    const bool held =
+        strings != NULL && pixels != NULL && layers != NULL && tiles != NULL && texts != NULL;
     bool ok = held && child_receive(socket, strings, request->string_size) &&
               child_receive(socket, pixels, request->pixel_size) &&
-              child_receive(socket, layers, request->layer_size);
+              child_receive(socket, layers, request->layer_size) &&
+              child_receive(socket, tiles, tiles_size(&picture));
     if (ok) {
         place_strings(&picture, strings, texts);
         picture.pixels = pixels;
         picture.layers = layers;
+        picture.tiles = tiles;
         snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
         answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
         ok = child_send(socket, &answer, sizeof answer);
@@ -157,6 +187,7 @@ static bool answer_request(int socket, const Request *request, ImageModuleWrite 
     free(strings);
     free(pixels);
     free(layers);
+    free(tiles);
     free(texts);
     return ok;
 }

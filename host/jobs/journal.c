@@ -3,6 +3,8 @@
 // detect records that a power failure left incomplete.
 #include "jobs/journal.h"
 
+#include "base/output_file.h"
+
 #include <errno.h>
 #include <string.h>
 #include <sys/file.h>
@@ -63,18 +65,41 @@ static bool is_regular(const Journal *journal)
     return fstat(fileno(journal->stream), &status) == 0 && S_ISREG(status.st_mode);
 }
 
+// Locks fail with another error on file systems without locks. There, journal_claim suffices.
+static bool take_lock(Journal *journal, FILE *stream, Error *error)
+{
+    journal->is_busy = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    return !journal->is_busy ||
+           error_set(error, "%s: another process draws this picture: try again later",
+                     journal->path);
+}
+
+// Returns whether the journal's path still names the open file.
+static bool is_current(const Journal *journal)
+{
+    struct stat named, opened;
+    return stat(journal->path, &named) == 0 && fstat(fileno(journal->stream), &opened) == 0 &&
+           named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
+}
+
+static void close_stream(Journal *journal)
+{
+    if (journal->stream != NULL)
+        fclose(journal->stream);
+    journal->stream = NULL;
+}
+
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error)
 {
     *journal = (Journal){.path = path, .stream = fopen(path, "ab+e")};
     if (journal->stream == NULL)
         return cannot(journal, "opened", error);
     bool ok = is_regular(journal) || error_set(error, "%s: is no journal of clrt", path);
-    ok = ok && (flock(fileno(journal->stream), LOCK_EX | LOCK_NB) == 0 ||
-                error_set(error, "%s: another process draws this picture", path));
+    ok = ok && take_lock(journal, journal->stream, error);
     rewind(journal->stream);
     ok = ok && check_head(journal, key, error);
     if (!ok)
-        journal_close(journal, false);
+        close_stream(journal);
     return ok;
 }
 
@@ -100,12 +125,48 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-bool journal_cut(Journal *journal, Error *error)
+static bool copy_bytes(FILE *from, FILE *to, long count)
+{
+    char block[65536];
+    rewind(from);
+    while (count > 0) {
+        const size_t size = count < (long)sizeof block ? (size_t)count : sizeof block;
+        if (fread(block, size, 1, from) != 1 || fwrite(block, size, 1, to) != 1)
+            return false;
+        count -= (long)size;
+    }
+    return fflush(to) == 0;
+}
+
+// Fills the new file and locks it before it gets the journal's name.
+static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
-    return (end >= 0 && ftruncate(fileno(journal->stream), end) == 0 &&
-            fseek(journal->stream, end, SEEK_SET) == 0) ||
-           cannot(journal, "written", error);
+    if (stream == NULL || end < 0 || !copy_bytes(journal->stream, stream, end))
+        return cannot(journal, "written", error);
+    journal->is_busy = !is_current(journal);
+    if (journal->is_busy)
+        return error_set(error, "%s: another process draws this picture: try again later",
+                         journal->path);
+    return take_lock(journal, stream, error);
+}
+
+bool journal_claim(Journal *journal, Error *error)
+{
+    OutputFile file;
+    Error cause = {0};
+    if (!output_file_begin(&file, journal->path, error))
+        return false;
+    FILE *stream = fopen(file.temporary, "ab+e");
+    const bool filled = fill_file(journal, stream, error);
+    if (!output_file_end(&file, filled, &cause)) {
+        if (stream != NULL)
+            fclose(stream);
+        return error_set(error, "%s: cannot be written: %s", journal->path, cause.text);
+    }
+    close_stream(journal);
+    journal->stream = stream;
+    return true;
 }
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error)
@@ -119,10 +180,8 @@ bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error)
 
 void journal_close(Journal *journal, bool is_done)
 {
-    if (journal->stream == NULL)
-        return;
-    if (is_done)
+    if (journal->stream != NULL && is_done && is_current(journal))
         unlink(journal->path);
-    fclose(journal->stream);
+    close_stream(journal);
     *journal = (Journal){0};
 }

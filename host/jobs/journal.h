@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A file of checksummed records, to which a long job appends its results. A later run resumes from
-// them. Reading stops at the first damaged record, and journal_cut removes the rest.
+// them. Reading stops at the first damaged record, and journal_claim drops the rest.
 #pragma once
 
 #include "base/error.h"
@@ -13,23 +13,25 @@ typedef struct {
     FILE *stream;     // NULL if closed
     const char *path; // borrowed
     uint64_t records; // records read and written
+    bool is_busy;     // journal_open or journal_claim failed because of another process
 } Journal;
 
 // Returns whether path is a file at least as long as a journal's head.
 bool journal_exists(const char *path);
 
-// Opens the journal at path, or creates one with this key. Fails if the journal has another key or
-// another process has it open.
+// Opens the journal at path for reading, or creates one with this key. Fails if the journal has
+// another key or another process has it open.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);
 
 // Reads the next record, which must have size bytes. Returns false at the end or at a damaged
-// record. All records must be read before one is added.
+// record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Removes everything after the last record read.
-bool journal_cut(Journal *journal, Error *error);
+// Replaces the journal by a new file of the records read, to which records can be added. A process
+// that still writes to the old file, because its host lost the lock, cannot change the new one.
+bool journal_claim(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);
 
-// Closes the journal, and deletes its file if is_done.
+// Closes the journal. Deletes its file if is_done, unless another process has claimed the journal.
 void journal_close(Journal *journal, bool is_done);

@@ -2,9 +2,8 @@
 // Tiles finish in the order of their numbers, so a count identifies the finished tiles.
 #include "jobs/resume.h"
 
-#include "image/stored_image.h"
 #include "jobs/stored_tiles.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +31,7 @@ bool resume_look(Resume *resume, const Options *options, Error *error)
         return false;
     resume->stored_path = path;
     return !exists || journal_exists(resume->path) || !image_format_takes_layers(options->format) ||
-           image_read(&resume->stored, path, error);
+           exr_file_open(&resume->stored, path, error);
 }
 
 // Hashes everything that determines the picture and its tiles.
@@ -63,14 +62,22 @@ static bool take_stored(const Resume *resume, const Provenance *own, RenderSetti
                         Framebuffer *framebuffer, Error *error)
 {
     Layers none = {0};
-    if (!is_same_picture(&resume->stored, own, settings, &settings->ready_tiles) ||
-        !stored_tiles_has_colors(&resume->stored))
+    const ExrFile *file = &resume->stored;
+    RenderSettings stored = *settings;
+    if (settings->parts == 0)
+        stored.tile_width = stored.tile_height = EXR_TILE;
+    if (!is_same_picture(&file->head, own, settings, &settings->ready_tiles) ||
+        !stored_tiles_has_colors(&file->head) || file->tile_width != stored.tile_width ||
+        file->tile_height != stored.tile_height)
         return error_set(error,
                          "%s: is of another scene, other settings or another version of clrt: "
                          "remove it to begin again",
                          resume->stored_path);
-    stored_tiles_copy(settings, settings->ready_tiles, &resume->stored, framebuffer, &none);
-    return true;
+    Error cause = {0};
+    const TileTarget target = {.framebuffer = framebuffer, .layers = &none};
+    const uint64_t count = settings->parts > 0 ? settings->ready_tiles : tile_count(&stored);
+    return stored_tiles_copy(&stored, count, file, &target, &cause) ||
+           error_set(error, "%s: cannot be resumed: %s", resume->stored_path, cause.text);
 }
 
 static size_t tile_size(const Tile *tile)
@@ -83,7 +90,8 @@ static void copy_tile(float *values, const Framebuffer *framebuffer, const Tile 
     const size_t size = tile->width * sizeof(float[3]);
     for (uint32_t row = 0; row < tile->height; row++) {
         float *there = values + (size_t)row * tile->width * 3;
-        float *here = framebuffer->pixels[(size_t)(tile->y + row) * framebuffer->width + tile->x];
+        float *here =
+            framebuffer->pixels[(size_t)(tile->top + row) * framebuffer->width + tile->left];
         memcpy(is_kept ? there : here, is_kept ? here : there, size);
     }
 }
@@ -105,21 +113,20 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
 {
     uint64_t key[2];
     make_key(own, settings, key);
-    const bool is_stored = resume->stored.values != NULL;
+    const bool is_stored = resume->stored.stream != NULL;
     // If take_stored fails, no journal exists yet, and a later run can still resume from the stored
     // picture.
     if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
         return false;
     if (!journal_open(&resume->journal, resume->path, key, error))
         return false;
-    if (!is_stored) {
+    if (!is_stored)
         read_journal(resume, settings, framebuffer);
-        return journal_cut(&resume->journal, error);
-    }
-    bool ok = true;
-    for (uint64_t number = 0; ok && number < settings->ready_tiles; number++)
+    bool ok = journal_claim(&resume->journal, error);
+    resume->is_broken = !ok && !resume->journal.is_busy;
+    for (uint64_t number = 0; ok && is_stored && number < settings->ready_tiles; number++)
         ok = resume_keep(resume, settings, framebuffer, number, error);
-    stored_image_free(&resume->stored);
+    exr_file_close(&resume->stored);
     return ok;
 }
 
@@ -147,7 +154,7 @@ bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuff
 void resume_close(Resume *resume, bool is_done)
 {
     journal_close(&resume->journal, is_done);
-    stored_image_free(&resume->stored);
+    exr_file_close(&resume->stored);
     free(resume->tile);
     free(resume->path);
     *resume = (Resume){0};

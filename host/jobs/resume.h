@@ -4,12 +4,12 @@
 #pragma once
 
 #include "cli/options/options.h"
-#include "image/provenance.h"
+#include "image/exr_file.h"
 #include "jobs/journal.h"
 
 typedef struct {
-    char *path;         // the journal's path; NULL without --resume; owned
-    StoredImage stored; // the earlier run's EXR file; empty if it is missing or a journal exists
+    char *path;     // the journal's path; NULL without --resume; owned
+    ExrFile stored; // the earlier run's EXR file; empty if it is missing or a journal exists
     const char *stored_path;
     Journal journal;
     bool is_broken; // writing to the journal failed
@@ -19,8 +19,7 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Reads the earlier picture unless a journal exists. Only main may call this function, before other
-// threads start, because it forks a process that reads the picture.
+// Opens the earlier picture unless a journal exists.
 bool resume_look(Resume *resume, const Options *options, Error *error);
 
 // Opens the journal and copies the finished tiles into framebuffer. Stores the number of finished

@@ -3,9 +3,10 @@
 #include "jobs/stored_tiles.h"
 
 #include "cli/options/options.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <assert.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool in_range(int value, int least, int most)
@@ -170,30 +171,74 @@ static void find_places(const StoredImage *image, const Layers *layers, uint32_t
         places[stored_image_channel(image, layers->list[layer].name)] = 3 + layer;
 }
 
-static void copy_pixel(const float *values, const uint32_t *places, uint32_t count, float color[3],
-                       uint32_t *layers)
+bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error)
 {
-    for (uint32_t channel = 0; channel < count; channel++)
-        if (places[channel] < 3)
-            color[places[channel]] = values[channel];
-        else if (places[channel] != NOWHERE)
-            memcpy(&layers[places[channel] - 3], &values[channel], sizeof *values);
+    *part = (ImagePart){.width = settings->width,
+                        .height = settings->height,
+                        .tile_width = settings->tile_width,
+                        .tile_height = settings->tile_height,
+                        .tile_count = tile_count(settings)};
+    part->tiles = memory_raw(part->tile_count, sizeof *part->tiles, error);
+    for (size_t number = 0; part->tiles != NULL && number < part->tile_count; number++) {
+        const Tile tile = tile_at(settings, number);
+        part->tiles[number][0] = tile.x;
+        part->tiles[number][1] = tile.y;
+    }
+    return part->tiles != NULL;
 }
 
-void stored_tiles_copy(const RenderSettings *settings, uint64_t count, const StoredImage *image,
-                       Framebuffer *framebuffer, Layers *layers)
+// Copies one channel of a tile into the colors or a layer.
+static void copy_channel(const uint32_t *values, const Tile *tile, uint32_t place,
+                         const TileTarget *target)
 {
-    assert(stored_tiles_has_colors(image));
+    Framebuffer *framebuffer = target->framebuffer;
+    const Layers *layers = target->layers;
+    const uint32_t left = target->is_whole ? tile->x : tile->left;
+    const uint32_t top = target->is_whole ? tile->y : tile->top;
+    for (uint32_t row = 0; row < tile->height; row++)
+        for (uint32_t column = 0; place != NOWHERE && column < tile->width; column++) {
+            const size_t pixel = (size_t)(top + row) * framebuffer->width + left + column;
+            const uint32_t *value = &values[(size_t)row * target->pitch + column];
+            if (place < 3)
+                memcpy(&framebuffer->pixels[pixel][place], value, sizeof *value);
+            else
+                layers->values[pixel * layers->count + place - 3] = *value;
+        }
+}
+
+static bool copy_tile(const ExrFile *file, const Tile *tile, uint32_t *const memory[2],
+                      const TileTarget *target)
+{
+    uint64_t start;
+    ExrTileHead head;
+    TileTarget own = *target;
     uint32_t places[STORED_CHANNELS_MAX];
-    find_places(image, layers, places);
-    for (uint64_t number = 0; number < count; number++) {
+    const size_t size = exr_tile_bytes(file, tile->width, tile->height);
+    if (!exr_file_find(file, tile->x / file->tile_width, tile->y / file->tile_height, &start,
+                       &head) ||
+        !exr_file_unpack(file, start, &head, (unsigned char *)memory[0], memory[1], size))
+        return false;
+    find_places(&file->head, target->layers, places);
+    own.pitch = (size_t)tile->width * file->head.channel_count;
+    for (uint32_t channel = 0; channel < file->head.channel_count; channel++)
+        copy_channel(memory[1] + (size_t)channel * tile->width, tile, places[channel], &own);
+    return true;
+}
+
+bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
+                       const TileTarget *target, Error *error)
+{
+    assert(stored_tiles_has_colors(&file->head));
+    const Tile largest = tile_largest(settings);
+    const size_t size = exr_tile_bytes(file, largest.width, largest.height);
+    uint32_t *const memory[2] = {memory_raw(size, 1, error), memory_raw(size, 1, error)};
+    bool ok = memory[0] != NULL && memory[1] != NULL;
+    for (uint64_t number = 0; ok && number < count; number++) {
         const Tile tile = tile_at(settings, number);
-        for (uint32_t y = tile.y; y < tile.y + tile.height; y++)
-            for (uint32_t x = tile.x; x < tile.x + tile.width; x++) {
-                const size_t pixel = (size_t)y * image->width + x;
-                copy_pixel(image->values + pixel * image->channel_count, places,
-                           image->channel_count, framebuffer->pixels[pixel],
-                           layers->values + pixel * layers->count);
-            }
+        ok = copy_tile(file, &tile, memory, target) ||
+             error_set(error, "it is damaged at pixel %u,%u", tile.x, tile.y);
     }
+    free(memory[0]);
+    free(memory[1]);
+    return ok;
 }

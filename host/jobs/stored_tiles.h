@@ -3,6 +3,7 @@
 // tiles.
 #pragma once
 
+#include "image/exr_file.h"
 #include "image/framebuffer.h"
 #include "image/image_file.h"
 #include "image/stored_image.h"
@@ -35,7 +36,18 @@ bool stored_tiles_has_colors(const StoredImage *image);
 // Returns whether the image's channels are exactly the three colors and these layers.
 bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 
-// Copies tiles 0 to count - 1: colors to framebuffer, and the channels that layers lists to
-// layers->values. The image must have these channels.
-void stored_tiles_copy(const RenderSettings *settings, uint64_t count, const StoredImage *image,
-                       Framebuffer *framebuffer, Layers *layers);
+// Lists a part's tiles for its file. The caller frees part->tiles.
+bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error);
+
+// Receives tiles: colors in framebuffer, and the channels that layers lists in layers->values.
+typedef struct {
+    Framebuffer *framebuffer;
+    Layers *layers;
+    bool is_whole; // of the size of the whole picture, even for a part (tile_frame_size)
+    size_t pitch;  // set by stored_tiles_copy
+} TileTarget;
+
+// Copies tiles 0 to count - 1 of the file, which must have the settings' tile size, and colors and
+// the channels of target->layers.
+bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
+                       const TileTarget *target, Error *error);

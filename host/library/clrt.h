@@ -167,7 +167,7 @@ typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
 
 typedef struct {
     size_t size;
-    uint32_t width, height; // in pixels, each in [1, 65536]
+    uint32_t width, height; // in pixels, each in [1, 131072]
     uint32_t view;          // number of the scene's view, from 1; 0 means 1
     uint32_t samples;       // N for N x N samples per pixel, at most 64; 0 means 1
     uint32_t max_level; // rays of this level return the background; at most 1000; 0: the scene's

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Renderer, scene and the caller's settings -> the caller's floats, written tile by tile.
-#include "library/check.h"
 #include "library/handles.h"
 #include "scene/camera.h"
 

@@ -2,9 +2,8 @@
 // Draws all scenes with the general kernels, so that a renderer compiles kernels only once.
 #include "library/handles.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "base/processors.h"
-#include "library/check.h"
 
 #include <pthread.h>
 #include <stdlib.h>

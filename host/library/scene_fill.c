@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The caller's numbers -> the materials, spheres, lights and cameras of a scene.
 #include "base/limits.h"
-#include "library/check.h"
 #include "library/handles.h"
-
-static Vec3 vector_of(const double vector[3])
-{
-    return vec3(vector[0], vector[1], vector[2]);
-}
 
 static bool check_material(const ClrtMaterial *material, ClrtError *error)
 {
@@ -55,7 +49,7 @@ bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], double radi
         !check_number(error, "the radius", radius, RADIUS_LEAST, RADIUS_MOST) ||
         !scene_handle_check_material(scene, material, error))
         return false;
-    const Sphere sphere = {vector_of(center), radius, material};
+    const Sphere sphere = {vec3_of_doubles(center), radius, material};
     const bool ok = array_push(&scene->scene.spheres, sphere, &cause);
     return scene_handle_changed(scene, ok, &cause, error);
 }
@@ -76,7 +70,7 @@ bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3], do
         !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST) ||
         !check_color(error, "the light's color", color))
         return false;
-    const Light light = {vector_of(position), intensity, vector_of(color)};
+    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color)};
     const bool ok = array_push(&scene->scene.lights, light, &cause);
     return scene_handle_changed(scene, ok, &cause, error);
 }
@@ -90,9 +84,9 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
         !check_vector(error, "the camera's 'up'", given.up, COORDINATE_MOST) ||
         !check_number(error, "the field of view", given.fov_degrees, FOV_LEAST, FOV_MOST))
         return false;
-    *viewpoint = (Viewpoint){.eye = vector_of(given.eye),
-                             .look_at = vector_of(given.look_at),
-                             .up = vector_of(given.up),
+    *viewpoint = (Viewpoint){.eye = vec3_of_doubles(given.eye),
+                             .look_at = vec3_of_doubles(given.look_at),
+                             .up = vec3_of_doubles(given.up),
                              .fov_degrees = given.fov_degrees};
     if (!(vec3_extent(viewpoint->up) > 0))
         viewpoint->up = vec3(0, 0, 1);
@@ -115,7 +109,7 @@ bool clrt_scene_set_background(ClrtScene *scene, const double color[3], ClrtErro
 {
     if (!check_given(error, "the scene", scene) || !check_color(error, "the background", color))
         return false;
-    scene->scene.background = vector_of(color);
+    scene->scene.background = vec3_of_doubles(color);
     return scene_handle_changed(scene, true, NULL, NULL);
 }
 

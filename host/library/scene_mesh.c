@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The caller's arrays -> a mesh of a scene.
 #include "base/limits.h"
-#include "library/check.h"
 #include "library/handles.h"
 
 #include <string.h>

@@ -210,7 +210,8 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error)
     return fans->parents != NULL;
 }
 
-uint32_t fans_root(const Fans *fans, uint32_t corner)
+// Returns the lowest corner of the corner's fan.
+static uint32_t fans_root(const Fans *fans, uint32_t corner)
 {
     uint32_t *parents = fans->parents;
     while (parents[corner] != corner) {

@@ -61,9 +61,6 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
 // Joins the fans of two triangles at a point that both have.
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
 
-// Returns the lowest corner of the corner's fan.
-uint32_t fans_root(const Fans *fans, uint32_t corner);
-
 // Replaces each parent by the number of the corner's fan. Numbers are in the order of the fans'
 // lowest corners. Returns the number of fans. No other call for these fans may follow.
 uint32_t fans_number(Fans *fans);

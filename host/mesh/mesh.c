@@ -11,9 +11,9 @@ void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
     Vec3 least = *low, most = *high;
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++) {
-            const double *p = mesh->positions[mesh->triangles[triangle][corner]];
-            least = vec3_lower(least, vec3(p[0], p[1], p[2]));
-            most = vec3_upper(most, vec3(p[0], p[1], p[2]));
+            const Vec3 p = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
+            least = vec3_lower(least, p);
+            most = vec3_upper(most, p);
         }
     *low = least;
     *high = most;
@@ -88,4 +88,41 @@ void mesh_free(Mesh *mesh)
     free(mesh->normals);
     free(mesh->triangles);
     *mesh = (Mesh){0};
+}
+
+// A rotation by multiples of 90 degrees is three source coordinates with signs. Turns from y and -y
+// keep x, and the others keep y, so that a front toward -y stays there.
+
+const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
+
+// For each axis of the turned mesh, the number of its source axis from 1, negative if the sign
+// changes.
+static const int sources[UP_AXES][3] = {
+    [UP_X] = {-3, 2, 1},       [UP_Y] = {1, -3, 2},       [UP_Z] = {1, 2, 3},
+    [UP_MINUS_X] = {3, 2, -1}, [UP_MINUS_Y] = {1, 3, -2}, [UP_MINUS_Z] = {-1, 2, -3}};
+
+static Vec3 turned(Vec3 v, const int source[3])
+{
+    const double given[3] = {v.x, v.y, v.z};
+    double result[3];
+    for (int axis = 0; axis < 3; axis++) {
+        const double value = given[abs(source[axis]) - 1];
+        result[axis] = source[axis] < 0 ? -value : value;
+    }
+    return vec3_of_doubles(result);
+}
+
+void mesh_turn_up(Mesh *mesh, UpAxis up)
+{
+    if (up == UP_AUTO || up == UP_Z)
+        return;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        double *p = mesh->positions[i];
+        const Vec3 position = turned(vec3_of_doubles(p), sources[up]);
+        p[0] = position.x, p[1] = position.y, p[2] = position.z;
+    }
+    for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++) {
+        float *n = mesh->normals[i];
+        vec3_store(n, turned(vec3_of_floats(n), sources[up]));
+    }
 }

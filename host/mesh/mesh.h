@@ -2,6 +2,7 @@
 // A triangle mesh as its file describes it: indexed, with fp64 positions in the file's coordinates.
 #pragma once
 
+#include "base/error.h"
 #include "base/vec.h"
 
 #include <stddef.h>
@@ -49,3 +50,38 @@ void mesh_drop_normals(Mesh *mesh);
 
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);
+
+// Turns meshes whose up axis is not z, which is up for clrt's cameras.
+
+// The axis of a file's coordinates that points up.
+typedef enum {
+    UP_AUTO, // not known
+    UP_X,
+    UP_Y,
+    UP_Z,
+    UP_MINUS_X,
+    UP_MINUS_Y,
+    UP_MINUS_Z,
+    UP_AXES
+} UpAxis;
+
+// The axes as users write them: "auto", "x" to "-z".
+extern const char *const up_axis_names[UP_AXES];
+
+// Rotates positions and normals so that the axis `up` becomes z. The rotation only exchanges
+// coordinates and changes signs, so it rounds nothing. UP_AUTO and UP_Z keep the mesh.
+void mesh_turn_up(Mesh *mesh, UpAxis up);
+
+// Computes the normals that a mesh lacks.
+
+// The crease angle of lone meshes and of scenes that name none.
+#define CREASE_DEGREES 33
+
+// Gives each used vertex without a normal one of length 1: the mean of the faces around it,
+// weighted by their angles. Vertices at one position count as one. Edges with an angle of more than
+// crease_degrees, from 0 to 180, between the normals of their faces stay sharp. The mesh gets new
+// vertices, one for each normal at a position; the triangles keep their order. No computed normal
+// is further than crease_degrees from the normal of its triangle. Corners of triangles without area
+// may stay without a normal. The result depends on the mesh only, bit for bit. On failure, the mesh
+// is unchanged.
+bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);

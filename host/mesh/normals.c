@@ -2,7 +2,7 @@
 // Corners -> fans across smooth edges -> one vertex per fan. The weights are those of Thuermer and
 // Wuethrich, "Computing Vertex Normals from Polygonal Facets" (1998): they make normals independent
 // of how flat faces are triangulated.
-#include "mesh/normals.h"
+#include "mesh/mesh.h"
 
 #include "base/array.h"
 #include "base/limits.h"
@@ -45,7 +45,7 @@ typedef struct {
 static Vec3 given_normal(const Mesh *mesh, uint32_t vertex)
 {
     const float *n = mesh->normals != NULL ? mesh->normals[vertex] : (const float[3]){0, 0, 0};
-    return vec3((double)n[0], (double)n[1], (double)n[2]);
+    return vec3_of_floats(n);
 }
 
 static bool is_complete(const Mesh *mesh)
@@ -154,10 +154,8 @@ static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *erro
     const bool ok = made.positions != NULL && made.normals != NULL;
     for (size_t i = 0; ok && i < count; i++) {
         const Vertex *vertex = &smoothing->vertices.data[i];
-        const Vec3 n = vertex->normal;
-        const float normal[3] = {(float)n.x, (float)n.y, (float)n.z};
         memcpy(made.positions[i], mesh->positions[vertex->old], sizeof *made.positions);
-        memcpy(made.normals[i], normal, sizeof *made.normals);
+        vec3_store(made.normals[i], vertex->normal);
     }
     if (ok) {
         const Mesh old = *mesh;

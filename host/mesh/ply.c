@@ -3,7 +3,7 @@
 // drops triangles with equal corners.
 #include "mesh/ply.h"
 
-#include "mesh/ply_bulk.h"
+#include "mesh/ply_reader.h"
 
 #include <math.h>
 

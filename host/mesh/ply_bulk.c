@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The fast path for elements whose values have fixed offsets. Reading a value is one load, without
 // a function call, a bounds check or a stored position for messages.
-#include "mesh/ply_bulk.h"
+#include "mesh/ply_reader.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses header lines into elements and their properties in one pass. Only elements and properties
 // that a mesh does not use may repeat.
-#include "mesh/ply_header.h"
+#include "mesh/ply_reader.h"
 
 #include "base/number.h"
 

@@ -130,21 +130,6 @@ static bool take_bits(PlyReader *reader, PlyType type, uint64_t *bits)
     return true;
 }
 
-static double bits_to_float(uint64_t bits)
-{
-    const uint32_t low = (uint32_t)bits;
-    float value;
-    memcpy(&value, &low, sizeof value);
-    return (double)value;
-}
-
-static double bits_to_double(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 static int64_t bits_to_integer(uint64_t bits, PlyType type)
 {
     assert(type < PLY_FLOAT32);
@@ -184,12 +169,13 @@ bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value)
     uint64_t bits = 0;
     if (!take_bits(reader, type, &bits))
         return false;
-    if (type == PLY_FLOAT32)
-        *value = bits_to_float(bits);
-    else if (type == PLY_FLOAT64)
-        *value = bits_to_double(bits);
+    const uint32_t low = (uint32_t)bits;
+    float single;
+    memcpy(&single, &low, sizeof single);
+    if (type == PLY_FLOAT64)
+        memcpy(value, &bits, sizeof *value);
     else
-        *value = (double)bits_to_integer(bits, type);
+        *value = type == PLY_FLOAT32 ? (double)single : (double)bits_to_integer(bits, type);
     return true;
 }
 

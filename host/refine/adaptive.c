@@ -3,13 +3,132 @@
 // as one list. The next pass examines the new groups.
 #include "refine/adaptive.h"
 
-#include "refine/adaptive_pass.h"
-#include "refine/pixel_marks.h"
+#include "refine/pixel_contrast.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 
-#define ROWS_OF_TASK   16
+// A list contains eight samples per new group, in the order of the groups, then one per seam that
+// needs a sample.
+
 #define GROUPS_OF_TASK 512
+
+// The places and samples of the groups from first on, eight per group.
+typedef struct {
+    RefineTree *tree;
+    uint32_t first;
+    SamplePlace *places;
+    SampleData *samples;
+} Exchange;
+
+static void list_places(void *context, uint32_t first, uint32_t end)
+{
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    SamplePlace *places = exchange->places + (size_t)first * ADAPTIVE_CUT;
+    for (uint32_t i = first; i < end; i++)
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+            uint32_t place[2];
+            if (cell == GROUP_MIDDLE)
+                continue;
+            refine_tree_cell_place(&tree->groups.data[exchange->first + i], cell, place);
+            *places++ = (SamplePlace){place[0], place[1]};
+        }
+}
+
+static void take_samples(void *context, uint32_t first, uint32_t end)
+{
+    const Exchange *exchange = context;
+    RefineTree *tree = exchange->tree;
+    const SampleData *samples = exchange->samples + (size_t)first * ADAPTIVE_CUT;
+    for (uint32_t i = first; i < end; i++) {
+        CellGroup *group = &tree->groups.data[exchange->first + i];
+        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
+            if (cell != GROUP_MIDDLE)
+                group->cells[cell] = *samples++;
+        contrast_keep(group);
+    }
+}
+
+// Returns whether the last pass completed without a stop by the observer.
+static bool adaptive_is_whole(const Adaptive *adaptive)
+{
+    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
+}
+
+// Traces the groups from `first` on and the samples that seams need. If the observer stops it,
+// removes these groups.
+static bool adaptive_pass_trace(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
+                                const RenderObserver *observer, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    const uint32_t groups = (uint32_t)tree->groups.count - first, cut = ADAPTIVE_CUT * groups;
+    const uint32_t count = cut + (uint32_t)search->asked.count;
+    if (count == 0)
+        return true;
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    SampleData *samples = memory_raw(count, sizeof *samples, error);
+    const SampleList list = {places, samples, count};
+    Exchange exchange = {tree, first, places, samples};
+    bool ok = places != NULL && samples != NULL;
+    if (ok) {
+        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, list_places, &exchange);
+        for (size_t i = 0; i < search->asked.count; i++) {
+            uint32_t place[2];
+            seam_asks(&tree->seams.data[search->asked.data[i]], place);
+            places[cut + i] = (SamplePlace){place[0], place[1]};
+        }
+        ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    }
+    if (ok && adaptive_is_whole(adaptive)) {
+        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, take_samples, &exchange);
+        tree->traced = (uint32_t)tree->groups.count;
+        adaptive->samples += count;
+        ok = seam_search_take(search, tree, samples + cut, error) &&
+             seam_search_open(tree, first, tree->traced, adaptive->pool, error);
+    } else {
+        refine_tree_uncut(tree, first);
+    }
+    free(places);
+    free(samples);
+    return ok;
+}
+
+// Each task lists the pixels of one row of blocks.
+static void list_pixels(void *context, uint32_t first, uint32_t end)
+{
+    (void)end;
+    const Exchange *exchange = context;
+    const RefineTree *tree = exchange->tree;
+    const uint32_t half = REFINE_GRID / 2;
+    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, first);
+    for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
+        for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
+            const uint32_t x = left + i % PACKET_SIDE, y = first + i / PACKET_SIDE;
+            const bool is_there = x < tree->width && y < tree->height;
+            *places++ =
+                (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
+        }
+}
+
+// Takes one sample per pixel.
+static bool adaptive_pass_begin(Adaptive *adaptive, const RenderObserver *observer, Error *error)
+{
+    RefineTree *tree = &adaptive->tree;
+    const uint32_t count = refine_tree_places(tree);
+    SamplePlace *places = memory_raw(count, sizeof *places, error);
+    const SampleList list = {places, tree->pixels, count};
+    if (places == NULL)
+        return false;
+    Exchange exchange = {.tree = tree, .places = places};
+    thread_pool_share(adaptive->pool, tree->height, PACKET_SIDE, list_pixels, &exchange);
+    const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    adaptive->samples = (uint64_t)tree->width * tree->height;
+    free(places);
+    return ok && pixel_contrasts_make(&adaptive->pixel_contrasts, tree, adaptive->pool, error);
+}
+
+#define ROWS_OF_TASK 16
 
 // The input of a marking pass and its result.
 typedef struct {
@@ -20,17 +139,6 @@ typedef struct {
     uint32_t first, end; // range of groups
     uint16_t *marks;     // of each group: a bit per cell, then a bit per side
 } Marking;
-
-static uint32_t tasks_of(size_t whole, uint32_t part)
-{
-    return (uint32_t)((whole + part - 1) / part);
-}
-
-static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
-{
-    const size_t end = (size_t)(task + 1) * part;
-    return (uint32_t)(end < whole ? end : whole);
-}
 
 // Returns a bit for each side where the group differs from the cell beyond by more than the
 // threshold. The cell beyond has the size of the subdivided cell or is larger.
@@ -64,13 +172,11 @@ static uint16_t marks_of_group(const Marking *marking, const CellGroup *group)
     return (uint16_t)marks;
 }
 
-static void mark_groups(void *context, uint32_t task, uint32_t worker)
+static void mark_groups(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Marking *marking = context;
     const RefineTree *tree = marking->tree;
-    const size_t count = marking->end - marking->first;
-    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
+    for (uint32_t i = first; i < end; i++)
         marking->marks[i] = marks_of_group(marking, &tree->groups.data[marking->first + i]);
 }
 
@@ -115,11 +221,6 @@ static bool cut_groups(RefineTree *tree, const Marking *marking, Error *error)
     return true;
 }
 
-bool adaptive_is_whole(const Adaptive *adaptive)
-{
-    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
-}
-
 static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error *error)
 {
     for (size_t i = 0; i < footprints->list.count; i++) {
@@ -129,14 +230,6 @@ static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error
             return false;
     }
     return true;
-}
-
-static Marking marking_of(const Adaptive *adaptive, float threshold)
-{
-    return (Marking){.tree = &adaptive->tree,
-                     .footprints = &adaptive->footprints,
-                     .thin_parts = &adaptive->thin_parts,
-                     .threshold = threshold};
 }
 
 static bool mark_and_cut_pixels(Adaptive *adaptive, float threshold, Error *error)
@@ -151,15 +244,18 @@ static bool mark_and_cut_groups(Adaptive *adaptive, float threshold, uint32_t fi
                                 Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    Marking marking = marking_of(adaptive, threshold);
-    marking.first = first;
-    marking.end = end;
+    Marking marking = {.tree = tree,
+                       .footprints = &adaptive->footprints,
+                       .thin_parts = &adaptive->thin_parts,
+                       .threshold = threshold,
+                       .first = first,
+                       .end = end};
     if (first >= end || !adaptive_is_whole(adaptive))
         return true;
     marking.marks = memory_raw(end - first, sizeof *marking.marks, error);
     if (marking.marks == NULL)
         return false;
-    thread_pool_run(adaptive->pool, tasks_of(end - first, GROUPS_OF_TASK), mark_groups, &marking);
+    thread_pool_share(adaptive->pool, end - first, GROUPS_OF_TASK, mark_groups, &marking);
     const bool ok = cut_groups(tree, &marking, error);
     free(marking.marks);
     return ok;
@@ -217,20 +313,18 @@ typedef struct {
     Framebuffer *framebuffer;
 } Storing;
 
-static void store_rows(void *context, uint32_t task, uint32_t worker)
+static void store_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Storing *storing = context;
     const RefineTree *tree = storing->tree;
-    for (uint32_t y = task * ROWS_OF_TASK; y < end_of(task, ROWS_OF_TASK, tree->height); y++)
+    for (uint32_t y = first; y < end; y++)
         refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
 }
 
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 {
     Storing storing = {&adaptive->tree, framebuffer};
-    thread_pool_run(adaptive->pool, tasks_of(adaptive->tree.height, ROWS_OF_TASK), store_rows,
-                    &storing);
+    thread_pool_share(adaptive->pool, adaptive->tree.height, ROWS_OF_TASK, store_rows, &storing);
 }
 
 void adaptive_close(Adaptive *adaptive)

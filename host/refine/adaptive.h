@@ -4,8 +4,8 @@
 #pragma once
 
 #include "base/thread_pool.h"
-#include "refine/footprint.h"
 #include "refine/pixel_contrast.h"
+#include "refine/refine_tree.h"
 #include "refine/thin_parts.h"
 #include "render/renderer.h"
 
@@ -46,10 +46,19 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
-// Returns whether the last pass completed without a stop by the observer.
-bool adaptive_is_whole(const Adaptive *adaptive);
-
 // Stores the picture in its current state.
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
 
 void adaptive_close(Adaptive *adaptive);
+
+// Decides by contrast which pixels are subdivided and which only get seams. Pixels are visited
+// block by block, so that consecutive samples are near each other.
+typedef struct {
+    const PixelContrasts *contrasts;
+    const ThinParts *thin_parts;
+    float threshold; // pixels with more contrast need samples
+} PixelWants;
+
+// Subdivides pixels with thin parts and pixels whose contrast exceeds the threshold even with
+// seams. Opens the seams of the other pixels above the threshold.
+bool pixel_marks_take(RefineTree *tree, const PixelWants *wants, ThreadPool *pool, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes second differences along rows, columns and both diagonals.
-#include "refine/bends.h"
+#include "refine/ladder.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -13,19 +13,6 @@ typedef struct {
     const float *bends;
     float *results;
 } Measuring;
-
-// Calls work for groups of ROWS_OF_TASK rows.
-static void run_rows(const Measuring *measuring, ThreadPool *pool, ThreadPoolWork *work)
-{
-    const uint32_t height = measuring->picture->height;
-    thread_pool_run(pool, (height + ROWS_OF_TASK - 1) / ROWS_OF_TASK, work, (void *)measuring);
-}
-
-static uint32_t last_row(const Measuring *measuring, uint32_t task)
-{
-    const uint32_t end = (task + 1) * ROWS_OF_TASK, height = measuring->picture->height;
-    return end < height ? end : height;
-}
 
 static float bend_between(const float color[3], const float one[3], const float other[3])
 {
@@ -55,12 +42,11 @@ static float bend_at(const Framebuffer *picture, uint32_t x, uint32_t y)
     return largest;
 }
 
-static void measure_rows(void *context, uint32_t task, uint32_t worker)
+static void measure_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Measuring *measuring = context;
     const uint32_t width = measuring->picture->width;
-    for (uint32_t y = task * ROWS_OF_TASK; y < last_row(measuring, task); y++)
+    for (uint32_t y = first; y < end; y++)
         for (uint32_t x = 0; x < width; x++)
             measuring->results[(size_t)y * width + x] = bend_at(measuring->picture, x, y);
 }
@@ -87,24 +73,23 @@ static float largest_around(const Measuring *measuring, uint32_t x, uint32_t y)
     return largest;
 }
 
-static void spread_rows(void *context, uint32_t task, uint32_t worker)
+static void spread_rows(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Measuring *measuring = context;
     const uint32_t width = measuring->picture->width;
-    for (uint32_t y = task * ROWS_OF_TASK; y < last_row(measuring, task); y++)
+    for (uint32_t y = first; y < end; y++)
         for (uint32_t x = 0; x < width; x++)
             measuring->results[(size_t)y * width + x] = largest_around(measuring, x, y);
 }
 
 void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends)
 {
-    const Measuring measuring = {picture, NULL, bends};
-    run_rows(&measuring, pool, measure_rows);
+    Measuring measuring = {picture, NULL, bends};
+    thread_pool_share(pool, picture->height, ROWS_OF_TASK, measure_rows, &measuring);
 }
 
 void bends_spread(const Framebuffer *picture, ThreadPool *pool, const float *bends, float *nearby)
 {
-    const Measuring measuring = {picture, bends, nearby};
-    run_rows(&measuring, pool, spread_rows);
+    Measuring measuring = {picture, bends, nearby};
+    thread_pool_share(pool, picture->height, ROWS_OF_TASK, spread_rows, &measuring);
 }

@@ -27,6 +27,11 @@ void slots_add(Slots *slots, uint32_t column, uint32_t row)
                           memory_order_relaxed);
 }
 
+static uint32_t word_at(const CellSet *set, size_t word)
+{
+    return atomic_load_explicit(&set->words[word], memory_order_relaxed);
+}
+
 static size_t words_of_pixel(const CellSet *set)
 {
     return (set->scale * set->scale + WORD_BITS - 1) / WORD_BITS;
@@ -89,17 +94,13 @@ static bool find(const CellSet *set, uint32_t column, uint32_t row, BitPlace *pl
 bool cell_set_has(const CellSet *set, uint32_t column, uint32_t row)
 {
     BitPlace place;
-    return find(set, column, row, &place) &&
-           (atomic_load_explicit(&set->words[place.word], memory_order_relaxed) & place.mask) != 0;
+    return find(set, column, row, &place) && (word_at(set, place.word) & place.mask) != 0;
 }
 
 bool cell_set_add(CellSet *set, uint32_t column, uint32_t row)
 {
     BitPlace place;
-    if (!find(set, column, row, &place))
-        return false;
-    const uint32_t before = atomic_load_explicit(&set->words[place.word], memory_order_relaxed);
-    return (before & place.mask) == 0 &&
+    return find(set, column, row, &place) && (word_at(set, place.word) & place.mask) == 0 &&
            (atomic_fetch_or_explicit(&set->words[place.word], place.mask, memory_order_relaxed) &
             place.mask) == 0;
 }
@@ -131,18 +132,16 @@ void pixel_set_add_range(CellSet *set, uint32_t row, uint32_t first, uint32_t en
 
 bool pixel_set_has_all(const CellSet *set, uint32_t row, uint32_t first, uint32_t end)
 {
-    const _Atomic uint32_t *words = set->words + row * words_of_row(set);
+    const size_t words = row * words_of_row(set);
     uint32_t missing = 0;
     for (uint32_t word = first / WORD_BITS; word * WORD_BITS < end; word++)
-        missing |=
-            mask_of(word, first, end) & ~atomic_load_explicit(&words[word], memory_order_relaxed);
+        missing |= mask_of(word, first, end) & ~word_at(set, words + word);
     return missing == 0;
 }
 
 uint32_t pixel_set_bits(const CellSet *set, uint32_t left, uint32_t row)
 {
-    return atomic_load_explicit(&set->words[row * words_of_row(set) + left / WORD_BITS],
-                                memory_order_relaxed);
+    return word_at(set, row * words_of_row(set) + left / WORD_BITS);
 }
 
 void pixel_set_clear_rows(CellSet *set, uint32_t top, uint32_t bottom)

@@ -2,7 +2,7 @@
 // The bend of a sample is twice its distance from the mean of its two neighbors. A step between two
 // uniform surfaces thus counts in full. Without a step, contrast is the bend. Seams locate steps,
 // so lower weights apply to contrast beside them.
-#include "refine/contrast.h"
+#include "refine/pixel_contrast.h"
 
 // Weights of color differences and of bends beside a seam, and of contrast in a pixel with a seam.
 #define STEP_WEIGHT  0.5f
@@ -29,12 +29,7 @@ static inline float bend(const SampleData *before, const SampleData *at, const S
 // Returns the color difference of samples on different surfaces.
 static float step(const SampleData *at, const SampleData *other)
 {
-    float most = 0;
-    if (at->signature == other->signature)
-        return 0;
-    for (int channel = 0; channel < 3; channel++)
-        most = larger(most, fabsf(at->color[channel] - other->color[channel]));
-    return most;
+    return at->signature == other->signature ? 0 : seam_difference(at, other);
 }
 
 float contrast_past_seams(float contrast)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
 // level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
-#include "refine/footprint.h"
+#include "refine/thin_parts.h"
 
 #include "base/vec.h"
 
@@ -10,18 +10,13 @@
 
 #define HALF_DIAGONAL 0.70710678
 
-static Vec3 vector_of(const float components[3])
-{
-    return (Vec3){components[0], components[1], components[2]};
-}
-
 // Projects a sphere. Returns false if it is behind the eye or as large as a pixel.
 static bool project(const FrameData *frame, const SphereData *sphere, Footprint *footprint)
 {
     const CameraData *camera = &frame->camera;
-    const Vec3 right = vector_of(camera->right_step), down = vector_of(camera->down_step);
-    const Vec3 seen = vec3_sub(vector_of(sphere->center), vector_of(camera->eye));
-    const double depth = vec3_dot(seen, vector_of(camera->forward));
+    const Vec3 right = vec3_of_floats(camera->right_step), down = vec3_of_floats(camera->down_step);
+    const Vec3 seen = vec3_sub(vec3_of_floats(sphere->center), vec3_of_floats(camera->eye));
+    const double depth = vec3_dot(seen, vec3_of_floats(camera->forward));
     const double step = sqrt(vec3_dot(right, right));
     if (depth <= sphere->radius)
         return false;

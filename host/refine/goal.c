@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each round raises the fractions of some strata and advances the pixels that these fractions
 // select.
-#include "refine/goal.h"
+#include "refine/ladder.h"
 
 #include "base/clock.h"
 

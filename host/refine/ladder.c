@@ -3,8 +3,6 @@
 // in the same order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
-#include "refine/bends.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -214,9 +212,8 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
 typedef struct {
     const Ladder *ladder;
     double fractions[STRATA_COUNT]; // 0 if no further pixel is to be selected
-    uint32_t *pixels;               // each chunk stores its selection at the index of its first
-    // pixel
-    uint32_t *counts; // the number of selected pixels of each chunk
+    uint32_t *pixels;               // each chunk's selection, from its first pixel's index on
+    uint32_t *counts;               // the number of selected pixels of each chunk
 } Choosing;
 
 // Returns a number in [0, 1) that is constant while the pixel stays on its rung.
@@ -241,20 +238,17 @@ static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
     }
 }
 
-static void choose_chunk(void *context, uint32_t chunk, uint32_t worker)
+static void choose_chunk(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Choosing *choosing = context;
     const Ladder *ladder = choosing->ladder;
-    const uint32_t first = chunk * CHUNK_ELEMENTS;
-    const uint32_t end = chunk_end(chunk, (uint32_t)ladder->statistics.pixels);
     uint32_t *chosen = choosing->pixels + first;
     for (uint32_t pixel = first; pixel < end; pixel++) {
         const double fraction = choosing->fractions[ladder->strata[pixel]];
         if (fraction > 0 && chance_of(ladder, pixel) < fraction)
             *chosen++ = pixel;
     }
-    choosing->counts[chunk] = (uint32_t)(chosen - (choosing->pixels + first));
+    choosing->counts[first / CHUNK_ELEMENTS] = (uint32_t)(chosen - (choosing->pixels + first));
 }
 
 // Moves the selected pixels of all chunks to the start of the array, and returns their number.
@@ -273,14 +267,15 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
 // *advanced.
 static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {
-    const uint32_t pixels = (uint32_t)ladder->statistics.pixels, chunks = chunk_count(pixels);
+    const uint32_t pixels = (uint32_t)ladder->statistics.pixels;
+    const uint32_t chunks = range_count(pixels, CHUNK_ELEMENTS);
     Choosing choosing = {.ladder = ladder,
                          .pixels = memory_raw(pixels, sizeof *choosing.pixels, error),
                          .counts = memory_raw(chunks, sizeof *choosing.counts, error)};
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
         take_fractions(&choosing, ladder, samples);
-        thread_pool_run(ladder->pool, chunks, choose_chunk, &choosing);
+        thread_pool_share(ladder->pool, pixels, CHUNK_ELEMENTS, choose_chunk, &choosing);
         const uint64_t count = join_chunks(&choosing, chunks);
         ok = climb_chosen(ladder, choosing.pixels, count, error);
         *advanced += count;

@@ -2,7 +2,7 @@
 // A concurrent union-find over vertices. Each vertex refers to a vertex with a lower index in its
 // piece; the root refers to itself. Threads join pieces by linking a root to a lower root. The root
 // of a piece is therefore its lowest vertex, regardless of the order of work.
-#include "refine/mesh_pieces.h"
+#include "refine/thin_parts.h"
 
 #include "base/array.h"
 
@@ -45,22 +45,18 @@ static bool join(_Atomic uint32_t *lower, uint32_t one, uint32_t other)
     }
 }
 
-static void refer_to_themselves(void *context, uint32_t chunk, uint32_t worker)
+static void refer_to_themselves(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Joining *joining = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)joining->mesh->vertex_count);
-    for (uint32_t vertex = chunk * CHUNK_ELEMENTS; vertex < end; vertex++)
+    for (uint32_t vertex = first; vertex < end; vertex++)
         atomic_store_explicit(&joining->lower[vertex], vertex, memory_order_relaxed);
 }
 
-static void join_triangles(void *context, uint32_t chunk, uint32_t worker)
+static void join_triangles(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Joining *joining = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)joining->mesh->triangle_count);
     size_t joints = 0;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end; i++) {
+    for (uint32_t i = first; i < end; i++) {
         const uint32_t *vertices = joining->mesh->triangles[i];
         joints += join(joining->lower, vertices[0], vertices[1]);
         joints += join(joining->lower, vertices[1], vertices[2]);
@@ -73,15 +69,13 @@ static uint32_t piece_of(const Joining *joining, uint32_t triangle)
     return lowest_of(joining->lower, joining->mesh->triangles[triangle][0]);
 }
 
-static void see_whether_many(void *context, uint32_t chunk, uint32_t worker)
+static void see_whether_many(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Joining *joining = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)joining->mesh->triangle_count);
-    const uint32_t first = piece_of(joining, 0);
+    const uint32_t piece = piece_of(joining, 0);
     bool differs = false;
-    for (uint32_t i = chunk * CHUNK_ELEMENTS; i < end && !differs; i++)
-        differs = piece_of(joining, i) != first;
+    for (uint32_t i = first; i < end && !differs; i++)
+        differs = piece_of(joining, i) != piece;
     if (differs)
         joining->are_many = true;
 }
@@ -132,13 +126,13 @@ static bool sort_triangles(MeshPieces *pieces, const Joining *joining, Error *er
 static bool find_pieces(MeshPieces *pieces, Joining *joining, ThreadPool *pool, Error *error)
 {
     const uint32_t triangles = (uint32_t)joining->mesh->triangle_count;
-    thread_pool_run(pool, chunk_count((uint32_t)joining->mesh->vertex_count), refer_to_themselves,
-                    joining);
-    thread_pool_run(pool, chunk_count(triangles), join_triangles, joining);
+    thread_pool_share(pool, (uint32_t)joining->mesh->vertex_count, CHUNK_ELEMENTS,
+                      refer_to_themselves, joining);
+    thread_pool_share(pool, triangles, CHUNK_ELEMENTS, join_triangles, joining);
     // If the joints do not connect all vertices, there may be several pieces, or vertices without
     // triangles.
     if (joining->joints + 1 < joining->mesh->vertex_count)
-        thread_pool_run(pool, chunk_count(triangles), see_whether_many, joining);
+        thread_pool_share(pool, triangles, CHUNK_ELEMENTS, see_whether_many, joining);
     if (joining->are_many)
         return sort_triangles(pieces, joining, error);
     pieces->ends[0] = triangles;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
-#include "refine/pixel_requests.h"
+#include "refine/ladder.h"
 
 #include "base/array.h"
-#include "render/sampler.h"
+#include "render/renderer.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
 // planes around the picture. After the division, all coordinates are therefore bounded.
-#include "refine/projection.h"
+#include "refine/outline.h"
 
 #include "refine/refine_tree.h"
 
@@ -10,11 +10,6 @@
 #define PLANES 5
 #define MARGIN (2 * REFINE_GRID)
 #define NEAR   1e-30 // the longest side of the normalized scene is 1 to 2
-
-static Vec3 vector_of(const float components[3])
-{
-    return (Vec3){components[0], components[1], components[2]};
-}
 
 // Returns a value that is negative if the point is beyond the plane.
 static double inside_by(const Projection *projection, Vec3 point, int plane)
@@ -36,20 +31,17 @@ static double inside_by(const Projection *projection, Vec3 point, int plane)
 static Vec3 point_of(const Projection *projection, size_t vertex)
 {
     const double *position = projection->object->mesh.positions[vertex];
-    const Vec3 point =
-        normalize_point(projection->normalization, vec3(position[0], position[1], position[2]));
+    const Vec3 point = normalize_point(projection->normalization, vec3_of_doubles(position));
     const Vec3 seen = vec3_sub(point, projection->eye);
     const double depth = vec3_dot(seen, projection->forward);
     return (Vec3){vec3_dot(seen, projection->right) + projection->width / 2 * depth,
                   vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
 }
 
-static void project_points(void *context, uint32_t chunk, uint32_t worker)
+static void project_points(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Projection *projection = context;
-    const uint32_t end = chunk_end(chunk, (uint32_t)projection->object->mesh.vertex_count);
-    for (uint32_t vertex = chunk * CHUNK_ELEMENTS; vertex < end; vertex++) {
+    for (uint32_t vertex = first; vertex < end; vertex++) {
         const Vec3 point = point_of(projection, vertex);
         ProjectedPoint projected = {0};
         for (int plane = 0; plane < PLANES; plane++)
@@ -64,14 +56,14 @@ static void project_points(void *context, uint32_t chunk, uint32_t worker)
 
 Projection projection_of(const FrameData *frame, const Normalization *normalization)
 {
-    const Vec3 right = vector_of(frame->camera.right_step);
-    const Vec3 down = vector_of(frame->camera.down_step);
+    const Vec3 right = vec3_of_floats(frame->camera.right_step);
+    const Vec3 down = vec3_of_floats(frame->camera.down_step);
     const double square = vec3_dot(right, right);
     return (Projection){.normalization = normalization,
-                        .eye = vector_of(frame->camera.eye),
+                        .eye = vec3_of_floats(frame->camera.eye),
                         .right = vec3_scale(right, 0.5 / square),
                         .down = vec3_scale(down, 0.5 / square),
-                        .forward = vector_of(frame->camera.forward),
+                        .forward = vec3_of_floats(frame->camera.forward),
                         .width = (double)frame->width * REFINE_GRID,
                         .height = (double)frame->height * REFINE_GRID};
 }
@@ -84,7 +76,7 @@ bool projection_begin(Projection *projection, const MeshObject *object, ThreadPo
     projection->points = memory_raw(count, sizeof *projection->points, error);
     if (projection->points == NULL)
         return false;
-    thread_pool_run(pool, chunk_count(count), project_points, projection);
+    thread_pool_share(pool, count, CHUNK_ELEMENTS, project_points, projection);
     return true;
 }
 

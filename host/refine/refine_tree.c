@@ -139,7 +139,6 @@ static void look_beyond(const RefineTree *tree, CellGroup *group, CellSide side)
     group->beyond_levels[side] = (uint8_t)name.level;
 }
 
-// Fills a new group with the samples that exist before it is traced.
 static void begin_group(const RefineTree *tree, CellGroup *group, const SampleData *middle)
 {
     group->cells[GROUP_MIDDLE] = *middle;
@@ -224,7 +223,10 @@ bool refine_tree_cut_cell(RefineTree *tree, uint32_t number, uint32_t cell, Erro
     return true;
 }
 
-void refine_tree_cells(const RefineTree *tree, const CellGroup *group, ColorSum sums[GROUP_CELLS])
+// Computes the color sum of each cell of a group from its sample and the group's seams. Ignores
+// subdivisions of the cells.
+static void refine_tree_cells(const RefineTree *tree, const CellGroup *group,
+                              ColorSum sums[GROUP_CELLS])
 {
     const uint32_t side = refine_tree_cell_side(group->level);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
@@ -271,21 +273,20 @@ uint32_t refine_tree_count(const RefineTree *tree, uint32_t x, uint32_t y)
     return count;
 }
 
-// Computes the mean color of a square with that side from its color sum.
 static void mean_of(const ColorSum sum, uint64_t side, float mean[3])
 {
     for (int channel = 0; channel < 3; channel++)
         mean[channel] = (float)((sum[channel] + side * side) / (2 * side * side)) * 0x1p-32f;
 }
 
-void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
+// Computes the mean color of the cell that a group subdivides.
+static void refine_tree_mean(const RefineTree *tree, uint32_t group, float mean[3])
 {
     ColorSum sum = {0};
     add_group(tree, group, sum);
     mean_of(sum, refine_tree_cell_side(tree->groups.data[group].level - 1), mean);
 }
 
-// Computes the color of a pixel that is not subdivided.
 static void pixel_color(const RefineTree *tree, uint32_t x, uint32_t y, float color[3])
 {
     const SampleData *at = &tree->pixels[refine_tree_place(tree, x, y)];

@@ -1,13 +1,135 @@
 // SPDX-License-Identifier: MIT
 // The lines of a group run along the axis with the larger color differences, so that they cross
 // color edges. Three lines locate a straight edge exactly.
-#include "refine/seam_search.h"
+#include "refine/refine_tree.h"
 
 #include <stdlib.h>
 
+// seam_correct assumes the color step in the middle of the remaining interval. It measures in
+// halves of a last-level cell, so that positions are integers. Negative corrections wrap around in
+// unsigned sums, and the final sums are correct.
+
+#define PIXEL_AREA (81.0f * 81)
+#define LEAST_STEP (1 / 256.0f)
+
+bool seam_steps(const SampleData *const line[LINE_SAMPLES], uint32_t gap)
+{
+    const SampleData *first = line[gap], *last = line[gap + 1];
+    if (first->signature != last->signature)
+        return true;
+    const float half = seam_difference(first, last) / 2;
+    return half > LEAST_STEP / 2 && (gap == 0 || seam_difference(line[gap - 1], first) < half) &&
+           (gap + 1 == LINE_GAPS || seam_difference(last, line[gap + 2]) < half);
+}
+
+float seam_contrast(const Seam *seam)
+{
+    const int area = (seam->high - seam->low) * seam->side;
+    return seam_difference(&seam->ends[0], &seam->ends[1]) * (float)area / PIXEL_AREA;
+}
+
+bool seam_asks(const Seam *seam, uint32_t place[2])
+{
+    const uint32_t between = (seam->low + seam->high) / 2u;
+    const uint32_t along = seam->assumed == SEAM_END_FIRST  ? seam->from
+                           : seam->assumed == SEAM_END_LAST ? seam->to
+                                                            : between;
+    place[0] = seam->x + (seam->stride == 1 ? along : 0);
+    place[1] = seam->y + (seam->stride == 1 ? 0 : along);
+    return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
+}
+
+// Returns whether a sample resembles one end and not the other.
+static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
+{
+    if (end->signature != other->signature)
+        return sample->signature == end->signature;
+    return sample->signature == end->signature &&
+           2 * seam_difference(sample, end) < seam_difference(sample, other);
+}
+
+void seam_close(Seam *seam)
+{
+    seam->low = seam->high = seam->from;
+    seam->assumed = SEAM_ENDS;
+}
+
+// If the sample at the border matches the cell, the line has no step in this gap.
+static void take_border(Seam *seam, const SampleData *sample)
+{
+    const SampleData *cell = &seam->ends[SEAM_END_LAST - seam->assumed];
+    if (is_like(sample, cell, &seam->ends[seam->assumed]))
+        seam->low = seam->high = seam->from;
+    seam->ends[seam->assumed] = *sample;
+    seam->assumed = SEAM_ENDS;
+}
+
+bool seam_take(Seam *seam, const SampleData *sample, Seam *rest)
+{
+    const uint8_t middle = (uint8_t)((seam->low + seam->high) / 2u);
+    seam->samples++;
+    if (seam->assumed != SEAM_ENDS) {
+        take_border(seam, sample);
+        return false;
+    }
+    if (is_like(sample, &seam->ends[0], &seam->ends[1])) {
+        seam->low = middle;
+        return false;
+    }
+    if (is_like(sample, &seam->ends[1], &seam->ends[0])) {
+        seam->high = middle;
+        return false;
+    }
+    *rest = *seam;
+    rest->ends[0] = seam->ends[1] = *sample;
+    rest->from = rest->low = seam->to = seam->high = middle;
+    rest->samples = 0;
+    return true;
+}
+
+// An interval of the line, in halves of a last-level cell, and the sample that represents it.
+typedef struct {
+    uint32_t begin, end;
+    const SampleData *seen;
+} Stretch;
+
+static uint32_t overlap(const Stretch *stretch, uint32_t begin, uint32_t end)
+{
+    const uint32_t first = stretch->begin > begin ? stretch->begin : begin;
+    const uint32_t last = stretch->end < end ? stretch->end : end;
+    return first < last ? last - first : 0;
+}
+
+static void correct_cell(const Stretch *stretch, const SampleData *cell, uint32_t weight,
+                         ColorSum sum)
+{
+    for (int channel = 0; channel < 3; channel++)
+        sum[channel] += weight * (seam_color_steps(stretch->seen->color[channel]) -
+                                  seam_color_steps(cell->color[channel]));
+}
+
+void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[])
+{
+    const uint32_t side = seam->side, length = seam->cells * side;
+    if (seam->assumed != SEAM_ENDS || seam->low == seam->high)
+        return;
+    const uint32_t step = seam->low + seam->high + 1u;
+    const uint32_t begin = seam->from == 0 ? 0 : 2u * seam->from + 1;
+    const uint32_t end = seam->to + 1u == length ? 2 * length : 2u * seam->to + 1;
+    const Stretch parts[2] = {{begin, step, &seam->ends[0]}, {step, end, &seam->ends[1]}};
+    const uint32_t first = seam->line * (seam->stride == 1 ? GROUP_SIDE : 1u);
+    for (uint32_t i = 0; i < seam->cells; i++)
+        for (int part = 0; part < 2; part++) {
+            const uint32_t cell = first + i * seam->stride;
+            const uint32_t held = overlap(&parts[part], 2 * side * i, 2 * side * (i + 1));
+            if (held > 0)
+                correct_cell(&parts[part], &cells[cell], held * side, sums[cell]);
+        }
+}
+
 #define GROUPS_OF_TASK 512
 
-// The result of a task.
+// The result of a range.
 typedef struct {
     ARRAY(Seam) seams;
     uint32_t base; // index of the first
@@ -16,20 +138,9 @@ typedef struct {
 
 typedef struct {
     RefineTree *tree;
-    uint32_t first, end;
-    OpeningPart *parts; // of each task
+    uint32_t first;
+    OpeningPart *parts; // of each range
 } Opening;
-
-static uint32_t tasks_of(size_t whole, uint32_t part)
-{
-    return (uint32_t)((whole + part - 1) / part);
-}
-
-static uint32_t end_of(uint32_t task, uint32_t part, size_t whole)
-{
-    const size_t end = (size_t)(task + 1) * part;
-    return (uint32_t)(end < whole ? end : whole);
-}
 
 // Returns the weighted sum of color differences along the rows or columns of a group.
 static float changes_along(const CellGroup *group, uint32_t stride)
@@ -74,8 +185,7 @@ static GroupLine line_of(const RefineTree *tree, uint32_t number, uint32_t strid
 static const SampleData *beyond(const RefineTree *tree, const GroupLine *line, SeamEnd end)
 {
     const uint32_t length = GROUP_SIDE * refine_tree_cell_side(line->group->level);
-    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // UINT32_MAX steps back by
-    // one
+    const uint32_t step = end == SEAM_END_FIRST ? UINT32_MAX : length; // or one back
     uint32_t place[2] = {line->start[0], line->start[1]};
     place[line->stride == 1 ? 0 : 1] += step;
     if (place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID)
@@ -136,13 +246,12 @@ static bool open_group(const RefineTree *tree, uint32_t number, OpeningPart *par
     return true;
 }
 
-static void open_groups(void *context, uint32_t task, uint32_t worker)
+static void open_groups(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     const Opening *opening = context;
-    const size_t count = opening->end - opening->first;
-    for (uint32_t i = task * GROUPS_OF_TASK; i < end_of(task, GROUPS_OF_TASK, count); i++)
-        if (!open_group(opening->tree, opening->first + i, &opening->parts[task]))
+    OpeningPart *part = &opening->parts[first / GROUPS_OF_TASK];
+    for (uint32_t i = first; i < end; i++)
+        if (!open_group(opening->tree, opening->first + i, part))
             return;
 }
 
@@ -190,12 +299,12 @@ static bool all_opened(const Opening *opening, uint32_t tasks, Error *error)
 bool seam_search_open(RefineTree *tree, uint32_t first, uint32_t end, ThreadPool *pool,
                       Error *error)
 {
-    const uint32_t tasks = tasks_of(end - first, GROUPS_OF_TASK);
-    Opening opening = {tree, first, end, NULL};
+    const uint32_t tasks = range_count(end - first, GROUPS_OF_TASK);
+    Opening opening = {tree, first, NULL};
     opening.parts = memory_zeroed(tasks, sizeof *opening.parts, error);
     if (opening.parts == NULL)
         return false;
-    thread_pool_run(pool, tasks, open_groups, &opening);
+    thread_pool_share(pool, end - first, GROUPS_OF_TASK, open_groups, &opening);
     const bool ok =
         all_opened(&opening, tasks, error) && append_parts(&opening, tasks, pool, error);
     for (uint32_t task = 0; task < tasks; task++)

@@ -12,7 +12,7 @@
 #define LADDER_RUNGS 6
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
 
-// On rung 0, strata are octaves of the pixel's bend (refine/bends.h). Octaves from FLAT_CLASS on
+// On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Octaves from FLAT_CLASS on
 // have two strata; the stratum from NEAR_CLASS on is for pixels near contrast. On higher rungs,
 // strata are octaves of the standard deviation of a pixel's samples. Bent and straight pixels have
 // separate strata.
@@ -47,7 +47,7 @@ typedef struct {
 uint32_t strata_rung(uint32_t stratum);
 
 // Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
-// (refine/bends.h).
+// (refine/ladder.h).
 uint32_t strata_of_bend(double bend, double nearby);
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.

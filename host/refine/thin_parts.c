@@ -4,8 +4,7 @@
 // which do not depend on the order of work.
 #include "refine/thin_parts.h"
 
-#include "refine/mesh_pieces.h"
-#include "refine/projection.h"
+#include "refine/outline.h"
 
 #include <stdlib.h>
 
@@ -16,11 +15,10 @@
 typedef struct {
     ThinParts *parts;
     const ThinSource *source;
-    Projection projection; // of the mesh
-    MeshPieces pieces;     // of the mesh
-    uint32_t first, count; // the piece's triangles, in the order of the pieces
-    uint8_t *depths;       // in that order: the number of levels to search for each
-    // triangle
+    Projection projection;          // of the mesh
+    MeshPieces pieces;              // of the mesh
+    uint32_t first, count;          // the piece's triangles, in the order of the pieces
+    uint8_t *depths;                // in that order: the number of levels to search
     CellSet covered[REFINE_LEVELS]; // cells whose samples the piece contains
     CellSet wide;                   // pixels at which the piece is wide
     _Atomic uint32_t top, bottom;   // the piece covers rows of pixels top to bottom - 1
@@ -45,12 +43,6 @@ static uint32_t triangle_at(const Search *search, uint32_t place)
 static uint8_t *depth_of(const Search *search, uint32_t place)
 {
     return &search->depths[search->first + place];
-}
-
-static uint32_t end_of(const Search *search, uint32_t task)
-{
-    const uint32_t end = (task + 1) * TRIANGLES_OF_TASK;
-    return end < search->count ? end : search->count;
 }
 
 // Computes the outline of a piece's triangle. Returns false if it is invisible.
@@ -93,14 +85,13 @@ static void include_rows(Search *search, CellRange rows)
 }
 
 // Adds the pixels that all triangles cover. Only thin triangles are searched.
-static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cover_pixels_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const CellGrid grid = grid_of(search, 0);
     CellRange all = {UINT32_MAX, 0};
     bool found = false;
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         *depth_of(search, i) = 0;
         if (!outline_of(search, i, &outline))
@@ -117,14 +108,12 @@ static void cover_pixels_of_piece(void *context, uint32_t task, uint32_t worker)
         search->found = true;
 }
 
-// Adds the cells of the level that the searched triangles cover.
-static void cover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cover_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const uint32_t level = search->level;
     const CellGrid grid = grid_of(search, level);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) > level && outline_of(search, i, &outline))
             cover_cells(&search->covered[level], &outline, &grid);
@@ -153,11 +142,11 @@ static bool is_large(const Search *search)
     return search->count > 4 * TRIANGLES_OF_TASK;
 }
 
-static void find_wide_pixels(void *context, uint32_t task, uint32_t worker)
+static void find_wide_pixels(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
-    pixel_set_widen_row(&search->wide, &search->covered[0], search->top + task);
+    for (uint32_t row = first; row < end; row++)
+        pixel_set_widen_row(&search->wide, &search->covered[0], search->top + row);
 }
 
 // Returns whether the piece is wide at all pixels of the box around a triangle. This test is fast,
@@ -206,13 +195,12 @@ static bool cut_for_triangle(Search *search, const Outline *outline, const CellG
     return found;
 }
 
-static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void cut_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const uint32_t level = search->level;
     const CellGrid grid = grid_of(search, level);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) > level && !is_surely_wide(search, i, &grid) &&
             outline_of(search, i, &outline) && is_thin(&outline, level) &&
@@ -224,12 +212,11 @@ static void cut_cells_of_piece(void *context, uint32_t task, uint32_t worker)
 }
 
 // Clears the covered cells of the level, without visiting the cells of other pieces.
-static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker)
+static void uncover_cells_of_piece(void *context, uint32_t first, uint32_t end)
 {
-    (void)worker;
     Search *search = context;
     const CellGrid grid = grid_of(search, 0);
-    for (uint32_t i = task * TRIANGLES_OF_TASK; i < end_of(search, task); i++) {
+    for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (*depth_of(search, i) <= search->level || !outline_of(search, i, &outline))
             continue;
@@ -242,10 +229,9 @@ static void uncover_cells_of_piece(void *context, uint32_t task, uint32_t worker
     }
 }
 
-static void share_triangles(Search *search, ThreadPoolWork *work)
+static void share_triangles(Search *search, ThreadPoolPart *work)
 {
-    const uint32_t tasks = (search->count + TRIANGLES_OF_TASK - 1) / TRIANGLES_OF_TASK;
-    thread_pool_run(search->source->pool, tasks, work, search);
+    thread_pool_share(search->source->pool, search->count, TRIANGLES_OF_TASK, work, search);
 }
 
 // Returns the number of levels that the sample budget covers.
@@ -299,7 +285,7 @@ static bool search_piece(Search *search, uint32_t end, Error *error)
     share_triangles(search, cover_pixels_of_piece);
     const uint32_t rows = search->bottom > search->top ? search->bottom - search->top : 0;
     if (search->found && is_large(search))
-        thread_pool_run(search->source->pool, rows, find_wide_pixels, search);
+        thread_pool_share(search->source->pool, rows, 1, find_wide_pixels, search);
     const bool ok = search_levels(search, error);
     if (rows > 0)
         pixel_set_clear_rows(&search->covered[0], search->top, search->bottom);

@@ -17,7 +17,9 @@
 //   per pixel of the picture. The deepest levels are then omitted.
 #pragma once
 
+#include "base/error.h"
 #include "base/thread_pool.h"
+#include "mesh/mesh.h"
 #include "refine/cell_set.h"
 #include "refine/refine_tree.h"
 #include "scene/normalize.h"
@@ -60,3 +62,41 @@ static inline uint32_t thin_parts_pixels(const ThinParts *parts, uint32_t left, 
 
 // Returns a bit for each cell of a group that must be subdivided.
 unsigned thin_parts_marks(const ThinParts *parts, const CellGroup *group);
+
+// Finds the cells to subdivide so that a sample hits each sphere smaller than a pixel, regardless
+// of contrast.
+
+// The projection of a small sphere in one pixel, in cells of the last level.
+typedef struct {
+    uint32_t pixel;     // row by row
+    float x, y;         // of the center
+    float inner, outer; // radii of disks inside and around its outline
+} Footprint;
+
+typedef struct {
+    ARRAY(Footprint) list; // in the order of the pixels
+    uint32_t width;        // of the picture
+} Footprints;
+
+// Projects the spheres that fit between the samples of neighboring pixels. The frame's camera must
+// be made for REFINE_GRID samples.
+bool footprints_make(Footprints *footprints, const FrameData *frame, const SphereData *spheres,
+                     Error *error);
+void footprints_free(Footprints *footprints);
+
+// Returns a bit for each cell of a group that must be subdivided to hit a sphere.
+unsigned footprints_marks(const Footprints *footprints, const CellGroup *group);
+
+// Divides a mesh into pieces: sets of triangles connected by shared vertices. Pieces of fewer than
+// PIECE_TRIANGLES triangles together form one piece, because some files share no vertices.
+
+#define PIECE_TRIANGLES 8
+
+typedef struct {
+    uint32_t *order; // triangles sorted by piece; NULL: a single piece, in file order
+    uint32_t *ends;  // the end of each piece in order
+    uint32_t count;
+} MeshPieces;
+
+bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, ThreadPool *pool, Error *error);
+void mesh_pieces_free(MeshPieces *pieces);

@@ -16,143 +16,42 @@ static uint32_t float_bits(double value)
     return bits;
 }
 
-static void take_vector(uint32_t *values, Vec3 v)
-{
-    values[0] = float_bits(v.x);
-    values[1] = float_bits(v.y);
-    values[2] = float_bits(v.z);
-}
-
-static Vec3 vector_of(const float v[3])
-{
-    return vec3((double)v[0], (double)v[1], (double)v[2]);
-}
-
-static void take_depth(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    values[0] = float_bits((double)pixel->path->depth / scene->normalization->scale);
-}
-
-static void take_normal(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    take_vector(values, vector_of(pixel->path->normal));
-}
-
-static void take_position(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    const Vec3 point = denormalize_point(scene->normalization, vector_of(pixel->path->point));
-    take_vector(values, pixel->path->primitive != NOTHING ? point : vec3(0, 0, 0));
-}
-
-static void take_primitive(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = pixel->path->primitive;
-}
-
-static void take_material(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = pixel->path->material;
-}
-
-static void take_shadow(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    const double lights = scene->light_count > 0 ? scene->light_count : 1;
-    values[0] = float_bits(pixel->path->lights / lights);
-}
-
-static void take_bounces(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = float_bits(pixel->path->bounces);
-}
-
-static void take_samples(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = float_bits(pixel->samples);
-}
-
-static void take_box_tests(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = float_bits(pixel->tests[TALLY_BOX_TESTS]);
-}
-
-static void take_triangle_tests(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = float_bits(pixel->tests[TALLY_TRIANGLE_TESTS]);
-}
-
-static void take_certainty(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)scene;
-    values[0] = float_bits(0.5 * pixel->certainty);
-}
-
-static void take_nothing(uint32_t *values, const AovPixel *pixel, const AovScene *scene)
-{
-    (void)pixel, (void)scene;
-    values[0] = 0;
-}
+#define AOV_VALUES 16 // channels in all rows
 
 const Aov aov_table[] = {
     {"depth",
      {"Z"},
      false,
      AOV_NEEDS_PATH,
-     "distance along the view's axis; infinity if the ray hits nothing",
-     take_depth},
-    {"normal", {"N.X", "N.Y", "N.Z"}, false, AOV_NEEDS_PATH, "unit shading normal", take_normal},
-    {"position", {"P.X", "P.Y", "P.Z"}, false, AOV_NEEDS_PATH, "the hit point", take_position},
+     "distance along the view's axis; infinity if the ray hits nothing"},
+    {"normal", {"N.X", "N.Y", "N.Z"}, false, AOV_NEEDS_PATH, "unit shading normal"},
+    {"position", {"P.X", "P.Y", "P.Z"}, false, AOV_NEEDS_PATH, "the hit point"},
     {"primitive",
      {"primitive"},
      true,
      AOV_NEEDS_PATH,
-     "number of the sphere or triangle: spheres from 0 on, then triangles",
-     take_primitive},
+     "number of the sphere or triangle: spheres from 0 on, then triangles"},
     {"material",
      {"material"},
      true,
      AOV_NEEDS_PATH,
-     "number of the material: the course's 0 to 3, then each define",
-     take_material},
-    {"shadow",
-     {"shadow"},
-     false,
-     AOV_NEEDS_PATH,
-     "share of the lights that reach the point",
-     take_shadow},
-    {"bounces", {"bounces"}, false, AOV_NEEDS_PATH, "reflected rays followed", take_bounces},
-    {"samples", {"samples"}, false, AOV_NEEDS_PATH, "samples taken", take_samples},
-    {"boxtests",
-     {"boxtests"},
-     false,
-     AOV_NEEDS_TESTS,
-     "boxes tested, over all samples",
-     take_box_tests},
-    {"tritests",
-     {"tritests"},
-     false,
-     AOV_NEEDS_TESTS,
-     "triangles tested, over all samples",
-     take_triangle_tests},
+     "number of the material: the course's 0 to 3, then each define"},
+    {"shadow", {"shadow"}, false, AOV_NEEDS_PATH, "share of the lights that reach the point"},
+    {"bounces", {"bounces"}, false, AOV_NEEDS_PATH, "reflected rays followed"},
+    {"samples", {"samples"}, false, AOV_NEEDS_PATH, "samples taken"},
+    {"boxtests", {"boxtests"}, false, AOV_NEEDS_TESTS, "boxes tested, over all samples"},
+    {"tritests", {"tritests"}, false, AOV_NEEDS_TESTS, "triangles tested, over all samples"},
     {"certainty",
      {"certainty"},
      false,
      AOV_NEEDS_CERTAINTY,
      "1 if no rounding can change a decision, 0.5 if fp64 decided again and replaced the color, 0 "
-     "otherwise",
-     take_certainty},
+     "otherwise"},
     {ERROR_CHANNEL,
      {ERROR_CHANNEL},
      false,
      AOV_NEEDS_REFERENCE,
-     "largest difference of the colors from the reference; implies --reference",
-     take_nothing},
+     "largest difference of the colors from the reference; implies --reference"},
 };
 
 const size_t aov_count = sizeof aov_table / sizeof aov_table[0];
@@ -235,11 +134,40 @@ void aov_name_layers(AovSet set, Layers *layers)
                 (LayerType){aov_table[i].channels[channel], aov_table[i].is_integer};
 }
 
+static void take_vector(uint32_t **values, Vec3 v)
+{
+    *(*values)++ = float_bits(v.x);
+    *(*values)++ = float_bits(v.y);
+    *(*values)++ = float_bits(v.z);
+}
+
+// Stores the values of all channels, in the table's order.
+static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const AovScene *scene)
+{
+    const PathData *path = pixel->path;
+    const Vec3 point = denormalize_point(scene->normalization, vec3_of_floats(path->point));
+    const double lights = scene->light_count > 0 ? scene->light_count : 1;
+    const bool has_tests = pixel->tests != NULL;
+    *values++ = float_bits((double)path->depth / scene->normalization->scale);
+    take_vector(&values, vec3_of_floats(path->normal));
+    take_vector(&values, path->primitive != NOTHING ? point : vec3(0, 0, 0));
+    *values++ = path->primitive;
+    *values++ = path->material;
+    *values++ = float_bits(path->lights / lights);
+    *values++ = float_bits(path->bounces);
+    *values++ = float_bits(pixel->samples);
+    *values++ = float_bits(has_tests ? pixel->tests[TALLY_BOX_TESTS] : 0);
+    *values++ = float_bits(has_tests ? pixel->tests[TALLY_TRIANGLE_TESTS] : 0);
+    *values++ = float_bits(0.5 * pixel->certainty);
+    *values = 0; // the error is known later
+}
+
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene)
 {
-    for (size_t i = 0; i < aov_count; i++)
-        if (aov_has(set, i)) {
-            aov_table[i].take(values, pixel, scene);
-            values += channel_count(&aov_table[i]);
-        }
+    uint32_t all[AOV_VALUES], *next = all;
+    take_all(all, pixel, scene);
+    for (size_t i = 0; i < aov_count; next += channel_count(&aov_table[i++]))
+        for (uint32_t channel = 0; aov_has(set, i) && channel < channel_count(&aov_table[i]);
+             channel++)
+            *values++ = next[channel];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The channels that --aov adds to a picture (arbitrary output variables in film rendering): a table
-// of names and of functions that compute values.
+// of names, and the values of a pixel.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -39,8 +39,6 @@ typedef struct {
     bool is_integer;                      // unsigned integers; otherwise floats
     AovNeed need;
     const char *help;
-    // Stores one value per channel in values. Floats are stored as their bits.
-    void (*take)(uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 } Aov;
 
 extern const Aov aov_table[];
@@ -59,5 +57,6 @@ bool aov_needs(AovSet set, AovNeed need);
 // Appends the names and types of the channels in set to layers, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);
 
-// Stores one pixel's values for all channels in set, in the table's order.
+// Stores one pixel's values for all channels in set, in the table's order. Floats are stored as
+// their bits.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);

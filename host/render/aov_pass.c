@@ -3,7 +3,8 @@
 // take about as long as one sample per pixel.
 #include "render/aov_pass.h"
 
-#include "render/tile.h"
+#include "device/buffer.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 
@@ -14,19 +15,8 @@ static bool run_kernel(const AovPass *pass, cl_kernel kernel, const FrameData *f
                        Error *error)
 {
     const Renderer *renderer = pass->source->renderer;
-    const size_t group[2] = {renderer->settings.group_width, renderer->settings.group_height};
-    size_t grid[2];
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < RENDERER_ARRAYS && status == CL_SUCCESS; place++)
-        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &output);
-    if (!cl_succeeded(status, "set the arguments of a kernel for channels", error))
-        return false;
-    tile_grid(&renderer->settings, renderer->nodes, grid);
-    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
-                                    NULL);
-    return cl_succeeded(status, "run a kernel for channels", error);
+    const TileLaunch launch = {renderer->device->queue, kernel, {output, NULL}};
+    return renderer_launch_tile(renderer, &launch, frame, error);
 }
 
 // Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
@@ -63,22 +53,15 @@ static bool build(AovPass *pass, Error *error)
 
 static bool make_room(AovPass *pass, Error *error)
 {
-    cl_int status;
     const Tile largest = tile_largest(&pass->source->renderer->settings);
     const size_t count = (size_t)largest.width * largest.height;
     const size_t tests = pass->counts_tests ? count : 1;
-    cl_context context = pass->source->setup->device->context;
+    const Device *device = pass->source->setup->device;
     pass->host_paths = memory_raw(count, sizeof *pass->host_paths, error);
     pass->host_tests = memory_raw(tests, sizeof *pass->host_tests, error);
-    if (pass->host_paths == NULL || pass->host_tests == NULL)
-        return false;
-    pass->paths =
-        clCreateBuffer(context, CL_MEM_WRITE_ONLY, count * sizeof *pass->host_paths, NULL, &status);
-    if (!cl_succeeded(status, "allocate a tile of paths", error))
-        return false;
-    pass->tests =
-        clCreateBuffer(context, CL_MEM_WRITE_ONLY, tests * sizeof *pass->host_tests, NULL, &status);
-    return cl_succeeded(status, "allocate a tile's counters", error);
+    return pass->host_paths != NULL && pass->host_tests != NULL &&
+           device_buffer(device, count * sizeof *pass->host_paths, &pass->paths, error) &&
+           device_buffer(device, tests * sizeof *pass->host_tests, &pass->tests, error);
 }
 
 bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error)
@@ -93,14 +76,10 @@ bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *er
 
 void aov_pass_close(AovPass *pass)
 {
-    if (pass->trace_paths != NULL)
-        clReleaseKernel(pass->trace_paths);
-    if (pass->count_tests != NULL)
-        clReleaseKernel(pass->count_tests);
-    if (pass->paths != NULL)
-        clReleaseMemObject(pass->paths);
-    if (pass->tests != NULL)
-        clReleaseMemObject(pass->tests);
+    device_release_kernel(&pass->trace_paths);
+    device_release_kernel(&pass->count_tests);
+    device_release(&pass->paths);
+    device_release(&pass->tests);
     program_free(&pass->program);
     free(pass->host_paths);
     free(pass->host_tests);
@@ -117,27 +96,22 @@ static FrameData frame_of(const Renderer *renderer, const Tile *tile, const Came
     return frame;
 }
 
-static bool read_back(const AovPass *pass, cl_mem buffer, void *target, size_t size, Error *error)
-{
-    return cl_succeeded(clEnqueueReadBuffer(pass->source->renderer->device->queue, buffer, CL_TRUE,
-                                            0, size, target, 0, NULL, NULL),
-                        "read a tile of channels", error);
-}
-
 static bool trace_tile(const AovPass *pass, const Tile *tile, Error *error)
 {
     const AovSource *source = pass->source;
     const Renderer *renderer = source->renderer;
+    const Device *device = renderer->device;
     const size_t count = (size_t)tile->width * tile->height;
     const FrameData center = frame_of(renderer, tile, &source->center, 1);
     const FrameData frame = frame_of(renderer, tile, &source->camera, renderer->frame.samples);
     if (!run_kernel(pass, pass->trace_paths, &center, pass->paths, error) ||
-        !read_back(pass, pass->paths, pass->host_paths, count * sizeof *pass->host_paths, error))
+        !device_read(device, pass->paths, pass->host_paths, count * sizeof *pass->host_paths,
+                     error))
         return false;
     return !pass->counts_tests ||
            (run_kernel(pass, pass->count_tests, &frame, pass->tests, error) &&
-            read_back(pass, pass->tests, pass->host_tests, count * sizeof *pass->host_tests,
-                      error));
+            device_read(device, pass->tests, pass->host_tests, count * sizeof *pass->host_tests,
+                        error));
 }
 
 static uint32_t samples_of(const AovPass *pass, uint32_t x, uint32_t y)
@@ -159,7 +133,7 @@ static void take_tile(const AovPass *pass, const Tile *tile, Layers *layers)
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
-            const uint32_t x = tile->x + column, y = tile->y + row;
+            const uint32_t x = tile->left + column, y = tile->top + row;
             const AovPixel pixel = {&pass->host_paths[place],
                                     pass->counts_tests ? pass->host_tests[place] : NULL,
                                     samples_of(pass, x, y), certainty_at(pass, x, y)};

@@ -3,7 +3,8 @@
 // because reading a pixel back is cheap compared with certifying it.
 #include "render/certifier.h"
 
-#include "render/tile.h"
+#include "device/buffer.h"
+#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -29,41 +30,22 @@ static bool check_device(const Device *device, Error *error)
 static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error *error)
 {
     const Renderer *renderer = &certifier->reference;
-    cl_kernel kernel = certifier->kernel;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < RENDERER_ARRAYS && status == CL_SUCCESS; place++)
-        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &certifier->colors);
-    if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &certifier->marks);
-    if (!cl_succeeded(status, "set the arguments of the kernel certify_tile", error))
-        return false;
-    const size_t group[2] = {renderer->settings.group_width, renderer->settings.group_height};
-    size_t grid[2];
-    tile_grid(&renderer->settings, renderer->nodes, grid);
-    status = clEnqueueNDRangeKernel(renderer->device->queue, kernel, 2, NULL, grid, group, 0, NULL,
-                                    NULL);
-    return cl_succeeded(status, "run the kernel certify_tile", error);
+    const TileLaunch launch = {
+        renderer->device->queue, certifier->kernel, {certifier->colors, certifier->marks}};
+    return renderer_launch_tile(renderer, &launch, frame, error);
 }
 
 static bool make_room(Certifier *certifier, Error *error)
 {
-    cl_int status;
     const Tile largest = tile_largest(&certifier->reference.settings);
     const size_t count = (size_t)largest.width * largest.height;
-    const size_t colors = count * sizeof *certifier->host_colors;
-    const size_t marks = count * sizeof *certifier->host_marks;
-    cl_context context = certifier->reference.device->context;
+    const Device *device = certifier->reference.device;
     certifier->host_colors = memory_raw(count, sizeof *certifier->host_colors, error);
     certifier->host_marks = memory_raw(count, sizeof *certifier->host_marks, error);
-    if (certifier->host_colors == NULL || certifier->host_marks == NULL)
-        return false;
-    certifier->colors = clCreateBuffer(context, CL_MEM_WRITE_ONLY, colors, NULL, &status);
-    if (!cl_succeeded(status, "allocate a tile's repaired colors", error))
-        return false;
-    certifier->marks = clCreateBuffer(context, CL_MEM_WRITE_ONLY, marks, NULL, &status);
-    return cl_succeeded(status, "allocate a tile's marks", error);
+    return certifier->host_colors != NULL && certifier->host_marks != NULL &&
+           device_buffer(device, count * sizeof *certifier->host_colors, &certifier->colors,
+                         error) &&
+           device_buffer(device, count * sizeof *certifier->host_marks, &certifier->marks, error);
 }
 
 // Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
@@ -108,12 +90,9 @@ bool certifier_open(Certifier *certifier, const RendererSetup *setup, const Flat
 
 void certifier_close(Certifier *certifier)
 {
-    if (certifier->kernel != NULL)
-        clReleaseKernel(certifier->kernel);
-    if (certifier->colors != NULL)
-        clReleaseMemObject(certifier->colors);
-    if (certifier->marks != NULL)
-        clReleaseMemObject(certifier->marks);
+    device_release_kernel(&certifier->kernel);
+    device_release(&certifier->colors);
+    device_release(&certifier->marks);
     free(certifier->host_colors);
     free(certifier->host_marks);
     renderer_close(&certifier->reference);
@@ -135,18 +114,13 @@ void certainty_map_free(CertaintyMap *map)
 
 static bool certify_tile(const Certifier *certifier, const FrameData *frame, Error *error)
 {
-    cl_command_queue queue = certifier->reference.device->queue;
+    const Device *device = certifier->reference.device;
     const size_t count = (size_t)frame->tile_width * frame->tile_height;
-    if (!run_kernel(certifier, frame, error))
-        return false;
-    cl_int status = clEnqueueReadBuffer(queue, certifier->marks, CL_TRUE, 0,
-                                        count * sizeof *certifier->host_marks,
-                                        certifier->host_marks, 0, NULL, NULL);
-    if (status == CL_SUCCESS)
-        status = clEnqueueReadBuffer(queue, certifier->colors, CL_TRUE, 0,
-                                     count * sizeof *certifier->host_colors, certifier->host_colors,
-                                     0, NULL, NULL);
-    return cl_succeeded(status, "read a tile's marks", error);
+    return run_kernel(certifier, frame, error) &&
+           device_read(device, certifier->marks, certifier->host_marks,
+                       count * sizeof *certifier->host_marks, error) &&
+           device_read(device, certifier->colors, certifier->host_colors,
+                       count * sizeof *certifier->host_colors, error);
 }
 
 static void take_tile(const Certifier *certifier, const Tile *tile, const CertifiedPicture *picture)
@@ -156,7 +130,7 @@ static void take_tile(const Certifier *certifier, const Tile *tile, const Certif
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
-            const size_t pixel = (size_t)(tile->y + row) * map->width + tile->x + column;
+            const size_t pixel = (size_t)(tile->top + row) * map->width + tile->left + column;
             const CertaintyMark *mark = &certifier->host_marks[place];
             map->marks[pixel] = *mark;
             map->counts[mark->certainty]++;

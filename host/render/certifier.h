@@ -34,7 +34,7 @@ typedef struct {
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error);
 void certainty_map_free(CertaintyMap *map);
 
-// A picture and its marks, both of the settings' size.
+// A picture and its marks, both of the size of the settings' framebuffer.
 typedef struct {
     Framebuffer *framebuffer;
     CertaintyMap *map;

@@ -4,7 +4,7 @@
 // compiles a kernel again for each new local size and kind of grid.
 #include "render/renderer.h"
 
-#include "render/tile.h"
+#include "device/buffer.h"
 
 #include <stdlib.h>
 
@@ -36,16 +36,10 @@ static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
     if (!cl_succeeded(status, "create an OpenCL queue", error))
         return false;
-    slot->pixels = clCreateBuffer(device->context, CL_MEM_WRITE_ONLY, count * 3 * sizeof(float),
-                                  NULL, &status);
-    if (!cl_succeeded(status, "allocate a tile", error))
-        return false;
-    slot->tallies = clCreateBuffer(device->context, CL_MEM_WRITE_ONLY,
-                                   tallies * sizeof *slot->host_tallies, NULL, &status);
-    if (!cl_succeeded(status, "allocate a tile's counters", error))
-        return false;
     slot->host_tallies = memory_raw(tallies, sizeof *slot->host_tallies, error);
-    return slot->host_tallies != NULL;
+    return slot->host_tallies != NULL &&
+           device_buffer(device, count * 3 * sizeof(float), &slot->pixels, error) &&
+           device_buffer(device, tallies * sizeof *slot->host_tallies, &slot->tallies, error);
 }
 
 // Waits until the device has finished writing, and frees the slot.
@@ -57,33 +51,45 @@ static void close_slot(Slot *slot)
     }
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
-    if (slot->pixels != NULL)
-        clReleaseMemObject(slot->pixels);
-    if (slot->tallies != NULL)
-        clReleaseMemObject(slot->tallies);
+    device_release(&slot->pixels);
+    device_release(&slot->tallies);
     free(slot->host_tallies);
     *slot = (Slot){0};
+}
+
+bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameData *frame,
+                        Error *error)
+{
+    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
+    for (cl_uint place = 0; place < FLAT_ARRAYS && status == CL_SUCCESS; place++)
+        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
+    return cl_succeeded(status, "set the kernel's arguments", error);
+}
+
+bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
+                          const FrameData *frame, Error *error)
+{
+    const RenderSettings *settings = &renderer->settings;
+    const size_t group[2] = {settings->group_width, settings->group_height};
+    cl_int status = CL_SUCCESS;
+    size_t grid[2];
+    if (!renderer_set_scene(renderer, launch->kernel, frame, error))
+        return false;
+    for (cl_uint i = 0; i < 2 && launch->outputs[i] != NULL && status == CL_SUCCESS; i++)
+        status = clSetKernelArg(launch->kernel, FLAT_ARRAYS + 1 + i, sizeof(cl_mem),
+                                &launch->outputs[i]);
+    tile_grid(settings, renderer->nodes, grid);
+    if (status == CL_SUCCESS)
+        status = clEnqueueNDRangeKernel(launch->queue, launch->kernel, 2, NULL, grid, group, 0,
+                                        NULL, NULL);
+    return cl_succeeded(status, "run the kernel", error);
 }
 
 static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameData *frame,
                        Error *error)
 {
-    const RenderSettings *settings = &renderer->settings;
-    cl_kernel kernel = renderer->kernel;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < RENDERER_ARRAYS && status == CL_SUCCESS; place++)
-        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &slot->pixels);
-    if (status == CL_SUCCESS)
-        status = clSetKernelArg(kernel, RENDERER_ARRAYS + 2, sizeof(cl_mem), &slot->tallies);
-    if (!cl_succeeded(status, "set the kernel's arguments", error))
-        return false;
-    const size_t group[2] = {settings->group_width, settings->group_height};
-    size_t grid[2];
-    tile_grid(settings, renderer->nodes, grid);
-    status = clEnqueueNDRangeKernel(slot->queue, kernel, 2, NULL, grid, group, 0, NULL, NULL);
-    return cl_succeeded(status, "run the kernel", error);
+    const TileLaunch launch = {slot->queue, renderer->kernel, {slot->pixels, slot->tallies}};
+    return renderer_launch_tile(renderer, &launch, frame, error);
 }
 
 bool draw_warm_up(Renderer *renderer, Error *error)
@@ -102,7 +108,7 @@ static cl_int read_pixels(const Drawing *drawing, Slot *slot)
     Framebuffer *framebuffer = drawing->framebuffer;
     const Tile *tile = &slot->tile;
     const size_t pixel = sizeof *framebuffer->pixels;
-    const size_t from[3] = {0, 0, 0}, to[3] = {tile->x * pixel, tile->y, 0};
+    const size_t from[3] = {0, 0, 0}, to[3] = {tile->left * pixel, tile->top, 0};
     const size_t region[3] = {tile->width * pixel, tile->height, 1};
     return clEnqueueReadBufferRect(slot->queue, slot->pixels, CL_FALSE, from, to, region,
                                    tile->width * pixel, 0, framebuffer->width * pixel, 0,

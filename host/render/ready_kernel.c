@@ -4,8 +4,8 @@
 #include "render/ready_kernel.h"
 
 #include "base/clock.h"
+#include "device/buffer.h"
 #include "render/renderer.h"
-#include "render/sampler.h"
 
 #include <string.h>
 
@@ -13,9 +13,8 @@
 // buffers.
 static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error *error)
 {
-    cl_int status;
-    cl_mem nothing = clCreateBuffer(setup->device->context, CL_MEM_READ_ONLY, 64, NULL, &status);
-    if (!cl_succeeded(status, "allocate a buffer for the first run", error))
+    cl_mem nothing;
+    if (!device_buffer(setup->device, 64, &nothing, error))
         return false;
     Renderer renderer = {.device = setup->device,
                          .settings = {.width = 1,
@@ -28,11 +27,11 @@ static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error
                          .nodes = setup->source.choice.nodes,
                          .entry = setup->source.entry,
                          .kernel = ready->handle};
-    for (int place = 0; place < RENDERER_ARRAYS; place++)
+    for (int place = 0; place < FLAT_ARRAYS; place++)
         renderer.arrays[place] = nothing;
     const bool ok = renderer.entry == KERNEL_TILE ? draw_warm_up(&renderer, error)
                                                   : sampler_warm_up(&renderer, error);
-    clReleaseMemObject(nothing);
+    device_release(&nothing);
     return ok;
 }
 
@@ -75,8 +74,7 @@ bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const Sce
 
 void ready_kernel_free(ReadyKernel *ready)
 {
-    if (ready->handle != NULL)
-        clReleaseKernel(ready->handle);
+    device_release_kernel(&ready->handle);
     program_free(&ready->program);
     *ready = (ReadyKernel){0};
 }
@@ -97,7 +95,6 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
-// Returns a copy of setup with this kernel choice.
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 {
     RendererSetup other = *setup;

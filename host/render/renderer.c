@@ -3,7 +3,7 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
-#include "device/device.h"
+#include "device/buffer.h"
 
 #include <assert.h>
 #include <string.h>
@@ -15,38 +15,16 @@
 #define RAYS_PER_SECOND   3e6
 #define RAYS_PER_SAMPLE   2.0
 
-static bool upload(Renderer *renderer, int place, const void *data, size_t size, Error *error)
-{
-    return upload_array(renderer->device, data, size, &renderer->arrays[place], error);
-}
-
-static bool upload_pairs(Renderer *renderer, const FlatScene *flat, Error *error)
-{
-    return upload(renderer, 3, flat->pairs, flat->node_count * sizeof *flat->pairs, error) &&
-           upload(renderer, 4, flat->triangles, flat->triangle_count * sizeof *flat->triangles,
-                  error) &&
-           upload(renderer, 5, NULL, 0, error);
-}
-
-static bool upload_wide(Renderer *renderer, const FlatScene *flat, Error *error)
-{
-    return upload(renderer, 3, flat->wides, flat->node_count * sizeof *flat->wides, error) &&
-           upload(renderer, 4, flat->blocks, flat->block_count * sizeof *flat->blocks, error) &&
-           upload(renderer, 5, flat->looks, flat->triangle_count * sizeof *flat->looks, error);
-}
-
 static bool upload_scene(Renderer *renderer, const FlatScene *flat, Error *error)
 {
+    bool ok = true;
+    FlatArray arrays[FLAT_ARRAYS];
     const double start = clock_seconds();
-    const bool ok =
-        upload(renderer, 0, flat->lights, flat->light_count * sizeof *flat->lights, error) &&
-        upload(renderer, 1, flat->materials, flat->material_count * sizeof *flat->materials,
-               error) &&
-        upload(renderer, 2, flat->spheres, flat->sphere_count * sizeof *flat->spheres, error) &&
-        (flat->layout == NODES_WIDE ? upload_wide(renderer, flat, error)
-                                    : upload_pairs(renderer, flat, error)) &&
-        upload(renderer, 6, flat->normals, flat->normals_count * sizeof *flat->normals, error);
-    renderer->upload_size = flat_size(flat);
+    flat_arrays(flat, arrays);
+    for (int i = 0; ok && i < FLAT_ARRAYS; i++) {
+        ok = upload_array(renderer->device, &arrays[i], &renderer->arrays[i], error);
+        renderer->upload_size += arrays[i].bytes;
+    }
     renderer->upload_seconds = clock_seconds() - start;
     return ok;
 }
@@ -136,11 +114,9 @@ void renderer_resize(Renderer *renderer, const RenderSettings *settings)
 
 void renderer_close(Renderer *renderer)
 {
-    for (int place = 0; place < RENDERER_ARRAYS; place++)
-        if (renderer->arrays[place] != NULL)
-            clReleaseMemObject(renderer->arrays[place]);
-    if (renderer->kernel != NULL)
-        clReleaseKernel(renderer->kernel);
+    for (int place = 0; place < FLAT_ARRAYS; place++)
+        device_release(&renderer->arrays[place]);
+    device_release_kernel(&renderer->kernel);
     program_free(&renderer->program);
     *renderer = (Renderer){0};
 }

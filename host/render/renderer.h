@@ -7,8 +7,7 @@
 
 // The program that draws: general, or specialized for this scene. The picture is the same.
 typedef enum {
-    SPECIALIZE_AUTO, // specialized if already compiled, or if it saves more time than compiling
-                     // takes
+    SPECIALIZE_AUTO, // specialized if compiled already, or if that saves more than compiling takes
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;
@@ -21,7 +20,7 @@ typedef struct {
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
     uint64_t ready_tiles; // first tiles that exist already and are skipped
-    uint32_t part, parts; // draws tiles part, part + parts, part + 2 * parts, ...; 0, 0 draws all
+    uint32_t part, parts; // draws one of so many parts (render/renderer.h); 0, 0 draws all
     uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;
@@ -43,9 +42,6 @@ static inline bool render_is_part(const RenderSettings *settings)
     return settings->width < render_whole_width(settings) ||
            settings->height < render_whole_height(settings);
 }
-
-// The number of kernel arguments that are buffers of the scene.
-#define RENDERER_ARRAYS 7
 
 // The largest RenderSettings::samples. This limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
@@ -78,9 +74,9 @@ typedef struct {
     FrameData frame;
     Program program;
     cl_kernel kernel;
-    bool is_special;                // the program is specialized for the scene
-    cl_mem arrays[RENDERER_ARRAYS]; // in the order of the kernel's arguments
-    size_t upload_size;             // bytes
+    bool is_special;            // the program is specialized for the scene
+    cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernel's arguments
+    size_t upload_size;         // bytes
     double upload_seconds, build_seconds;
     RenderProgress progress; // of the latest picture
 } Renderer;
@@ -94,10 +90,80 @@ void renderer_close(Renderer *renderer);
 // Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture that camera sees into framebuffer, which must have the settings' size. If the
+// Draws the picture that camera sees into framebuffer, which must have the size of
+// tile_frame_size. If the
 // observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
 
 // Runs the kernel once over an empty tile, because some drivers finish compiling at the first run.
 bool draw_warm_up(Renderer *renderer, Error *error);
+
+// Sets the first arguments of a kernel: the frame and the scene's arrays.
+bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameData *frame,
+                        Error *error);
+
+// A kernel that computes a tile. Its arguments are the frame, the scene's arrays and the outputs.
+typedef struct {
+    cl_command_queue queue;
+    cl_kernel kernel;
+    cl_mem outputs[2]; // the second may be NULL
+} TileLaunch;
+
+// Starts a kernel for the tile of a frame.
+bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
+                          const FrameData *frame, Error *error);
+
+// Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
+// draw. A part draws every parts-th tile of each row, and starts in another column in each row.
+typedef struct {
+    uint32_t x, y, width, height; // in pixels of the crop
+    uint32_t left, top;           // position in the framebuffer
+} Tile;
+
+// Stores the size of the framebuffer in which the tiles are drawn. A part's framebuffer contains
+// only the part's tiles, below each other.
+void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
+
+// Return the number of tiles to draw, and the position and size of one of them.
+uint64_t tile_count(const RenderSettings *settings);
+Tile tile_at(const RenderSettings *settings, uint64_t number);
+
+// Returns the size of the largest tile, with x and y 0.
+Tile tile_largest(const RenderSettings *settings);
+
+// Returns the number of pixels in all tiles to draw.
+uint64_t tile_pixels(const RenderSettings *settings);
+
+// Sets the tile that the frame draws.
+void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
+
+// Stores in grid the number of work-items along both sides of a tile, rounded up to whole
+// work-groups. All tiles have the same grid, including clipped tiles.
+void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);
+
+// Sample positions in a picture -> the color and signature of the camera ray at each position.
+// Signatures differ if rays hit different surfaces or different lights reach them.
+
+// A position in sub-pixels of the whole picture. The kernel skips samples whose x is NOTHING.
+typedef struct {
+    uint32_t x, y;
+} SamplePlace;
+
+// Requests and their results in the kernel's layout. KERNEL_SAMPLES uses SamplePlace and
+// SampleData; KERNEL_LADDER uses PixelRequest and PixelSums.
+typedef struct {
+    const void *requests;
+    void *results; // output; undefined for skipped requests
+    uint32_t count;
+} SampleList;
+
+// Traces the requests in list. The renderer's kernel must be KERNEL_SAMPLES or KERNEL_LADDER.
+// renderer->progress counts launches as tiles and adds to its previous counts. If the observer
+// returns false, tiles_done stays below tiles and some results are missing.
+bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
+                   const RenderObserver *observer, Error *error);
+
+// Runs the kernel once on a skipped request, because some drivers finish compiling at the first
+// run.
+bool sampler_warm_up(Renderer *renderer, Error *error);

@@ -2,7 +2,9 @@
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
 // never waits. PoCL compiles a kernel again for each kind of grid. Launches are small enough that
 // all grids are of one kind.
-#include "render/sampler.h"
+#include "render/renderer.h"
+
+#include "device/buffer.h"
 
 #include <stdlib.h>
 
@@ -80,10 +82,9 @@ static void close_buffers(Sampling *sampling)
     for (int i = 0; i < 2; i++)
         if (sampling->done[i] != NULL)
             clReleaseEvent(sampling->done[i]);
-    const cl_mem buffers[] = {sampling->requests, sampling->results, sampling->tallies};
-    for (int i = 0; i < 3; i++)
-        if (buffers[i] != NULL)
-            clReleaseMemObject(buffers[i]);
+    device_release(&sampling->requests);
+    device_release(&sampling->results);
+    device_release(&sampling->tallies);
     free(sampling->host_tallies);
 }
 
@@ -91,12 +92,11 @@ static bool set_arguments(const Sampling *sampling, const FrameData *frame, Erro
 {
     const Renderer *renderer = sampling->renderer;
     cl_kernel kernel = renderer->kernel;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < RENDERER_ARRAYS; place++)
-        status |= clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 1, sizeof(cl_mem), &sampling->requests);
-    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 4, sizeof(cl_mem), &sampling->results);
-    status |= clSetKernelArg(kernel, RENDERER_ARRAYS + 5, sizeof(cl_mem), &sampling->tallies);
+    if (!renderer_set_scene(renderer, kernel, frame, error))
+        return false;
+    cl_int status = clSetKernelArg(kernel, FLAT_ARRAYS + 1, sizeof(cl_mem), &sampling->requests);
+    status |= clSetKernelArg(kernel, FLAT_ARRAYS + 4, sizeof(cl_mem), &sampling->results);
+    status |= clSetKernelArg(kernel, FLAT_ARRAYS + 5, sizeof(cl_mem), &sampling->tallies);
     return cl_succeeded(status, "set the kernel's arguments", error);
 }
 
@@ -115,8 +115,8 @@ static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
     const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
     const size_t requests = item_requests(renderer);
     const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
-    cl_int status = clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 2, sizeof first, &first);
-    status |= clSetKernelArg(renderer->kernel, RENDERER_ARRAYS + 3, sizeof end, &end);
+    cl_int status = clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 2, sizeof first, &first);
+    status |= clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 3, sizeof end, &end);
     if (status == CL_SUCCESS)
         status = clEnqueueNDRangeKernel(renderer->device->queue, renderer->kernel, 1, NULL, &grid,
                                         &group, 0, NULL, &sampling->done[number % 2]);

@@ -4,9 +4,7 @@
 
 static void store(float out[4], Vec3 v)
 {
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
+    vec3_store(out, v);
     out[3] = 0;
 }
 

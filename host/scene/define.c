@@ -6,58 +6,52 @@
 #include "base/number.h"
 #include "base/word.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_color(Tokens *tokens, float color[3])
-{
-    for (int channel = 0; channel < 3; channel++) {
-        double value;
-        if (!tokens_number_within(tokens, &value, 0, 1))
-            return false;
-        color[channel] = (float)value;
-    }
-    return true;
-}
+static const struct {
+    const char *name;
+    size_t offset; // of the floats in Material
+    int count;
+    double most;
+} properties[] = {{"diffuse", offsetof(Material, diffuse), 3, 1},
+                  {"specular", offsetof(Material, specular), 3, 1},
+                  {"kd", offsetof(Material, kd), 1, FACTOR_MOST},
+                  {"ks", offsetof(Material, ks), 1, FACTOR_MOST},
+                  {"shininess", offsetof(Material, shininess), 1, SHININESS_MOST},
+                  {"reflectivity", offsetof(Material, reflectivity), 1, 1}};
 
-static bool read_factor(Tokens *tokens, float *factor, double largest)
-{
-    double value;
-    if (!tokens_number_within(tokens, &value, 0, largest))
-        return false;
-    *factor = (float)value;
-    return true;
-}
+#define PROPERTY_COUNT (sizeof properties / sizeof *properties)
 
-static bool read_shininess(Tokens *tokens, Material *material)
+static bool unknown_property(Tokens *tokens, Token property)
 {
-    float shininess;
-    if (!read_factor(tokens, &shininess, SHININESS_MOST))
-        return false;
-    material_set_shininess(material, shininess);
-    return true;
+    const char *names[PROPERTY_COUNT];
+    for (size_t i = 0; i < PROPERTY_COUNT; i++)
+        names[i] = properties[i].name;
+    const char *nearest = word_nearest(property.text, property.length, names, PROPERTY_COUNT);
+    return nearest == NULL
+               ? tokens_fail(tokens, property, "expected a property of a material")
+               : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 
 static bool read_property(Tokens *tokens, Token property, Material *material)
 {
-    static const char *const properties[] = {"diffuse", "specular",  "kd",
-                                             "ks",      "shininess", "reflectivity"};
-    if (token_is(property, "diffuse"))
-        return read_color(tokens, material->diffuse);
-    if (token_is(property, "specular"))
-        return read_color(tokens, material->specular);
-    if (token_is(property, "kd"))
-        return read_factor(tokens, &material->kd, FACTOR_MOST);
-    if (token_is(property, "ks"))
-        return read_factor(tokens, &material->ks, FACTOR_MOST);
-    if (token_is(property, "shininess"))
-        return read_shininess(tokens, material);
-    if (token_is(property, "reflectivity"))
-        return read_factor(tokens, &material->reflectivity, 1);
-    const char *nearest = word_nearest(property.text, property.length, properties, 6);
-    return nearest == NULL
-               ? tokens_fail(tokens, property, "expected a property of a material")
-               : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
+    size_t i = 0;
+    while (i < PROPERTY_COUNT && !token_is(property, properties[i].name))
+        i++;
+    if (i == PROPERTY_COUNT)
+        return unknown_property(tokens, property);
+    float *values = (float *)(void *)((char *)material + properties[i].offset);
+    for (int place = 0; place < properties[i].count; place++) {
+        double value;
+        if (!tokens_number_within(tokens, &value, 0, properties[i].most))
+            return false;
+        values[place] = (float)value;
+    }
+    if (properties[i].offset == offsetof(Material, shininess))
+        material_set_shininess(material, material->shininess);
+    return true;
 }
 
 static bool read_shader(Tokens *tokens, Shader *shader)

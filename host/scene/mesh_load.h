@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/file.h"
-#include "mesh/normals.h"
+#include "mesh/mesh.h"
 #include "mesh/ply.h"
 #include "scene/scene.h"
 
@@ -51,3 +51,5 @@ bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
 
 // Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
 UpAxis up_axis_of_shape(const Scene *scene);
+
+// Cameras for a mesh without a scene.

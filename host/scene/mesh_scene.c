@@ -3,25 +3,153 @@
 #include "scene/mesh_load.h"
 
 #include "base/clock.h"
-#include "scene/mesh_frame.h"
+#include "base/limits.h"
 #include "scene/scn.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+// The eye is at a fixed distance. The edges of the picture are planes through the eye. For each
+// axis of the picture, two planes of the same slope are found that touch the meshes.
+
+#define VIEWS         6
+#define DISTANCE      4.0 // of the eye from the center, in radii
+#define FILLED        0.8 // part of the picture's width or height
+#define RUN_TRIANGLES 64
+#define MOST_STEPS    32
+
+#define DEGREES_PER_RADIAN 57.295779513082320877
+
+// A short run of a mesh's triangles with its bounding box, by which a search skips most runs.
+// Neighbors in a file are usually neighbors in space.
+typedef struct {
+    Mesh mesh; // borrowed
+    Vec3 low, high;
+} Run;
+
+typedef struct {
+    ARRAY(Run) runs;
+    Vec3 center;
+    double distance;
+} Frame;
+
+static bool add_runs(Frame *frame, const Mesh *mesh, Error *error)
+{
+    for (size_t first = 0; first < mesh->triangle_count; first += RUN_TRIANGLES) {
+        const size_t rest = mesh->triangle_count - first;
+        Run run = {*mesh, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        run.mesh.triangles += first;
+        run.mesh.triangle_count = rest < RUN_TRIANGLES ? rest : RUN_TRIANGLES;
+        mesh_add_bounds(&run.mesh, &run.low, &run.high);
+        if (!array_push(&frame->runs, run, error))
+            return false;
+    }
+    return true;
+}
+
+static Vec3 farthest(const Frame *frame, Vec3 d)
+{
+    Vec3 found = frame->center;
+    double most = -INFINITY;
+    for (size_t i = 0; i < frame->runs.count; i++) {
+        const Run *run = &frame->runs.data[i];
+        if (fmax(d.x * run->low.x, d.x * run->high.x) + fmax(d.y * run->low.y, d.y * run->high.y) +
+                fmax(d.z * run->low.z, d.z * run->high.z) <=
+            most)
+            continue;
+        for (size_t corner = 0; corner < 3 * run->mesh.triangle_count; corner++) {
+            const uint32_t *vertices = run->mesh.triangles[corner / 3];
+            const Vec3 point = vec3_of_doubles(run->mesh.positions[vertices[corner % 3]]);
+            if (vec3_dot(point, d) > most) {
+                most = vec3_dot(point, d);
+                found = point;
+            }
+        }
+    }
+    return vec3_sub(found, frame->center);
+}
+
+// Returns the slope of the planes that touch the meshes on both sides of an axis, and stores the
+// coordinate of their intersection on the axis. The gap between the planes and the meshes is a
+// convex, piecewise linear function of the slope, so Newton's method ends after few steps.
+static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
+{
+    double slope = -1, next = 0;
+    for (int step = 0; step < MOST_STEPS && next != slope; step++) {
+        slope = next;
+        const Vec3 inward = vec3_scale(back, slope);
+        const Vec3 high = farthest(frame, vec3_add(inward, axis));
+        const Vec3 low = farthest(frame, vec3_sub(inward, axis));
+        const double above = frame->distance - vec3_dot(high, back);
+        const double below = frame->distance - vec3_dot(low, back);
+        next = (vec3_dot(high, axis) - vec3_dot(low, axis)) / (above + below);
+        *middle = vec3_dot(high, axis) - next * above;
+    }
+    return next;
+}
+
+// Returns the field of view in which planes of this slope enclose the filled part. Newton's method
+// starts above the result, where the tangent is convex, and stays above.
+static double field_of_view(double slope)
+{
+    double half = 45;
+    for (int step = 0; step < MOST_STEPS; step++) {
+        const double sine = sine_of_degrees(half), cosine = cosine_of_degrees(half);
+        half -= (sine - slope / FILLED * cosine) * cosine * DEGREES_PER_RADIAN;
+    }
+    return fmax(2 * half, FOV_LEAST);
+}
+
+// back points from the meshes to the eye.
+static Viewpoint view_from(const Frame *frame, Vec3 back, Vec3 up)
+{
+    double right, top;
+    const Vec3 x = vec3_normalize(vec3_cross(up, back)), y = vec3_cross(back, x);
+    const double width = touch(frame, x, back, &right), height = touch(frame, y, back, &top);
+    const Vec3 aside = vec3_add(vec3_scale(x, right), vec3_scale(y, top));
+    const Vec3 look_at = vec3_add(frame->center, aside);
+    return (Viewpoint){.eye = vec3_add(look_at, vec3_scale(back, frame->distance)),
+                       .look_at = look_at,
+                       .up = up,
+                       .fov_degrees = field_of_view(height),
+                       .width_degrees = field_of_view(width)};
+}
+
+// Adds six viewpoints: three-quarter, front, right, back, left and top. From each, the meshes fill
+// 80 % of the picture's width or height, whichever is less. All meshes are inside the sphere.
+static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
+{
+    static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
+                                           {0, 1, 0},    {-1, 0, 0}, {0, 0, 1}};
+    Frame frame = {.center = center, .distance = DISTANCE * radius};
+    bool ok = true;
+    for (size_t i = 0; ok && i < scene->objects.count; i++)
+        ok = add_runs(&frame, &scene->objects.data[i].mesh, error);
+    for (int view = 0; ok && view < VIEWS; view++) {
+        const Vec3 up = view == VIEWS - 1 ? vec3(0, 1, 0) : vec3(0, 0, 1);
+        const Viewpoint viewpoint = view_from(&frame, vec3_normalize(directions[view]), up);
+        ok = array_push(&scene->viewpoints, viewpoint, error);
+    }
+    free(frame.runs.memory);
+    return ok;
+}
 
 static const char studio[] =
     "background 0.8 0.84 0.88\n"
-    "ambient 0.27\n"
+    "ambient 0.3\n"
     "define clay blinn_phong diffuse 0.93 0.85 0.76 kd 1 ks 0.25 shininess 40\n"
-    "define floor matte diffuse 0.82 0.86 0.9\n";
+    "define floor matte diffuse 0.8815 0.9314 0.9899\n";
 
-// A key light from the left, a fill light from the right and a rim light from behind, as seen by
-// the first camera. Positions are relative to the meshes' center, in radii.
-static const Light lights[3] = {{{-12, -26, 30}, 0.60, {1, 0.97, 0.92}},
+// A key light from the left, a fill light from the right and a light from behind, as seen by the
+// first camera. The directions point to them.
+static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
-                                {{6, 16, 32}, 0.20, {1, 1, 1}}};
+                                {{-8, 26, 16}, 0.30, {1, 1, 1}}};
 
-// In radii. The floor is the top of a sphere that is too large to look round.
-#define FLOOR_RADIUS 1000
+// In radii. The floor is the top of a sphere that is too large to look round. Lights are so far
+// that they light all of it alike, and its color is the background's: no horizon is seen.
+#define FLOOR_RADIUS   1e4
+#define LIGHT_DISTANCE 1e4
 
 bool mesh_scene_is_mesh(const char *bytes, size_t size)
 {
@@ -45,7 +173,7 @@ static bool add_studio(Scene *scene, Error *error)
               (is_empty || array_push(&scene->spheres, floor, error));
     for (int i = 0; ok && i < 3; i++) {
         Light light = lights[i];
-        light.position = vec3_add(center, vec3_scale(light.position, radius));
+        light.position = vec3_add(center, vec3_scale(light.position, LIGHT_DISTANCE * radius));
         ok = array_push(&scene->lights, light, error);
     }
     return ok;

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "mesh/foreign_process.h"
-#include "mesh/up_axis.h"
+#include "mesh/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,14 +33,12 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
     const double scale = normal_scale(mesh);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double *p = mesh->positions[i];
-        const Vec3 turned = rotated(vec3(p[0], p[1], p[2]), axis, sine, cosine);
+        const Vec3 turned = rotated(vec3_of_doubles(p), axis, sine, cosine);
         p[0] = turned.x, p[1] = turned.y, p[2] = turned.z;
         if (mesh->normals == NULL)
             continue;
         float *n = mesh->normals[i];
-        const Vec3 given = {(double)n[0], (double)n[1], (double)n[2]};
-        const Vec3 normal = rotated(vec3_scale(given, scale), axis, sine, cosine);
-        n[0] = (float)normal.x, n[1] = (float)normal.y, n[2] = (float)normal.z;
+        vec3_store(n, rotated(vec3_scale(vec3_of_floats(n), scale), axis, sine, cosine));
     }
 }
 
@@ -55,7 +53,7 @@ static bool read_rotation(Tokens *tokens, Objects objects)
     double axis[3], degrees;
     if (!tokens_numbers(tokens, 3, axis) || !tokens_number_within(tokens, &degrees, -1e6, 1e6))
         return false;
-    const Vec3 unit = vec3_normalize(vec3(axis[0], axis[1], axis[2]));
+    const Vec3 unit = vec3_normalize(vec3_of_doubles(axis));
     if (!(vec3_extent(unit) > 0))
         return tokens_fail(tokens, tokens->last, "the axis of rotation must not be zero");
     for (size_t object = 0; object < objects.count; object++)

@@ -105,14 +105,11 @@ void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE])
 
 bool scene_add_input(Scene *scene, const char *path, Error *error)
 {
-    const size_t size = strlen(path) + 1;
-    char *copy = memory_raw(size, 1, error);
-    if (copy == NULL || !array_push(&scene->inputs, copy, error)) {
-        free(copy);
-        return false;
-    }
-    memcpy(copy, path, size);
-    return true;
+    char *copy = text_copy(path, error);
+    if (copy != NULL && array_push(&scene->inputs, copy, error))
+        return true;
+    free(copy);
+    return false;
 }
 
 bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error)
@@ -162,23 +159,28 @@ void material_set_shininess(Material *material, float shininess)
     material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
 }
 
-// Silhouettes and perfect mirrors need no light.
-static bool is_shaded(const Scene *scene, uint32_t material)
+// Returns the next material in use, or NULL after the last. *place is 0 for the first.
+static const Material *next_used(const Scene *scene, size_t *place)
 {
-    const Material *used = &scene->materials.data[material];
-    return used->shader != SHADER_SILHOUETTE && used->reflectivity < 1;
+    const size_t spheres = scene->spheres.count;
+    while (*place < spheres + scene->objects.count) {
+        const size_t i = (*place)++;
+        if (i < spheres)
+            return &scene->materials.data[scene->spheres.data[i].material];
+        const MeshObject *object = &scene->objects.data[i - spheres];
+        if (object->mesh.triangle_count > 0)
+            return &scene->materials.data[object->material];
+    }
+    return NULL;
 }
 
+// Silhouettes and perfect mirrors need no light.
 static bool has_shaded(const Scene *scene)
 {
-    for (size_t i = 0; i < scene->spheres.count; i++)
-        if (is_shaded(scene, scene->spheres.data[i].material))
+    size_t place = 0;
+    for (const Material *used; (used = next_used(scene, &place)) != NULL;)
+        if (used->shader != SHADER_SILHOUETTE && used->reflectivity < 1)
             return true;
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        const MeshObject *object = &scene->objects.data[i];
-        if (object->mesh.triangle_count > 0 && is_shaded(scene, object->material))
-            return true;
-    }
     return false;
 }
 
@@ -192,23 +194,12 @@ MissingPart scene_missing(const Scene *scene)
     return (MissingPart){0};
 }
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 static double largest_reflectivity(const Scene *scene)
 {
+    size_t place = 0;
     double largest = 0;
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        const uint32_t material = scene->spheres.data[i].material;
-        largest = larger(largest, (double)scene->materials.data[material].reflectivity);
-    }
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        const MeshObject *object = &scene->objects.data[i];
-        if (object->mesh.triangle_count > 0)
-            largest = larger(largest, (double)scene->materials.data[object->material].reflectivity);
-    }
+    for (const Material *used; (used = next_used(scene, &place)) != NULL;)
+        largest = fmax(largest, (double)used->reflectivity);
     return largest;
 }
 

@@ -6,10 +6,10 @@
 #include "../kernels/shared.h"
 #include "base/array.h"
 #include "base/vec.h"
-#include "mesh/up_axis.h"
+#include "mesh/mesh.h"
 
 // Limits that keep sample coordinates exact in float, and loops short.
-#define PICTURE_SIZE_MAX 65536
+#define PICTURE_SIZE_MAX 131072
 #define MAX_LEVEL_LIMIT  1000
 
 #define COURSE_MATERIALS 4 // the course's materials come first in every scene

@@ -24,7 +24,6 @@ typedef struct {
     Error *error;
 } Parser;
 
-// Returns whether the statement has another token.
 static bool has_more(const Tokens *tokens)
 {
     Tokens ahead = *tokens;
@@ -40,8 +39,7 @@ static bool read_light(Parser *parser)
     const bool is_colored = ok && has_more(tokens);
     for (int i = 0; is_colored && ok && i < 3; i++)
         ok = tokens_number_within(tokens, &color[i], 0, 1);
-    const Light light = {vec3(position[0], position[1], position[2]), intensity,
-                         vec3(color[0], color[1], color[2])};
+    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color)};
     return ok && array_push(&parser->scene->lights, light, parser->error);
 }
 
@@ -56,7 +54,7 @@ static bool read_sphere(Parser *parser)
     if (!tokens_numbers(&parser->tokens, 3, center) ||
         !tokens_number_within(&parser->tokens, &radius, RADIUS_LEAST, RADIUS_MOST))
         return false;
-    const Sphere sphere = {{center[0], center[1], center[2]}, radius, plain_material(parser)};
+    const Sphere sphere = {vec3_of_doubles(center), radius, plain_material(parser)};
     return array_push(&parser->scene->spheres, sphere, parser->error);
 }
 
@@ -98,8 +96,8 @@ static bool read_camera(Parser *parser)
         (has_more(&parser->tokens) &&
          !tokens_number_within(&parser->tokens, &width, FOV_LEAST, FOV_MOST)))
         return false;
-    const Viewpoint viewpoint = {.eye = {numbers[0], numbers[1], numbers[2]},
-                                 .look_at = {numbers[3], numbers[4], numbers[5]},
+    const Viewpoint viewpoint = {.eye = vec3_of_doubles(numbers),
+                                 .look_at = vec3_of_doubles(numbers + 3),
                                  .up = parser->up,
                                  .fov_degrees = fov,
                                  .width_degrees = width};
@@ -116,7 +114,7 @@ static bool read_up(Parser *parser)
     parser->waiting_up = parser->tokens.last;
     if (!tokens_numbers(&parser->tokens, 3, up))
         return false;
-    parser->up = vec3(up[0], up[1], up[2]);
+    parser->up = vec3_of_doubles(up);
     return vec3_extent(parser->up) > 0 ||
            tokens_fail(&parser->tokens, parser->tokens.last, "'up' must not be zero");
 }
@@ -172,9 +170,8 @@ static bool read_normals(Parser *parser)
     MeshLoadOptions *mesh = &parser->mesh;
     if (!read_choice(parser, "flat", "smooth", &mesh->is_flat))
         return false;
-    Tokens ahead = parser->tokens;
     mesh->crease_degrees = CREASE_DEGREES;
-    return mesh->is_flat || tokens_next(&ahead).text == NULL ||
+    return mesh->is_flat || !has_more(&parser->tokens) ||
            tokens_number_within(&parser->tokens, &mesh->crease_degrees, 0, 180);
 }
 

@@ -19,30 +19,28 @@ typedef struct {
     MeshObject current;  // the properties that statements have set so far
 } Writer;
 
-// Writes the fewest digits that read back as the same number.
-static void write_number(FILE *stream, double value)
+// Writes the fewest digits that read back as the same number, at least `digits`.
+static void write_digits(FILE *stream, double value, int digits, bool is_float)
 {
     char text[32];
-    for (int digits = 15; digits <= 17; digits++) {
+    for (const int most = is_float ? 9 : 17; digits <= most; digits++) {
         double again = 0;
         const int length = snprintf(text, sizeof text, "%.*g", digits, value);
-        if (number_parse(text, text + length, &again) != NULL && again == value)
+        if (number_parse(text, text + length, &again) != NULL &&
+            (is_float ? (double)(float)again == value : again == value))
             break;
     }
     fprintf(stream, " %s", text);
 }
 
-// Writes the fewest digits that read back as the same float.
+static void write_number(FILE *stream, double value)
+{
+    write_digits(stream, value, 15, false);
+}
+
 static void write_float(FILE *stream, float value)
 {
-    char text[32];
-    for (int digits = 6; digits <= 9; digits++) {
-        double again = 0;
-        const int length = snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        if (number_parse(text, text + length, &again) != NULL && (float)again == value)
-            break;
-    }
-    fprintf(stream, " %s", text);
+    write_digits(stream, (double)value, 6, true);
 }
 
 static void write_vector(FILE *stream, Vec3 v)

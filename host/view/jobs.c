@@ -147,7 +147,6 @@ void jobs_trace(Worker *worker, const Job *job)
     report_failure(worker, job, &error);
 }
 
-// Reports that the renderer is ready, or failed.
 static void report_taken(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -160,7 +159,6 @@ static void report_taken(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
-// Reports that the scene was read, or that reading failed.
 static void report_loaded(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names the files after the scene, with the first free number.
-#include "view/saver.h"
+#include "view/worker.h"
 
 #include <limits.h>
 #include <stdio.h>

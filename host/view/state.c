@@ -2,6 +2,108 @@
 // The effect of each key; view/status_text.c lists the keys.
 #include "view/state.h"
 
+// The constants are from the course's viewer.
+
+#define DEGREES_PER_PIXEL  0.25
+#define LENGTH_PER_PIXEL   0.15
+#define WHEEL_FACTOR       0.9
+#define COURSE_HEIGHT      512.0
+#define AZIMUTH_LIMIT      89.99
+#define NEAREST            0.5
+#define FARTHEST           100.0
+#define COURSE_DISTANCE    6.5
+#define DEGREES_PER_RADIAN 57.295779513082320877
+
+// Makes perpendicular axes, of which the last is up. If up is z, the others are x and y, the
+// course's reference for angles.
+static void make_axes(Vec3 axes[3], Vec3 up)
+{
+    const Vec3 z = vec3_normalize(up);
+    const double x = fabs(z.x), y = fabs(z.y);
+    const Vec3 other = x <= fabs(z.z) || x <= y ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    axes[0] = vec3_normalize(vec3_sub(other, vec3_scale(z, vec3_dot(other, z))));
+    axes[1] = vec3_cross(z, axes[0]);
+    axes[2] = z;
+}
+
+Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
+{
+    Orbit orbit = {.pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at,
+                   .look_at = viewpoint->look_at,
+                   .up = viewpoint->up,
+                   .fov_degrees = viewpoint->fov_degrees,
+                   .width_degrees = viewpoint->width_degrees};
+    make_axes(orbit.axes, viewpoint->up);
+    const Vec3 arm = vec3_sub(viewpoint->eye, orbit.pivot);
+    const double x = vec3_dot(arm, orbit.axes[0]), y = vec3_dot(arm, orbit.axes[1]);
+    const double z = vec3_dot(arm, orbit.axes[2]);
+    orbit.distance = sqrt(x * x + y * y + z * z);
+    orbit.azimuth = -atan2(z, sqrt(x * x + y * y)) * DEGREES_PER_RADIAN;
+    orbit.rotation = atan2(y, x) * DEGREES_PER_RADIAN;
+    orbit.unit = is_course ? 1 : orbit.distance / COURSE_DISTANCE;
+    return orbit;
+}
+
+Viewpoint orbit_viewpoint(const Orbit *orbit)
+{
+    const double level = orbit->distance * cosine_of_degrees(orbit->azimuth);
+    const double x = level * cosine_of_degrees(orbit->rotation);
+    const double y = level * sine_of_degrees(orbit->rotation);
+    const double z = -orbit->distance * sine_of_degrees(orbit->azimuth);
+    const Vec3 across = vec3_add(vec3_scale(orbit->axes[0], x), vec3_scale(orbit->axes[1], y));
+    const Vec3 arm = vec3_add(across, vec3_scale(orbit->axes[2], z));
+    return (Viewpoint){.eye = vec3_add(orbit->pivot, arm),
+                       .look_at = orbit->look_at,
+                       .up = orbit->up,
+                       .fov_degrees = orbit->fov_degrees,
+                       .width_degrees = orbit->width_degrees};
+}
+
+static double limited(double value, double low, double high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+// Apply a mouse drag in pixels, within the course's limits.
+static void orbit_turn(Orbit *orbit, double right, double down)
+{
+    orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
+    orbit->azimuth =
+        limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
+}
+
+static void set_distance(Orbit *orbit, double distance)
+{
+    orbit->distance = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
+}
+
+static void orbit_zoom(Orbit *orbit, double down)
+{
+    set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
+}
+
+// Moves camera and pivot sideways by a mouse drag in pixels. The pivot follows the pointer if the
+// window has the course's height.
+static void orbit_pan(Orbit *orbit, double right, double down)
+{
+    const Viewpoint view = orbit_viewpoint(orbit);
+    const Vec3 ahead = vec3_normalize(vec3_sub(view.look_at, view.eye));
+    const Vec3 across = vec3_normalize(vec3_cross(ahead, view.up));
+    const double half = orbit->fov_degrees / 2;
+    const double height =
+        2 * orbit->distance * sine_of_degrees(half) / cosine_of_degrees(half) / COURSE_HEIGHT;
+    const Vec3 step = vec3_add(vec3_scale(across, -height * right),
+                               vec3_scale(vec3_cross(across, ahead), height * down));
+    orbit->pivot = vec3_add(orbit->pivot, step);
+    orbit->look_at = vec3_add(orbit->look_at, step);
+}
+
+// Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.
+static void orbit_wheel(Orbit *orbit, double notches)
+{
+    set_distance(orbit, orbit->distance * pow(WHEEL_FACTOR, notches));
+}
+
 #define ARROW_PIXELS      20
 #define DEGREES_A_SECOND  20.0
 #define PIXELS_PER_DEGREE 4.0
@@ -34,11 +136,6 @@ static void turn(State *state, double right, double down)
 {
     orbit_turn(&state->orbit, right, down);
     move(state);
-}
-
-static int limited(int value, int low, int high)
-{
-    return value < low ? low : value > high ? high : value;
 }
 
 static void change_level(State *state, const StateScene *scene, int step)
@@ -78,7 +175,7 @@ static bool *switch_of(State *state, int key)
 
 static void change_exposure(State *state, int step)
 {
-    state->exposure = limited(state->exposure + step, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
+    state->exposure = (int)limited(state->exposure + step, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
 }
 
 static void apply_arrow(State *state, int key)

@@ -3,7 +3,26 @@
 // depends on no window, device or clock.
 #pragma once
 
-#include "view/orbit.h"
+#include "scene/scene.h"
+
+// A camera that orbits a point, as in the course's viewer: two angles and a distance.
+typedef struct {
+    Vec3 pivot;       // the center of the orbit
+    Vec3 look_at, up; // of the camera that orbits
+    Vec3 axes[3];     // unit length; the last is up
+    double azimuth;   // degrees below the plane perpendicular to up; negative if the eye is above
+    double rotation;  // degrees around up
+    double distance;  // from the eye to the pivot
+    double unit;      // length unit of steps and limits; 1 for the course's cameras
+    double fov_degrees, width_degrees;
+} Orbit;
+
+// Returns the orbit of a camera. The course's cameras orbit the origin. Other cameras orbit their
+// look_at point.
+Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
+
+// Returns the camera at the orbit's current position.
+Viewpoint orbit_viewpoint(const Orbit *orbit);
 
 // Keys are typed characters. These constants stand for keys without a character.
 enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_FULL_SCREEN };

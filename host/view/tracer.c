@@ -24,7 +24,6 @@ bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
     return true;
 }
 
-// Frees the model and everything derived from it.
 static void drop_model(Tracer *tracer)
 {
     renderer_close(&tracer->counter);

@@ -2,7 +2,7 @@
 // Device, model and pass -> picture, on the tracing thread.
 #pragma once
 
-#include "explain/report.h"
+#include "explain/explainer.h"
 #include "render/renderer.h"
 #include "view/model.h"
 #include "view/plan.h"

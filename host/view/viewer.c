@@ -36,7 +36,6 @@ static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
     return !(commands & COMMAND_RELOAD) || viewer_renew(viewer, error);
 }
 
-// Requests the explanation of a clicked pixel.
 static void explain(Viewer *viewer, const Event *event)
 {
     WorkerRequest *request = &viewer->request;
@@ -152,7 +151,7 @@ static bool step(Viewer *viewer, Error *error)
     if ((viewer->is_dirty || viewer->window.is_touched) && !viewer_draw(viewer, error))
         return false;
     viewer_save(viewer);
-    viewer->quits = viewer->quits || window_is_closed(&viewer->window);
+    viewer->quits = viewer->quits || glfwWindowShouldClose(viewer->window.handle);
     return viewer_recover(viewer, error);
 }
 
@@ -205,7 +204,7 @@ static ViewerEnd show(Viewer *viewer, Error *error)
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
-        window_hide(&viewer->window);
+        glfwHideWindow(viewer->window.handle);
     if (viewer->settings.statistics)
         frame_times_write(&viewer->frame_times, viewer->status.moving_coarse,
                           viewer->status.moving_frames, stderr);
@@ -223,7 +222,7 @@ static void close_viewer(Viewer *viewer)
     for (size_t i = 0; i < viewer->dropped.count; i++)
         free(viewer->dropped.data[i]);
     free(viewer->dropped.memory);
-    window_disconnect();
+    glfwTerminate();
     canvas_close(&viewer->canvas);
     free(viewer);
 }
@@ -245,7 +244,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
                                       .samples = 1};
     viewer->status.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
-    const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, window_wake};
+    const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, glfwPostEmptyEvent};
     ViewerEnd end = VIEWER_NO_DEVICE;
     // Watching starts before the first read, so that changes during the read are detected.
     const char *kernels = settings->tracer.kernel_folder;

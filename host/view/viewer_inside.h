@@ -3,14 +3,28 @@
 // results of the worker and the file system, and viewer_show.c draws, prints and saves.
 #pragma once
 
-#include "view/frame_times.h"
-#include "view/saver.h"
+#include "base/array.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
 #include "view/views.h"
 #include "view/watch.h"
 #include "view/window.h"
 #include "view/worker.h"
+
+#include <stdint.h>
+#include <stdio.h>
+
+// The times between displayed frames of a moving camera.
+typedef struct {
+    ARRAY(double) seconds; // from each frame to the next
+    double
+        latest; // time of the latest frame in seconds; 0 without one or if the camera has stopped
+} FrameTimes;
+
+// Prints the statistics. frames is the number of pictures traced while the camera moved. coarse is
+// how many of these had fewer pixels than the window.
+void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
+void frame_times_free(FrameTimes *times);
 
 #define STATE_SIZE 1024
 

@@ -4,9 +4,50 @@
 
 #include "base/clock.h"
 
+#include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
-// Returns whether the worker has explained the clicked pixel.
+// Sorts the times to find the median and the slowest frames.
+
+// Records a displayed frame of a moving camera. moment is in seconds.
+static bool frame_times_add(FrameTimes *times, double moment, Error *error)
+{
+    const double before = times->latest;
+    times->latest = moment;
+    return before == 0 || array_push(&times->seconds, moment - before, error);
+}
+
+static int compare(const void *first, const void *second)
+{
+    const double *a = first, *b = second;
+    return (*a > *b) - (*a < *b);
+}
+
+void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream)
+{
+    Error error = {0};
+    const size_t count = times->seconds.count;
+    double *sorted = memory_raw(count, sizeof *sorted, &error);
+    if (sorted != NULL && count > 0) {
+        memcpy(sorted, times->seconds.data, count * sizeof *sorted);
+        qsort(sorted, count, sizeof *sorted, compare);
+        fprintf(stream,
+                "%zu moving frames: median %.1f ms, 95 %% within %.1f ms, slowest %.1f ms\n", count,
+                1e3 * sorted[count / 2], 1e3 * sorted[count * 95 / 100], 1e3 * sorted[count - 1]);
+    }
+    free(sorted);
+    if (frames > 0)
+        fprintf(stream, "%" PRIu64 " traced while moving, %" PRIu64 " of them at full resolution\n",
+                frames, frames - coarse);
+}
+
+void frame_times_free(FrameTimes *times)
+{
+    free(times->seconds.memory);
+    *times = (FrameTimes){0};
+}
+
 static bool is_explained(const Viewer *viewer)
 {
     return viewer->explained > 0 && viewer->status.done.explains == viewer->explained;
@@ -97,7 +138,7 @@ static void update_title(Viewer *viewer, const Figures *figures)
     char text[STATE_SIZE] = "";
     status_text_title(text, sizeof text, &viewer->state, figures);
     if (is_news(viewer->title, text))
-        window_set_title(&viewer->window, text);
+        glfwSetWindowTitle(viewer->window.handle, text);
 }
 
 // Prints a new failure once, and with -v a changed state once nothing moves. The window continues
@@ -148,7 +189,7 @@ bool viewer_draw(Viewer *viewer, Error *error)
     const Figures figures = figures_of(viewer);
     draw_text(viewer, &figures);
     update_title(viewer, &figures);
-    window_show(&viewer->window);
+    glfwSwapBuffers(viewer->window.handle);
     print_news(viewer, &figures);
     count_frame(viewer, was_settled);
     return true;

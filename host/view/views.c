@@ -4,7 +4,7 @@
 #include "view/views.h"
 
 #include "image/image_file.h"
-#include "view/draw/boxes.h"
+#include "view/draw/draw.h"
 
 static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 
@@ -69,14 +69,13 @@ static Tone tone_of(const Frame *frame)
     return (Tone){state_gain(frame->state), frame->encoding == ENCODE_SRGB};
 }
 
-// Clears the target to the displayed background.
 static void clear(const Frame *frame)
 {
     const Scene *scene = &frame->model->scene;
     const double gain = state_gain(frame->state);
-    const float color[3] = {(float)scene->background.x, (float)scene->background.y,
-                            (float)scene->background.z};
+    float color[3];
     unsigned char bytes[3];
+    vec3_store(color, scene->background);
     encode_channels(color, 3, frame->encoding, gain, bytes);
     glClearColor((float)bytes[0] / 255, (float)bytes[1] / 255, (float)bytes[2] / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

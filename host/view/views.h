@@ -2,12 +2,8 @@
 // The OpenGL objects that draw a model, and the drawing order of a frame.
 #pragma once
 
-#include "view/draw/boxes.h"
 #include "view/draw/canvas.h"
-#include "view/draw/model_views.h"
-#include "view/draw/ray_view.h"
-#include "view/draw/target.h"
-#include "view/draw/text_view.h"
+#include "view/draw/draw.h"
 #include "view/state.h"
 
 typedef struct {

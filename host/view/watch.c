@@ -52,15 +52,12 @@ static const Watched *find_file(const Watch *watch, const char *path)
 static bool add_file(Watch *watch, const char *path, const Watch *before, Error *error)
 {
     const Watched *known = find_file(before, path);
-    const size_t size = strlen(path) + 1;
-    const Watched file = {.path = memory_raw(size, 1, error),
+    const Watched file = {.path = text_copy(path, error),
                           .accepted = known != NULL ? known->accepted : stamp_of_path(path)};
-    if (file.path == NULL || !array_push(&watch->files, file, error)) {
-        free(file.path);
-        return false;
-    }
-    memcpy(file.path, path, size);
-    return true;
+    if (file.path != NULL && array_push(&watch->files, file, error))
+        return true;
+    free(file.path);
+    return false;
 }
 
 bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error)

@@ -5,8 +5,6 @@
 
 #include <epoxy/gl.h>
 
-#include <GLFW/glfw3.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,11 +27,6 @@ static bool fail(const char *failure, Error *error)
 bool window_connect(Error *error)
 {
     return glfwInit() || fail("no window", error);
-}
-
-void window_disconnect(void)
-{
-    glfwTerminate();
 }
 
 static void add_event(GLFWwindow *handle, Event event)
@@ -235,11 +228,6 @@ void window_wait(Window *window, double seconds)
         glfwPollEvents();
 }
 
-void window_wake(void)
-{
-    glfwPostEmptyEvent();
-}
-
 bool window_take_event(Window *window, Event *event)
 {
     if (window->event_count == 0)
@@ -290,26 +278,6 @@ void window_set_full_screen(Window *window, bool is_full_screen)
     } else {
         glfwSetWindowMonitor(window->handle, NULL, place[0], place[1], place[2], place[3], 0);
     }
-}
-
-void window_set_title(Window *window, const char *title)
-{
-    glfwSetWindowTitle(window->handle, title);
-}
-
-void window_show(Window *window)
-{
-    glfwSwapBuffers(window->handle);
-}
-
-void window_hide(Window *window)
-{
-    glfwHideWindow(window->handle);
-}
-
-bool window_is_closed(const Window *window)
-{
-    return glfwWindowShouldClose(window->handle);
 }
 
 bool window_is_lost(const Window *window)

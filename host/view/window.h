@@ -5,10 +5,13 @@
 #include "base/error.h"
 #include "view/state.h"
 
+#define GLFW_INCLUDE_NONE // epoxy declares OpenGL
+#include <GLFW/glfw3.h>
+
 #define WINDOW_EVENTS 256
 
 typedef struct {
-    void *handle; // a GLFWwindow
+    GLFWwindow *handle;
     Event events[WINDOW_EVENTS];
     int event_count;
     char *dropped;           // path of a file, or NULL; owned
@@ -22,18 +25,15 @@ typedef struct {
 
 // Connects to the display. On failure, the message suggests -o FILE.
 bool window_connect(Error *error);
-void window_disconnect(void);
 
 // Opens a window of this size in pixels, or as large as the screen permits. Makes the window's
 // context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
 
-// Waits for events or window_wake, but at most this many seconds.
+// Waits for events, such as glfwPostEmptyEvent posts from any thread, but at most this many
+// seconds.
 void window_wait(Window *window, double seconds);
-
-// Ends window_wait. Any thread may call this function.
-void window_wake(void);
 
 // Stores the next event in *event. Returns false if there is no event.
 bool window_take_event(Window *window, Event *event);
@@ -49,13 +49,6 @@ float window_density(const Window *window);
 
 // Switches to full screen on the primary monitor, or back.
 void window_set_full_screen(Window *window, bool is_full_screen);
-
-void window_set_title(Window *window, const char *title);
-void window_show(Window *window); // displays the drawn frame
-void window_hide(Window *window);
-
-// Returns whether the user has closed the window.
-bool window_is_closed(const Window *window);
 
 // Returns whether the driver has lost the context, with all objects in it.
 bool window_is_lost(const Window *window);

@@ -4,9 +4,6 @@
 
 #include <stdlib.h>
 
-// OpenCL compilers recurse deeply, and the default stack of a thread may be too small.
-#define STACK_SIZE ((size_t)16 << 20)
-
 static Pass next_pass(const Worker *worker)
 {
     const WorkerRequest *request = &worker->request;
@@ -19,90 +16,56 @@ static Pass next_pass(const Worker *worker)
     return plan_pass(&plan, &worker->status.reached);
 }
 
-// Stores the next job in *job. Returns false if nothing remains to be done. The caller holds the
-// lock.
-static bool choose_job(Worker *worker, Job *job)
+// Returns the kind of the next job. JOB_PASS may have nothing to trace.
+static JobKind next_kind(const Worker *worker, const Pass *pass)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
-    *job = (Job){.kind = JOB_STOP, .request = *request};
-    if (request->saves != done->saves) {
-        job->kind = JOB_SAVE;
-        return true;
-    }
+    if (request->saves != done->saves)
+        return JOB_SAVE;
     if (worker->stops)
-        return true;
-    if (request->loads != done->loads) {
-        job->kind = JOB_LOAD;
-        return true;
-    }
-    if (request->uses_bvh != done->uses_bvh || request->renewals != done->renewals) {
-        job->kind = JOB_TAKE;
-        return true;
-    }
-    if (request->explains != done->explains) {
-        job->kind = JOB_EXPLAIN;
-        return true;
-    }
-    job->pass = next_pass(worker);
-    job->kind = JOB_PASS;
+        return JOB_STOP;
+    if (request->loads != done->loads)
+        return JOB_LOAD;
+    if (request->uses_bvh != done->uses_bvh || request->renewals != done->renewals)
+        return JOB_TAKE;
+    if (request->explains != done->explains)
+        return JOB_EXPLAIN;
     // A new gain encodes the latest picture again, even if more passes remain.
-    if (request->is_traced && request->gain != done->gain && job->pass.kind != PASS_MOVING)
-        job->kind = JOB_ENCODE;
-    return job->kind == JOB_ENCODE || job->pass.kind != PASS_NONE;
+    return request->is_traced && request->gain != done->gain && pass->kind != PASS_MOVING
+               ? JOB_ENCODE
+               : JOB_PASS;
 }
 
 static Job await_job(Worker *worker)
 {
     Job job;
     pthread_mutex_lock(&worker->mutex);
-    while (!choose_job(worker, &job))
+    for (;;) {
+        job = (Job){.request = worker->request, .pass = next_pass(worker)};
+        job.kind = next_kind(worker, &job.pass);
+        if (job.kind != JOB_PASS || job.pass.kind != PASS_NONE)
+            break;
         pthread_cond_wait(&worker->changed, &worker->mutex);
+    }
     pthread_mutex_unlock(&worker->mutex);
     return job;
 }
 
 static void *work(void *context)
 {
+    static void (*const run[])(Worker *, const Job *) = {
+        [JOB_LOAD] = jobs_load, [JOB_TAKE] = jobs_take,     [JOB_EXPLAIN] = jobs_explain,
+        [JOB_SAVE] = jobs_save, [JOB_ENCODE] = jobs_encode, [JOB_PASS] = jobs_trace};
     Worker *worker = context;
     bool goes_on = jobs_begin(worker);
     while (goes_on) {
         const Job job = await_job(worker);
-        switch (job.kind) {
-        case JOB_STOP:
-            goes_on = false;
-            break;
-        case JOB_LOAD:
-            jobs_load(worker, &job);
-            break;
-        case JOB_TAKE:
-            jobs_take(worker, &job);
-            break;
-        case JOB_EXPLAIN:
-            jobs_explain(worker, &job);
-            break;
-        case JOB_SAVE:
-            jobs_save(worker, &job);
-            break;
-        case JOB_ENCODE:
-            jobs_encode(worker, &job);
-            break;
-        case JOB_PASS:
-            jobs_trace(worker, &job);
-            break;
-        }
+        goes_on = job.kind != JOB_STOP;
+        if (goes_on)
+            run[job.kind](worker, &job);
     }
     tracer_close(&worker->tracer);
     return NULL;
-}
-
-static bool start_thread(Worker *worker)
-{
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, STACK_SIZE);
-    const bool ok = pthread_create(&worker->thread, &attributes, work, worker) == 0;
-    pthread_attr_destroy(&attributes);
-    return ok;
 }
 
 static void free_worker(Worker *worker)
@@ -122,7 +85,7 @@ Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Err
         (Worker){.setup = *setup, .request = *request, .status = {.busy = "reading the scene"}};
     pthread_mutex_init(&worker->mutex, NULL);
     pthread_cond_init(&worker->changed, NULL);
-    if (start_thread(worker))
+    if (device_thread_start(&worker->thread, work, worker))
         return worker;
     free_worker(worker);
     error_set(error, "no thread can be started");

@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -139,6 +140,19 @@ class Trade(unittest.TestCase):
             self.assertIn(f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E", self.told)
         self.assertTrue(0.5 < told["times"][0]["seconds_ratio"] < 2)
         self.assertIn("aa=3", self.rows)  # meets 1 %, and is not in the quick grid
+
+    def test_the_grid_runs_as_tasks_of_an_array_and_resumes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = [ROOT / "tools" / "trade", SCENE, "--quick", "--runs", "1", "-s", "64x48", "--plain",
+                     "--reference-samples", "256", "-o", folder, "--on", "local"]
+            for stages in (["reference 1", "setting 1-7", "report"], ["setting 3", "report"]):
+                done = subprocess.run(words, capture_output=True, text=True, check=True)
+                self.assertEqual(re.findall(r"^(.*); logs: ", done.stderr, re.M), stages)
+                rows = json.loads(pathlib.Path(folder, "trade.json").read_text())["scenes"][0]["rows"]
+                rmse = {row["setting"]: row["rmse"] for row in rows if row["kind"] != "time"}
+                self.assertEqual(rmse, {name: row["rmse"] for name, row in self.rows.items() if name in rmse})
+                self.assertEqual(len(rows), len(self.rows))
+                pathlib.Path(folder, "reflections", "2.row").unlink()
 
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():

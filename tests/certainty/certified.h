@@ -2,16 +2,8 @@
 // A scene -> its picture and the certainty of each pixel, by the same stages as in clrt.
 #pragma once
 
+#include "extremes/support/picture.h"
 #include "render/aov_pass.h"
-
-// A device that stays open for a group of tests.
-typedef struct {
-    Device device;
-    Cache cache;
-} Office;
-
-bool office_open(Office *office, Error *error);
-void office_close(Office *office);
 
 typedef struct {
     uint32_t view;          // from 1
@@ -20,7 +12,7 @@ typedef struct {
 } CertifiedView;
 
 typedef struct {
-    FlatScene flat; // with pair nodes
+    Stage stage; // with pair nodes
     CameraData camera;
     RenderSettings settings;
     Framebuffer plain, picture; // without --aov certainty; with repaired pixels
@@ -28,6 +20,6 @@ typedef struct {
     CertaintyMap map;
 } Certified;
 
-bool certified_make(Certified *certified, const Office *office, const Scene *scene,
-                    const CertifiedView *view, Error *error);
+// Any failure ends the test.
+Certified certified_make(const Studio *studio, const Scene *scene, const CertifiedView *view);
 void certified_free(Certified *certified);

@@ -3,17 +3,17 @@
 #include "certainty/extreme_scenes.h"
 
 #include "extremes/support/check.h"
-#include "extremes/support/scene_text.h"
 #include "extremes/support/shapes.h"
+#include "unit/parsed.h"
 
 static Scene slivers(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "light 0.5 -1 2 0.7\n"
-                                   "light -2 0.3 0.4 0.4\n"
-                                   "camera 0.9 -1.6 0.8 0.1 0 0 50\n"
-                                   "camera 0.3 0.02 0.9 0 0 0 20\n");
-    Random random = {.state = 7};
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 0.5 -1 2 0.7\n"
+                                "light -2 0.3 0.4 0.4\n"
+                                "camera 0.9 -1.6 0.8 0.1 0 0 50\n"
+                                "camera 0.3 0.02 0.9 0 0 0 20\n");
+    Random random = {7};
     shape_add(&scene, shape_fan(8000), 1);
     for (int i = 0; i < 300; i++) {
         const Vec3 a = random_in_cube(&random, 1), along = random_in_cube(&random, 1);
@@ -27,10 +27,10 @@ static Scene slivers(void)
 static Scene far_away(void)
 {
     const Vec3 center = shape_center(16);
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "light 65540 -49157 32777 0.8\n"
-                                   "light 65530 -49150 32771 0.4\n"
-                                   "camera 65545 -49160 32772 65536 -49152 32768 40\n");
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 65540 -49157 32777 0.8\n"
+                                "light 65530 -49150 32771 0.4\n"
+                                "camera 65545 -49160 32772 65536 -49152 32768 40\n");
     shape_add(&scene, shape_sphere(40, center), 3);
     shape_add(&scene,
               shape_plane(vec3(center.x - 6, center.y - 6, center.z - 2), vec3(12, 0, 0),
@@ -41,34 +41,34 @@ static Scene far_away(void)
 
 static Scene planets(void)
 {
-    Scene scene = scene_text_parse("size 384 256\n"
-                                   "define ground matte diffuse 0.6 0.6 0.5 reflectivity 0.3\n"
-                                   "light 3 -4 6 0.7\n"
-                                   "light -500 300 900 0.4\n"
-                                   "material ground\n"
-                                   "sphere 0 0 -10000000.5 10000000\n"
-                                   "material 2\n"
-                                   "sphere 1.4 0.8 0 0.5\n"
-                                   "sphere -40 900 60 100\n"
-                                   "sphere 1.2 -0.7 -0.49 0.0001\n"
-                                   "camera 4 -3 0.4 0 0 0 40\n"
-                                   "camera 1.21 -0.72 -0.485 1.2 -0.7 -0.49 12\n");
+    Scene scene = parsed_format("size 384 256\n"
+                                "define ground matte diffuse 0.6 0.6 0.5 reflectivity 0.3\n"
+                                "light 3 -4 6 0.7\n"
+                                "light -500 300 900 0.4\n"
+                                "material ground\n"
+                                "sphere 0 0 -10000000.5 10000000\n"
+                                "material 2\n"
+                                "sphere 1.4 0.8 0 0.5\n"
+                                "sphere -40 900 60 100\n"
+                                "sphere 1.2 -0.7 -0.49 0.0001\n"
+                                "camera 4 -3 0.4 0 0 0 40\n"
+                                "camera 1.21 -0.72 -0.485 1.2 -0.7 -0.49 12\n");
     shape_add(&scene, shape_cube(0.5, 3), 3);
     return scene;
 }
 
 static Scene contacts(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "define floor blinn_phong diffuse 0.3 0.5 0.4 reflectivity 0.2\n"
-                                   "light 2 -3 4 0.6\n"
-                                   "light -3 -1 0.0 0.5\n"
-                                   "light 0.5 3 0.5 0.3\n"
-                                   "material 2\n"
-                                   "sphere 1 0.25 -0.25 0.25\n"
-                                   "sphere 0.75 -0.25 -0.375 0.125\n"
-                                   "camera 3 -2 1.2 0.2 0 -0.2 42\n"
-                                   "camera 2.5 1.5 -0.4 0.2 0 -0.3 42\n");
+    Scene scene = parsed_format("size 384 384\n"
+                                "define floor blinn_phong diffuse 0.3 0.5 0.4 reflectivity 0.2\n"
+                                "light 2 -3 4 0.6\n"
+                                "light -3 -1 0.0 0.5\n"
+                                "light 0.5 3 0.5 0.3\n"
+                                "material 2\n"
+                                "sphere 1 0.25 -0.25 0.25\n"
+                                "sphere 0.75 -0.25 -0.375 0.125\n"
+                                "camera 3 -2 1.2 0.2 0 -0.2 42\n"
+                                "camera 2.5 1.5 -0.4 0.2 0 -0.3 42\n");
     shape_add(&scene, shape_cube(0.5, 4), 1);
     const uint32_t floor = (uint32_t)scene.materials.count - 1;
     shape_add(&scene, shape_plane(vec3(-2, -2, -0.5), vec3(4, 0, 0), vec3(0, 4, 0), 5), floor);
@@ -77,27 +77,27 @@ static Scene contacts(void)
 
 static Scene mirror_room(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "max_level 8\n"
-                                   "define wall matte diffuse 0.4 0.6 0.7 reflectivity 0.8\n"
-                                   "define ball blinn_phong diffuse 0.8 0.3 0.2 reflectivity 0.5\n"
-                                   "light 0.7 -0.6 0.8 0.5\n"
-                                   "light -0.4 0.8 -0.3 0.4\n"
-                                   "material ball\n"
-                                   "sphere -0.2 0.1 -0.4 0.3\n"
-                                   "camera 0.8 -0.75 0.3 -0.3 0.2 -0.2 70\n");
+    Scene scene = parsed_format("size 384 384\n"
+                                "max_level 8\n"
+                                "define wall matte diffuse 0.4 0.6 0.7 reflectivity 0.8\n"
+                                "define ball blinn_phong diffuse 0.8 0.3 0.2 reflectivity 0.5\n"
+                                "light 0.7 -0.6 0.8 0.5\n"
+                                "light -0.4 0.8 -0.3 0.4\n"
+                                "material ball\n"
+                                "sphere -0.2 0.1 -0.4 0.3\n"
+                                "camera 0.8 -0.75 0.3 -0.3 0.2 -0.2 70\n");
     shape_add(&scene, shape_cube(1, 2), (uint32_t)scene.materials.count - 2);
     return scene;
 }
 
 static Scene mixed_scales(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "light 900 -400 700 0.6\n"
-                                   "light 0.01 -0.012 0.02 0.3\n"
-                                   "camera 0.004 -0.006 0.003 0 0 0 45\n"
-                                   "camera 300 -500 200 0 0 0 45\n");
-    Random random = {.state = 11};
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 900 -400 700 0.6\n"
+                                "light 0.01 -0.012 0.02 0.3\n"
+                                "camera 0.004 -0.006 0.003 0 0 0 45\n"
+                                "camera 300 -500 200 0 0 0 45\n");
+    Random random = {11};
     Mesh bump = shape_bumpy(&random, vec3(0, 0, 0));
     for (size_t vertex = 0; vertex < bump.vertex_count; vertex++)
         for (int axis = 0; axis < 3; axis++)
@@ -109,12 +109,12 @@ static Scene mixed_scales(void)
 
 static Scene soup(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "light 3 -2 4 0.5\n"
-                                   "light 0.1 0.05 0.02 0.4\n"
-                                   "camera 2.2 -1.8 1.1 0 0 0 50\n"
-                                   "camera 0.02 0.03 -0.01 1 0.4 0.2 90\n");
-    Random random = {.state = 3};
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 3 -2 4 0.5\n"
+                                "light 0.1 0.05 0.02 0.4\n"
+                                "camera 2.2 -1.8 1.1 0 0 0 50\n"
+                                "camera 0.02 0.03 -0.01 1 0.4 0.2 90\n");
+    Random random = {3};
     shape_add(&scene, shape_soup(&random, 4000, 0.2), 3);
     shape_add(&scene, shape_soup(&random, 4000, 0.001), 2);
     return scene;
@@ -143,11 +143,11 @@ static Mesh coincident_floor(void)
 
 Scene extreme_coincident(void)
 {
-    Scene scene = scene_text_parse("size 384 384\n"
-                                   "light 6 -5 9 0.6\n"
-                                   "light -7 -2 4 0.4\n"
-                                   "camera 5 -9 4 0 0 -0.4 42\n");
-    Random random = {.state = 21};
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 6 -5 9 0.6\n"
+                                "light -7 -2 4 0.4\n"
+                                "camera 5 -9 4 0 0 -0.4 42\n");
+    Random random = {21};
     const Vec3 center = {0.1, -0.2, 0.3};
     shape_add(&scene, shape_sphere(14, center), 3);
     shape_add(&scene, reordered(shape_sphere(14, center), &random), 2);

@@ -148,12 +148,17 @@ static Outcome meet_triangle(const Path *path, const TriangleData *triangle, Sto
     return inside ? MEETS : UNCLEAR;
 }
 
+static Vector center_of(const SphereData *sphere)
+{
+    return vector((NUMBER)sphere->center[0] + sphere->center_low[0],
+                  (NUMBER)sphere->center[1] + sphere->center_low[1],
+                  (NUMBER)sphere->center[2] + sphere->center_low[2]);
+}
+
 // Computes half the chord of the ray's line in the sphere from the height of its cap.
 static Outcome meet_sphere(const Path *path, const SphereData *sphere, Stop *stop)
 {
-    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
-                           (NUMBER)sphere->center[1] + sphere->center_low[1],
-                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    const Vector center = center_of(sphere);
     const NUMBER radius = (NUMBER)sphere->radius + sphere->radius_low;
     const NUMBER length = ROOT(dot(path->direction, path->direction));
     const Vector d = unit(path->direction), f = minus(center, path->origin);
@@ -180,9 +185,7 @@ static Outcome meet_sphere(const Path *path, const SphereData *sphere, Stop *sto
 
 static Outcome meet_own_sphere(const Path *path, const SphereData *sphere, Stop *stop)
 {
-    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
-                           (NUMBER)sphere->center[1] + sphere->center_low[1],
-                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    const Vector center = center_of(sphere);
     const Vector f = minus(center, path->origin);
     const NUMBER along = dot(f, path->direction);
     const NUMBER error = path->tolerance * (extent(f) + extent(path->origin));
@@ -274,9 +277,7 @@ typedef struct {
 static Surface sphere_surface(const Path *path, const Stop *stop)
 {
     const SphereData *sphere = &path->view->flat->spheres[stop->place];
-    const Vector center = {(NUMBER)sphere->center[0] + sphere->center_low[0],
-                           (NUMBER)sphere->center[1] + sphere->center_low[1],
-                           (NUMBER)sphere->center[2] + sphere->center_low[2]};
+    const Vector center = center_of(sphere);
     Surface surface = {.point = stepped(path->origin, stop->t, path->direction),
                        .id = stop->id,
                        .material = sphere->material,

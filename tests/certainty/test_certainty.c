@@ -8,16 +8,16 @@
 #include "certainty/extreme_scenes.h"
 #include "certainty/real.h"
 #include "extremes/support/check.h"
-#include "image/inline_scenes.h"
+#include "image/course.h"
+#include "image/unusual_scenes.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
-#include <unistd.h>
 
-static Office office;
+static const Studio *studio;
 
 typedef struct {
     uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
@@ -69,9 +69,9 @@ static bool real_compare(Comparison *comparison, const Certified *certified, uin
                          Error *error)
 {
     RealTree tree;
-    const bool ok = real_tree_make(&tree, &certified->flat, error);
+    const bool ok = real_tree_make(&tree, &certified->stage.flat, error);
     Comparing comparing = {.certified = certified,
-                           .view = {&certified->flat, &tree, &certified->camera,
+                           .view = {&certified->stage.flat, &tree, &certified->camera,
                                     certified->settings.width, certified->settings.height,
                                     certified->settings.max_level},
                            .step = step};
@@ -110,9 +110,9 @@ static bool is_alike(const Certified *certified, const CertaintyMark *mark, cons
     if (seen->primitive != mark->first_id)
         return false;
     if (seen->primitive == NOTHING ||
-        certified->flat.materials[seen->material].shader == SHADER_SILHOUETTE)
+        certified->stage.flat.materials[seen->material].shader == SHADER_SILHOUETTE)
         return true;
-    const long lights = lroundf(seen->share * (float)certified->flat.light_count);
+    const long lights = lroundf(seen->share * (float)certified->stage.flat.light_count);
     return lights == __builtin_popcount(mark->lit);
 }
 
@@ -136,15 +136,13 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
                        uint32_t floor)
 {
     Error error = {0};
-    FREED_BY(certified_free) Certified certified;
     Comparison comparison = {0};
     const uint32_t part = (uint32_t)tier_size(2, 1); // of the picture's sides
     const CertifiedView wanted = {
         .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};
     const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 8 : 4, 1);
-    require(certified_make(&certified, &office, scene, &wanted, &error) &&
-                real_compare(&comparison, &certified, step, &error),
-            &error);
+    FREED_BY(certified_free) Certified certified = certified_make(studio, scene, &wanted);
+    require(real_compare(&comparison, &certified, step, &error), &error);
     const uint64_t *counts = certified.map.counts;
     const uint64_t pixels = counts[0] + counts[1] + counts[2];
     const uint64_t wrong = comparison.first + comparison.deeper + comparison.unsettled;
@@ -206,10 +204,8 @@ TEST(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic)
 TEST(certain_pixels_of_meshes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
-        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
+    if (!models_are_made())
         return;
-    }
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/creature.scn", 950);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/figure.scn", 850);
     if (tier() > 0)
@@ -231,11 +227,8 @@ TEST(certain_pixels_at_the_extremes_are_decided_as_by_real_arithmetic)
 TEST(certain_pixels_of_unusual_scenes_are_decided_as_by_real_arithmetic)
 {
     Sum sum = {0};
-    for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        char path[INLINE_PATH_SIZE];
-        inline_scenes_path((InlineScene)scene, path);
-        check_file(&sum, path, 0);
-    }
+    for (size_t scene = 0; scene < UNUSUAL_COUNT; scene++)
+        check_file(&sum, unusual_scenes[scene], 0);
     judge(&sum);
 }
 
@@ -248,17 +241,14 @@ TEST(coincident_triangles_are_certified)
     judge(&sum);
 }
 
-SET_UP(open_office)
+static int keep_studio(void **state)
 {
-    Error error = {0};
-    if (office_open(&office, &error))
-        return 0;
-    print_message("%s\n", error.text);
-    return -1;
+    studio = *state;
+    return 0;
 }
 
-TEAR_DOWN(close_office)
+FIXTURES(picture_setup, picture_teardown)
+AT_START(studio)
 {
-    office_close(&office);
-    return 0;
+    test_set_up(keep_studio);
 }

@@ -5,7 +5,6 @@ import struct
 import zlib
 
 TYPES = {0: ("uint", "I"), 2: ("float", "f")}
-ROWS = {0: 1, 2: 1, 3: 16}  # of a chunk, by compression
 
 
 def read_pfm(path):
@@ -77,7 +76,7 @@ def read_text(data, place):
 
 def read_header(data):
     """Returns the attributes' bytes by name, and where the header ends."""
-    assert struct.unpack_from("<II", data) == (20000630, 2), "single part, scanlines"
+    assert struct.unpack_from("<II", data) == (20000630, 0x202), "single part, tiles"
     attributes, place = {}, 8
     while data[place] != 0:
         name, place = read_text(data, place)
@@ -110,22 +109,40 @@ def unpack_chunk(packed, size):
     return bytes(plain)
 
 
+def read_exr_tiles(data):
+    """Yields the column, row and packed bytes of each tile that the file contains."""
+    attributes, place = read_header(data)
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = struct.unpack_from("<2I", attributes["tiles"])
+    for number in range(((right - left) // width + 1) * ((bottom - top) // height + 1)):
+        (start,) = struct.unpack_from("<Q", data, place + 8 * number)
+        if start > 0:
+            column, row, *level, size = struct.unpack_from("<5I", data, start)
+            assert level == [0, 0]
+            yield column, row, data[start + 20 : start + 20 + size]
+
+
 def read_exr(path, row=None):
+    """Returns the types and values of the channels, of one row if it is given. Missing tiles are 0."""
     with open(path, "rb") as file:
         data = file.read()
-    attributes, place = read_header(data)
+    attributes, _ = read_header(data)
     channels = list(read_channels(attributes["channels"]))
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
-    width, rows = right - left + 1, ROWS[attributes["compression"][0]]
-    values = {name: [] for name, _ in channels}
-    chunks = range((bottom - top + rows) // rows) if row is None else [row // rows]
-    for chunk in chunks:
-        (start,) = struct.unpack_from("<Q", data, place + 8 * chunk)
-        first, size = struct.unpack_from("<iI", data, start)
-        count = min(rows, bottom - first + 1)
-        line = 4 * width * len(channels)
-        plain = unpack_chunk(data[start + 8 : start + 8 + size], count * line)
-        for i in range(count * len(channels)):
+    width, height = right - left + 1, bottom - top + 1
+    tile_width, tile_height = struct.unpack_from("<2I", attributes["tiles"])
+    assert attributes["compression"] == b"\3", "ZIP"
+    first, end = (0, height) if row is None else (row // tile_height * tile_height, row + 1)
+    values = {name: [0] * (width * (end - first)) for name, _ in channels}
+    for column, line, packed in read_exr_tiles(data):
+        x, y = column * tile_width, line * tile_height
+        if y < first or y >= end:
+            continue
+        across, down = min(tile_width, width - x), min(tile_height, height - y)
+        plain = unpack_chunk(packed, 4 * across * down * len(channels))
+        for i in range(min(down, end - y) * len(channels)):
             name, kind = channels[i % len(channels)]
-            values[name] += struct.unpack_from(f"<{width}{TYPES[kind][1]}", plain, 4 * width * i)
+            start = (y - first + i // len(channels)) * width + x
+            values[name][start : start + across] = struct.unpack_from(
+                f"<{across}{TYPES[kind][1]}", plain, 4 * across * i)
     return {name: TYPES[kind][0] for name, kind in channels}, values

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: MIT
 # Whatever happens to the kernel cache, clrt draws the picture, or ends with status 4 and one message
 # and draws it the next time.
-# Usage: test_cache.py CLRT [TEST...]
+# Usage: test_cache.py CLRT SHARED_DISK [TEST...]; SHARED_DISK is the library of tests/cli/shared_disk.c
+import os
 import random
 import shutil
+import socket
+import sys
 import unittest
 
 from cache_work import PICTURE, CacheWork
@@ -105,6 +108,21 @@ class Places(CacheWork):
             self.assertEqual(list(self.work.glob("clrt-*")), [])
 
 
+    def test_hosts_that_share_a_disk_have_folders_of_their_own(self):
+        shared = {"LD_PRELOAD": os.path.abspath(sys.argv[2]),
+                  "ASAN_OPTIONS": "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")}
+        hosts, home = self.work / "hosts", self.work / "home"
+        for folder, more in ((hosts, {"XDG_CACHE_HOME": str(hosts)}),
+                             (home / ".cache", {"XDG_CACHE_HOME": None, "HOME": str(home)})):
+            self.assertEqual(self.draw(**more, **shared), self.expected)
+            self.assertEqual([path.name for path in folder.iterdir()], ["clrt-hosts"])
+            self.assertTrue((folder / "clrt-hosts" / socket.gethostname() / "clrt/lock").exists())
+            self.assertTrue(list(folder.rglob("*.so")))
+        chosen = self.work / "chosen"
+        self.assertEqual(self.draw(POCL_CACHE_DIR=str(chosen), **shared), self.expected)
+        self.assertTrue((chosen / "clrt/lock").exists())
+
+
 @unittest.skipUnless(has_private_disks(), "only root can mount disks")
 class Disks(CacheWork):
     MOUNT = 'mount -t tmpfs -o size=700k clrt-test "$1" && cp -r "$2"/. "$1" && \
@@ -130,4 +148,4 @@ class Disks(CacheWork):
 
 
 if __name__ == "__main__":
-    main(1)
+    main(2)

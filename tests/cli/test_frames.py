@@ -131,6 +131,43 @@ class Frames(Work):
         below = read_exr(self.work / last)[1]["R"][done * 20 * 400 :]
         self.assertTrue(done == 15 or set(below) == {0}, "what is not drawn is black")
 
+    def test_resuming_skips_the_pictures_that_exist(self):
+        for more in [], ["--aa-adaptive"], ["--aa", "--crop", "3,2,30,20"]:
+            words = [*SMALL, *more, "--turntable", "4", "--frames", "1-3", "-o", "a.png"]
+            self.clrt(*words)
+            names = self.names(".png")
+            whole = [self.bytes_of(name) for name in names]
+            (self.work / names[1]).unlink()
+            self.write(**{"a.0003_png": "kept"})
+            self.clrt(*words, "--resume")
+            self.assertEqual([self.bytes_of(name) for name in names], [*whole[:2], b"kept"])
+
+    def test_a_stopped_series_that_resumes_holds_whole_pictures(self):
+        words = [SCENE, "-s", "100x75", "--aa=16", "--tile", "100x5", "-j", "1", "--turntable", "6", "-o", "a.pfm"]
+        whole = self.clrt(*words, "--hash")
+        for path in self.work.glob("a.*"):
+            path.unlink()
+        process = self.start(*words, "-q", "--resume")
+        self.wait_for((self.work / "a.0002.pfm").exists)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=200), 128 + signal.SIGTERM)
+        self.assertRegex(process.stderr.read(), r"^clrt: stopped: (a.000\d.pfm is not written|\d of 6 pictures are drawn)\n$")
+        drawn = {name: (self.work / name).stat().st_mtime_ns for name in self.names(".pfm")}
+        self.assertLess(len(drawn), 6)
+        self.clrt(*words, "--resume")
+        for name, moment in drawn.items():
+            self.assertEqual((self.work / name).stat().st_mtime_ns, moment)
+        rest = self.names(".pfm")
+        self.assertEqual(len(rest), 6)
+        resumed = [self.bytes_of(name) for name in rest]
+        self.assertEqual(self.clrt(*words, "--hash"), whole)
+        self.assertEqual(resumed, [self.bytes_of(name) for name in rest])
+
+    @needs_exr
+    def test_a_film_cannot_resume(self):
+        self.refuses(2, "--frames and --turntable draw many pictures, and --resume wants a file for each: give "
+                     "another format", *SMALL, "--turntable", "3", "-o", "a.gif", "--resume")
+
     def test_what_is_of_one_picture_is_refused(self):
         many = "--frames and --turntable draw many pictures, and "
         for words, sentence in (
@@ -138,16 +175,16 @@ class Frames(Work):
             (["-o", "a.pfm", "--stats=a.json"], many + "--stats=FILE is of one"),
             (["-o", "a.pfm", "--reference=b.pfm"], many + "--reference=FILE is of one"),
             (["-o", "a.pfm", "--expect-hash", 32 * "0"], many + "--expect-hash is of one"),
-            (["-o", "a.pfm", "--resume"],
-             many + "--resume is of one: name those that are missing by --frames"),
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
         ):
             self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)
         self.refuses(3, f"{SCENE} has 6 viewpoints, so there is no view 7", *SMALL, "--frames", "5-7", "-o", "a.pfm")
 
     def test_what_is_no_range_is_refused(self):
-        for value in "3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-":
-            self.refuses(2, f"--frames wants A-B or A-B:S, from 1 to 1000000, not '{value}'",
+        for value in ("3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-", "0/2", "3/2", "1/0", "1/", "/2",
+                      "auto", "auto/", "auto/0", "1-2,", ",1/2", "1-2,3", "1/2,1-2", "1-2,1/2,1/2", "1-2,autos/2"):
+            self.refuses(2, "--frames wants A-B or A-B:S, from 1 to 1000000, or I/N, auto/N, A-B,I/N or A-B,auto/N, "
+                         f"not '{value}'",
                          *SMALL, "-o", "a.pfm", f"--frames={value}")
 
 

@@ -123,6 +123,10 @@ class Formats(Work):
         self.picture("a.obj", says="clrt: a.obj: 2 lines and points are left out\n")
         self.assertIn("2 lines and points", self.run_clrt("check", "a.obj").stderr)
 
+    def test_colors_per_vertex_are_left_out_and_told(self):
+        self.write(a_obj=b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0 1 0 0 1\nf 1 2 3\n")
+        self.picture("a.obj", says="clrt: a.obj: its colors per vertex are left out\n")
+
     def test_ply_file_stays_for_ply(self):
         self.write(a_obj=COLORED, a_scn="ply_file a.obj\n")
         self.fails("a.obj:1: the file does not begin with 'ply'", "a.scn")

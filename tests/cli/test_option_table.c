@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that the table of options is consistent, and that --help and the parser match it.
 #include "cli/commands.h"
-#include "cli/options/table.h"
+#include "cli/options/option.h"
 #include "unit/cmocka_all.h"
 
 #include <ctype.h>

@@ -3,11 +3,18 @@
 # Parts of a picture, drawn apart and merged, are the whole one, to the byte; what does not fit
 # together is refused.
 # Usage: test_parts.py CLRT
-from pictures import read_exr, read_header
+import os
+
+from pictures import read_exr, read_exr_tiles, read_header
 from work import ROOT, SCENE, SharedWork, main
 
 SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
 CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
+
+
+def part_of(column, row, parts):
+    """The golden ratio shifts the tiles of each row, so no part gets the tiles of a column."""
+    return (column - (row * 2654435769 % 2**32 * parts >> 32)) % parts
 
 
 class Parts(SharedWork):
@@ -34,9 +41,42 @@ class Parts(SharedWork):
         self.expect_whole(self.draw("only", of=1))
         self.expect_whole(self.thirds[::-1])
 
+    def test_compressed_tiles_are_copied(self):
+        """Parts with tiles of a whole file's size are not decoded, others are."""
+        for more in ([], ["--aov", "depth,primitive,boxtests", "--aa"], ["--crop", "30,20,290,190"],
+                     ["--no-metadata"]):
+            words, of = [SCENE, "-s", "300x200"], 3
+            names = self.draw("copied", *words, *(more if "--no-metadata" not in more else []), of=of)
+            self.clrt(*words, *more, "-o", "whole.exr")
+            self.clrt("merge", *names, "-o", "merged.exr", *(more if "--no-metadata" in more else []))
+            self.assert_same_bytes("merged.exr", "whole.exr", more)
+            self.assertEqual(sum(len(list(read_exr_tiles(self.bytes_of(name)))) for name in names),
+                             len(list(read_exr_tiles(self.bytes_of("whole.exr")))))
+        self.clrt(*words, "-o", "whole.exr", SOURCE_DATE_EPOCH="86399")
+        self.clrt("merge", *self.draw("copied", *words), "-o", "merged.exr", SOURCE_DATE_EPOCH="86399")
+        self.assert_same_bytes("merged.exr", "whole.exr")
+
+    def test_a_part_costs_its_own_size(self):
+        """A part of 1/64 takes less than an eighth of the whole picture's memory and file."""
+        words = [SCENE, "-s", "2048x2048", "-q"]
+        self.clrt(*words, "-o", "whole.exr")
+        whole = self.peak_memory(*words, "-o", "whole.exr") - self.peak_memory(*words, "-s", "64x64", "-o", "a.exr")
+        part = (self.peak_memory(*words, "--part", "1/64", "-o", "part.exr")
+                - self.peak_memory(*words, "-s", "64x64", "-o", "a.exr"))
+        self.assertLess(part, whole / 8)
+        sizes = [(self.work / name).stat().st_size for name in ("part.exr", "whole.exr")]
+        self.assertLess(sizes[0], sizes[1] / 8)
+
     def test_more_parts_than_tiles_do_too(self):
         words = [SCENE, "-s", "20x9", "--tile", "16x8"]
         self.expect_whole(self.draw("many", *words, of=5), *words)
+
+    def test_tasks_of_an_array_draw_their_parts(self):
+        for variable, first in ("SLURM_ARRAY_TASK_ID", 1), ("JOB_COMPLETION_INDEX", 0):
+            for part in range(3):
+                self.clrt(*SMALL, "--part", "auto/3", "-o", "auto.exr",
+                          **{"SLURM_ARRAY_TASK_ID": None, variable: str(part + first)})
+                self.assert_same_bytes("auto.exr", self.thirds[part])
 
     def test_with_channels_crops_samples_and_fp64(self):
         for more in ([*CHANNELS, "--aa"], ["--crop", "5,3,50,40", "--precision", "fp64"], ["--aov", "certainty"]):
@@ -61,13 +101,22 @@ class Parts(SharedWork):
         for part, name in enumerate(self.thirds):
             channels = read_exr(self.work / name)[1]
             for pixel in range(61 * 43):
-                tile = pixel // 61 // 8 * 4 + pixel % 61 // 16
-                expected = whole["R"][pixel] if tile % 3 == part else 0
+                expected = whole["R"][pixel] if part_of(pixel % 61 // 16, pixel // 61 // 8, 3) == part else 0
                 self.assertEqual(channels["R"][pixel], expected, (part, pixel))
             found = self.statistics(*SMALL, "--part", f"{part + 1}/3", "-o", "a.exr")
             self.expect(found, samples__per_pixel=1)
             rays += found["rays"]["camera"]
         self.assertEqual(rays, 61 * 43)
+
+    def test_too_few_tiles_for_the_parts_are_noted(self):
+        for words, advised in ((["-s", "1024x1024", "--part", "1/3"], 2), (["-s", "64x64", "--part", "2/2"], 1),
+                               (["-s", "1024x1024", "--part", "1/2"], 0), (["-s", "64x64", "--part", "1/1"], 0),
+                               (["-s", "64x64", "--part", "2/2", "-q"], 0)):
+            tiles = 256 if "1024x1024" in words else 1
+            note = (f"clrt: a part of fewer than 128 tiles may take much longer than the others: {tiles} "
+                    f"tiles suffice for N={advised}\n")
+            done = self.run_clrt(SCENE, *words, "-o", "few.exr")
+            self.assertEqual((done.returncode, done.stderr), (0, note if advised else ""), words)
 
     def test_the_whole_is_written_in_any_format(self):
         names = self.draw("srgb", *SMALL, "--encode", "srgb", of=2)
@@ -87,9 +136,19 @@ class Parts(SharedWork):
         self.clrt("merge", *self.thirds, "-o", "a.exr", "--no-metadata")
         self.assertFalse([n for n in read_header(self.bytes_of("a.exr"))[0] if n.startswith("clrt:")])
 
-    def refuses_parts(self, sentence, *words):
-        self.refuses(3, sentence, "merge", *words, "-o", "m.exr")
-        self.assertFalse((self.work / "m.exr").exists())
+    def refuses_parts(self, sentence, *words, name="m.exr"):
+        done = self.run_clrt("merge", *words, "-o", name)
+        self.assertEqual((done.returncode, done.stderr[: len(sentence) + 6]), (3, f"clrt: {sentence}"), done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse((self.work / name).exists())
+
+    def peak_memory(self, *words):
+        """Returns the peak resident memory of a run and of the processes that it waits for, in KiB."""
+        process = self.start(*words)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0)
+        return usage.ru_maxrss
 
     def test_mixed_parts_are_refused_in_one_sentence(self):
         scene = (ROOT / "scenes/reflections.scn").read_text()
@@ -108,6 +167,8 @@ class Parts(SharedWork):
     def test_missing_and_doubled_parts_are_refused(self):
         one, _, three = self.thirds
         self.refuses_parts("part 2 of 3 is missing", one, three)
+        self.refuses_parts("parts 1,3 of 3 are missing: no.exr: cannot be read: No such file or directory",
+                           "no.exr", self.thirds[1])
         self.refuses_parts(f"{one}: is part 1 of 3, which {one} is already", one, one)
 
     def test_what_is_no_part_is_refused(self):
@@ -115,7 +176,27 @@ class Parts(SharedWork):
         self.write(text_exr="no picture")
         self.refuses_parts("small.exr: is no part of a picture that --part drew", "small.exr")
         self.refuses_parts("bare.exr: is no part of a picture that --part drew", "bare.exr")
-        self.refuses_parts("text.exr: cannot be read: it is no PNG, JPEG, TIFF, PPM, EXR, HDR or PFM", "text.exr")
+        self.refuses_parts("text.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "text.exr")
+
+    def test_damaged_parts_are_refused_with_their_number(self):
+        names = self.draw("damaged", SCENE, "-s", "300x200", of=2)
+        honest = self.bytes_of(names[1])
+        table = read_header(honest)[1]
+        tiles = [place for place in range(table, table + 8 * 20, 8) if honest[place : place + 8] != bytes(8)]
+        last = max(int.from_bytes(honest[place : place + 8], "little") for place in tiles)
+        for bad in (honest[:-1], honest[: last + 10], honest[: tiles[0]] + bytes(8) + honest[tiles[0] + 8 :],
+                    honest[: tiles[0]] + b"\xff" * 8 + honest[tiles[0] + 8 :],
+                    honest[: last + 16] + b"\xff\xff\xff\x7f" + honest[last + 20 :]):
+            self.write(bad_exr=bad)
+            for name in "m.exr", "m.pfm":
+                done = self.run_clrt("merge", names[0], "bad.exr", "-o", name)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertRegex(done.stderr, "clrt: bad.exr: part 2 of 2 cannot be used: it is damaged at pixel")
+        self.write(bad_exr=honest[: last + 30] + b"\xff" * 4 + honest[last + 34 :])
+        self.refuses_parts("bad.exr: part 2 of 2 cannot be used: it is damaged at pixel", names[0], "bad.exr", name="m.pfm")
+        for end in range(0, table, 7):
+            self.write(bad_exr=honest[:end])
+            self.refuses_parts("bad.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "bad.exr")
 
     def test_texts_that_lie_are_no_part(self):
         honest = self.bytes_of(self.thirds[0])
@@ -132,8 +213,8 @@ class Parts(SharedWork):
                      "merge", *names, "-o", "m.png")
 
     def test_what_no_part_can_have_is_refused(self):
-        for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537":
-            self.refuses(2, f"--part wants I/N, I from 1 to N and N up to 65536, not '{value}'",
+        for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537", "auto", "auto/0", "auto/65537", "auto3":
+            self.refuses(2, f"--part wants I/N or auto/N, I from 1 to N and N up to 65536, not '{value}'",
                          *SMALL, "-o", "a.exr", "--part", value)
         for words, sentence in (
             (["-o", "a.png"], "--part needs an EXR file (-o FILE.exr), which clrt merge reads"),

@@ -3,6 +3,8 @@
 # Pictures that were killed or stopped and go on: the same file in the end, whenever it was, and
 # never a half one under the final name.
 # Usage: [CLRT_KILLS=N] test_resume.py CLRT FORMATS [TEST...]
+import ctypes
+import fcntl
 import json
 import os
 import random
@@ -10,6 +12,7 @@ import shutil
 import signal
 import sys
 import time
+from pathlib import Path
 
 from pictures import read_exr, read_header
 from work import HAS_EXR, SCENE, Work, main, needs_exr
@@ -143,6 +146,49 @@ class Kills(Resume):
             self.assert_same_bytes(name, f"whole-{name}")
 
 
+class LostLocks(Resume):
+    def lose_lock(self, process):
+        """Unlocks the journal of a process, as a file server does with a host that is cut off."""
+        handle = os.pidfd_open(process.pid)
+        for link in Path(f"/proc/{process.pid}/fd").iterdir():
+            if os.path.realpath(link) == str(self.journal.resolve()):
+                copy = ctypes.CDLL(None).syscall(438, handle, int(link.name), 0)  # pidfd_getfd
+                if copy < 0:
+                    self.skipTest("pidfd_getfd is not permitted")
+                fcntl.flock(copy, fcntl.LOCK_UN)
+                os.close(copy)
+        os.close(handle)
+
+    def tiles(self):
+        return self.journal.stat().st_size // (24 + TILE * TILE * 12)
+
+    def test_a_host_that_comes_back_cannot_damage_its_successors_file(self):
+        whole = self.whole(*LONG)
+        for ends in False, True:
+            lost = self.start(*LONG, "-o", NAME, "--resume", "-q")
+            self.wait_for(lambda: self.journal.exists() and self.tiles() > 30)
+            lost.send_signal(signal.SIGSTOP)
+            self.lose_lock(lost)
+            before = self.tiles()
+            successor = self.start(*LONG, "-o", NAME, "--resume", "-q")
+            self.wait_for(lambda: self.tiles() > before + 10)
+            successor.kill()
+            successor.wait()
+            journal = self.journal.read_bytes()
+            lost.send_signal(signal.SIGCONT)
+            if ends:
+                self.assertEqual(lost.wait(), 0)
+                self.assertTrue(self.bytes_of(NAME) == whole)
+            else:
+                time.sleep(0.5)
+                lost.kill()
+                lost.wait()
+            self.assertTrue(self.journal.read_bytes() == journal)
+            self.assertGreater(self.resumed_tiles(*LONG), before)
+            self.assertTrue(self.bytes_of(NAME) == whole)
+            (self.work / NAME).unlink()
+
+
 class Stops(Resume):
     @needs_exr
     def test_the_first_signal_writes_whole_tiles_marked_incomplete(self):
@@ -228,7 +274,8 @@ class Refusals(Resume):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
         process.send_signal(signal.SIGSTOP)  # or it might be done before the other begins
-        self.refuses(3, f"{NAME}.part: another process draws this picture", *LONG, "-o", NAME, "--resume")
+        sentence = f"{NAME}.part: another process draws this picture: try again later"
+        self.refuses(75, sentence, *LONG, "-o", NAME, "--resume")
 
     def test_a_journal_that_cannot_grow_is_exit_5(self):
         limit = ["bash", "-c", "trap '' XFSZ; ulimit -f 1200; exec \"$@\"", "bash"]

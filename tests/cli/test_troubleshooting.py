@@ -6,29 +6,13 @@ import re
 import sys
 import unittest
 
+from models import ply
 from work import NO_OPENCL, ROOT, SCENE, Work, main
 
 PAGE = (ROOT / "docs/troubleshooting.md").read_text()
 HAS_WINDOW = sys.argv[2] == "1"
 SMALL = ["-s", "16x12", "-o", "a.pfm"]
-INSIDE_OUT = """ply
-format ascii 1.0
-element vertex 4
-property float x
-property float y
-property float z
-element face 4
-property list uchar int vertex_indices
-end_header
-0 0 0
-1 0 0
-0 1 0
-0 0 1
-3 0 1 2
-3 0 3 1
-3 0 2 3
-3 1 3 2
-"""
+INSIDE_OUT = ply([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])
 
 
 class Messages(Work):

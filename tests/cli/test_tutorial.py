@@ -60,6 +60,9 @@ class Tutorial(SharedWork):
         self.clrt(SHOWCASE, "--aa", "-s", "320x180", "-o", "showcase.png", "-q")
         self.clrt("compare", "showcase.png", "studio/step9.png", "--fail", "max=0")
 
+    def test_the_readme_shows_the_showcase(self):
+        self.clrt("compare", "studio/showcase.png", ROOT / "scenes/showcase.png", "--fail", "max=0")
+
 
 if __name__ == "__main__":
     main(1)

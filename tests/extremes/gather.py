@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Runs the extremes with ctest and writes a table of all cases.
 
-Usage: tests/extremes/gather.py BUILD_FOLDER [-o FILE] [--tiers 2,1,0] [--from TIER:LOG]...
-The table goes to FILE, or to extremes.md in the build folder. With --from, the script runs no tests
-but reads the verbose output of earlier runs. It uses tier 0 only for tests without another tier.
-Exits with ctest's status: 0 if every test passed.
+Usage: tests/extremes/gather.py BUILD_FOLDER [-o FILE] [--tiers 2,1,0]
+The table goes to FILE, or to extremes.md in the build folder. Tier 0 counts only for tests without
+another tier. Exits with ctest's status: 0 if every test passed.
 """
 import argparse
 import datetime
@@ -55,7 +54,6 @@ class Results:
 
     def __init__(self):
         self.cases = {}
-        self.skipped = {}
 
     def read(self, tier, output):
         known = {test for test, _ in self.cases} if tier == 0 else set()
@@ -64,15 +62,12 @@ class Results:
             if not match or match[1] in known:
                 continue
             test, form, rest = match.groups()
-            if rest.startswith("skipped: "):
-                self.skipped[test] = rest[len("skipped: "):].split(" rays=")[0]
-            else:
-                self.add(test, form, rest.split(" "))
+            self.add(test, form, rest.split(" "))
 
     def add(self, test, form, words):
         figures = {m[1]: int(m[2]) for m in map(FIELD.match, words) if m}
         measured = ("ulp=", "rmse=", "error=", "times=", "leaks=", "hits=", "blocked=", "depth=",
-                    "largest_leaf=", "met=", "refused=", "megabytes=", "seeds=")
+                    "largest_leaf=", "met=", "refused=", "seeds=")
         details = [w for w in words if not FIELD.match(w)]
         key = " ".join(w for w in details if not any(m in w for m in measured))
         case = self.cases.setdefault((test, key), {"forms": {}, "notes": {}})
@@ -104,7 +99,7 @@ def verdict(cases):
 def summary_row(results, test, title):
     cases = results.of_test(test)
     if not cases:
-        return f"| {test} | {title} | {results.skipped.get(test, 'not run')} ||||||||"
+        return f"| {test} | {title} | not run ||||||||"
     rays = max((summed(cases, form, "rays") or 0) for form in FORMS)
     cells = [verdict(cases), cell(len(cases)), cell(rays)]
     cells += [cell(summed(cases, form, "fail")) for form in FORMS]
@@ -158,15 +153,9 @@ def main():
     parser.add_argument("build")
     parser.add_argument("-o", dest="output")
     parser.add_argument("--tiers", default="2,1,0")
-    parser.add_argument("--from", dest="logs", action="append", default=[])
     options = parser.parse_args()
     results, status = Results(), 0
-    for source in sorted(options.logs, reverse=True):
-        tier, log = source.split(":", 1)
-        with open(log, encoding="utf-8", errors="replace") as file:
-            results.read(int(tier), file.read())
-    tiers = [] if options.logs else sorted(map(int, options.tiers.split(",")), reverse=True)
-    for tier in tiers:
+    for tier in sorted(map(int, options.tiers.split(",")), reverse=True):
         output, code = run_tier(options.build, tier)
         results.read(tier, output)
         status = status or code

@@ -2,9 +2,8 @@
 // libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
 // must fulfill mesh/mesh.h, also with computed normals. A failure must return a message and no
 // mesh. The tolerant reader's mesh must fulfill it too, and must be valid input for clrt check.
-#include "check/closedness.h"
-#include "check/features.h"
-#include "mesh/normals.h"
+#include "check/census.h"
+#include "mesh/mesh.h"
 #include "mesh/ply.h"
 
 #include <math.h>

@@ -22,3 +22,11 @@ bool course_has(const char *path)
                   path);
     return false;
 }
+
+bool models_are_made(void)
+{
+    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) == 0)
+        return true;
+    print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
+    return false;
+}

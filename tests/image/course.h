@@ -12,3 +12,6 @@ void course_path(char path[COURSE_PATH_SIZE], const char *name);
 
 // Returns whether the file exists. If not, prints that the test skips it.
 bool course_has(const char *path);
+
+// Returns whether scenes/models was made (CLRT_WITH_MODELS). If not, prints that the test skips it.
+bool models_are_made(void);

@@ -2,7 +2,7 @@
 // Runs the stages one after another. A stage that fails leaves an empty value.
 #include "image/picture.h"
 
-#include "accel/compile.h"
+#include "accel/flat.h"
 #include "image/form.h"
 #include "render/aov_pass.h"
 #include "scene/camera.h"

@@ -4,7 +4,7 @@
 
 #include "explain/explainer.h"
 #include "refine/adaptive.h"
-#include "refine/goal.h"
+#include "refine/ladder.h"
 #include "render/aov.h"
 
 // A callback that receives a picture and an explainer for its pixels.

@@ -54,9 +54,8 @@ void rendered_expect_same(const PictureRequest *expected, const PictureRequest *
     FREED_BY(framebuffer_free) Framebuffer first = rendered(expected);
     const size_t size = (size_t)first.width * first.height * sizeof *first.pixels;
     for (size_t i = 0; i < count; i++) {
-        Framebuffer other = rendered(&others[i]);
+        FREED_BY(framebuffer_free) Framebuffer other = rendered(&others[i]);
         assert_memory_equal(first.pixels, other.pixels, size);
-        framebuffer_free(&other);
     }
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Tests the channels besides the colors. Compares them with the oracle and with the picture's
 // counters. They must be equal in every form of the kernels and for all tile sizes.
+#include "image/course.h"
 #include "image/form.h"
-#include "image/inline_scenes.h"
 #include "image/rendered.h"
 #include "oracle/oracle.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <string.h>
-#include <unistd.h>
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
 
@@ -130,18 +129,14 @@ TEST(channels_of_small_scenes_are_what_the_oracle_sees)
 
 TEST(channels_of_a_mesh_are_what_the_oracle_sees)
 {
-    if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
-        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
+    if (!models_are_made())
         return;
-    }
     check(SOURCE_SCENE("scenes/creature.scn"), 8);
 }
 
 TEST(channels_are_in_the_coordinates_of_a_scene_far_away)
 {
-    char path[INLINE_PATH_SIZE];
-    inline_scenes_path(INLINE_FAR_AWAY, path);
-    check(path, 2);
+    check(SOURCE_SCENE("tests/image/far_away.scn"), 2);
 }
 
 static bool layers_equal(const Layers *a, const Layers *b)

@@ -5,6 +5,7 @@
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,12 +22,6 @@ static const int orders[ORDERS][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
 static bool is_reversed(int order)
 {
     return order >= 3;
-}
-
-static double random_between(uint32_t *state, double low, double high)
-{
-    *state = *state * 1664525 + 1013904223;
-    return low + (high - low) * (*state >> 8) / 0x1p24;
 }
 
 static void set_triangle(uint32_t triangle[3], const uint32_t corners[3], int order)
@@ -46,7 +41,8 @@ static void write_pairs(char path[TEMPORARY_PATH], bool second)
 {
     static const double corners[3][2] = {{-0.4, -0.4}, {0.4, -0.35}, {-0.1, 0.4}};
     double positions[3 * PAIRS][3];
-    uint32_t triangles[PAIRS][3], state = 4;
+    uint32_t triangles[PAIRS][3];
+    uint64_t state = 4;
     for (int cell = 0; cell < PAIRS; cell++) {
         const uint32_t first = 3 * (uint32_t)cell;
         for (int corner = 0; corner < 3; corner++) {
@@ -205,23 +201,22 @@ TEST(a_copy_of_a_mesh_changes_no_bit_of_its_picture)
     for (size_t form = 0; form < FORMS; form++)
         for (int two_sided = 0; two_sided < 2; two_sided++) {
             const char *sides = two_sided == 1 ? "two" : "one";
+            FREED_BY(framebuffer_free)
             Framebuffer alone = draw_sheet(0, -1, sides, &form_all[form]);
             for (int order = 0; order < (two_sided == 1 ? ORDERS : 3); order++) {
                 Framebuffer doubled = draw_sheet(0, order, sides, &form_all[form]);
                 assert_same(&alone, &doubled);
             }
-            framebuffer_free(&alone);
         }
 }
 
 TEST(turning_the_corners_of_all_triangles_changes_no_bit)
 {
     for (size_t form = 0; form < FORMS; form++) {
-        Framebuffer usual = draw_sheet(0, -1, "one", &form_all[form]);
+        FREED_BY(framebuffer_free) Framebuffer usual = draw_sheet(0, -1, "one", &form_all[form]);
         for (int order = 1; order < 3; order++) {
             Framebuffer turned = draw_sheet(order, -1, "one", &form_all[form]);
             assert_same(&usual, &turned);
         }
-        framebuffer_free(&usual);
     }
 }

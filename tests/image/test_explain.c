@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Tests the explanations of pixels. They must match the picture and be consistent in themselves.
 // Their error bounds must hold for the oracle's results on the same stored numbers.
+#include "image/course.h"
 #include "image/form.h"
-#include "image/inline_scenes.h"
 #include "image/rendered.h"
 #include "oracle/stored.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <string.h>
-#include <unistd.h>
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
-
-static uint32_t random_below(uint32_t *state, uint32_t bound)
-{
-    *state = *state * 1664525 + 1013904223;
-    return (*state >> 8) % bound;
-}
 
 static void trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
                   ExplainedSample *sample)
@@ -80,7 +74,7 @@ static void check_sample(const Explainer *explainer, const ExplainedSample *samp
 
 static void check_pixels(Explainer *explainer, const Framebuffer *picture, void *context)
 {
-    uint32_t state = 1;
+    uint64_t state = 1;
     const uint32_t side = explainer->frame.samples;
     (void)context;
     for (int i = 0; i < PIXELS; i++) {
@@ -109,27 +103,21 @@ static void check_scene(const char *path, uint32_t samples)
 
 TEST(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form)
 {
-    char path[INLINE_PATH_SIZE];
     check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
-    inline_scenes_path(INLINE_MIRRORS, path);
-    check_scene(path, 1);
+    check_scene(SOURCE_SCENE("tests/image/mirrors.scn"), 1);
 }
 
 TEST(the_same_of_several_samples)
 {
-    char path[INLINE_PATH_SIZE];
     check_scene(SOURCE_SCENE("scenes/reflections.scn"), 3);
-    inline_scenes_path(INLINE_FAR_AWAY, path);
-    check_scene(path, 2);
+    check_scene(SOURCE_SCENE("tests/image/far_away.scn"), 2);
 }
 
 TEST(the_same_of_a_large_mesh)
 {
-    if (access(SOURCE_SCENE("scenes/models/creature.ply"), R_OK) != 0) {
-        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
+    if (!models_are_made())
         return;
-    }
     check_scene(SOURCE_SCENE("scenes/creature.scn"), 2);
 }
 
@@ -195,11 +183,8 @@ static void check_bounds_of(const char *path, const KernelChoice *choice)
 
 TEST(distances_are_off_by_less_than_is_told)
 {
-    char path[INLINE_PATH_SIZE];
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[0]);
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[2]);
-    inline_scenes_path(INLINE_FAR_AWAY, path);
-    check_bounds_of(path, &form_all[1]);
-    inline_scenes_path(INLINE_MIRRORS, path);
-    check_bounds_of(path, &form_all[0]);
+    check_bounds_of(SOURCE_SCENE("tests/image/far_away.scn"), &form_all[1]);
+    check_bounds_of(SOURCE_SCENE("tests/image/mirrors.scn"), &form_all[0]);
 }

@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Compares the renderer with the fp64 oracle, in all views of the course's, the project's and some
-// inline scenes. A few pixels may differ, if the oracle finds an edge within a pixel of each. Every
-// STEP-th pixel of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
+// Compares the renderer with the fp64 oracle, in all views of the course's and some unusual scenes.
+// A few pixels may differ, if the oracle finds an edge within a pixel of each. Every STEP-th pixel
+// of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
-#include "image/inline_scenes.h"
 #include "image/picture.h"
+#include "image/unusual_scenes.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 // The number of pixels of a 512 x 512 picture that may differ.
 #define LIMIT 30
 
 // All pixels would take minutes.
-#define STEP              2
-#define COURSE_MESH_STEP  4
-#define PROJECT_MESH_STEP 8
+#define STEP             2
+#define COURSE_MESH_STEP 4
 
 static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, uint32_t step)
 {
@@ -76,32 +74,9 @@ TEST(the_courses_scenes_are_drawn_as_the_oracle_does)
     check_course("buddha.scn", COURSE_MESH_STEP);
 }
 
-TEST(the_projects_small_scenes_are_drawn_as_the_oracle_does)
-{
-    check(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/matte.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/simple.scn", STEP);
-    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
-}
-
-TEST(the_projects_meshes_are_drawn_as_the_oracle_does)
-{
-    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) != 0) {
-        print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
-        return;
-    }
-    check(CLRT_SOURCE_FOLDER "/scenes/creature.scn", PROJECT_MESH_STEP);
-    check(CLRT_SOURCE_FOLDER "/scenes/figure.scn", PROJECT_MESH_STEP);
-}
-
-// Open two-sided meshes, facets and mirrors, a huge sphere far away, and distant lights.
 TEST(unusual_scenes_are_drawn_as_the_oracle_does)
 {
-    char path[INLINE_PATH_SIZE];
-    for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        inline_scenes_path((InlineScene)scene, path);
-        check(path, STEP);
-    }
+    for (size_t scene = 0; scene < UNUSUAL_COUNT; scene++)
+        check(unusual_scenes[scene], STEP);
+    check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
 }

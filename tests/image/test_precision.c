@@ -3,21 +3,18 @@
 // methods. Compares fp32 pictures with fp64 pictures, which differ by rounding.
 #include "image/course.h"
 #include "image/form.h"
-#include "image/inline_scenes.h"
 #include "image/rendered.h"
+#include "image/unusual_scenes.h"
 #include "oracle/stored.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 // The largest difference of two colors rounded to float, plus a rounding to steps of 2^-32.
 #define ROUNDED 0x1.01p-23f
 
-#define FP32 (&form_all[0])
 #define FP64 (&form_all[FORMS_FP32])
 
 // Pictures have a part of the scene's width and height. Every step-th pixel of every step-th row
@@ -102,14 +99,6 @@ static void check_oracle(const char *path, Share share)
     assert_int_equal(differing, 0);
 }
 
-static bool has_models(void)
-{
-    if (access(CLRT_SOURCE_FOLDER "/scenes/models/creature.ply", R_OK) == 0)
-        return true;
-    print_message("skipped: scenes/models was not made (CLRT_WITH_MODELS)\n");
-    return false;
-}
-
 TEST(every_pixel_of_small_scenes_is_the_oracles)
 {
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", small);
@@ -122,7 +111,7 @@ TEST(every_pixel_of_small_scenes_is_the_oracles)
 
 TEST(every_compared_pixel_of_meshes_is_the_oracles)
 {
-    if (!has_models())
+    if (!models_are_made())
         return;
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/creature.scn", meshes);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/figure.scn", meshes);
@@ -141,49 +130,42 @@ TEST(every_compared_pixel_of_the_courses_scenes_is_the_oracles)
 
 TEST(every_pixel_of_unusual_scenes_is_the_oracles)
 {
-    char path[INLINE_PATH_SIZE];
-    for (int scene = 0; scene < INLINE_COUNT; scene++) {
-        inline_scenes_path((InlineScene)scene, path);
-        check_oracle(path, unusual);
-    }
+    for (size_t scene = 0; scene < UNUSUAL_COUNT; scene++)
+        check_oracle(unusual_scenes[scene], unusual);
 }
 
 // share is the number of pixels in 100,000 of all views that may differ in fp32 by more than an
-// 8-bit step.
-static void check_fp32(const char *name, uint64_t share)
-{
-    char path[256];
-    uint64_t differing = 0, pixels = 0;
-    snprintf(path, sizeof path, CLRT_SOURCE_FOLDER "/scenes/%s.scn", name);
-    FREED_BY(scene_free) Scene scene = loaded(path);
-    for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
-        const PictureRequest request = request_of(path, &scene, view, 2);
-        const PictureRequest one = rendered_in_form(request, FP32),
-                             other = rendered_in_form(request, FP64);
-        FREED_BY(framebuffer_free) Framebuffer first = rendered(&one), second = rendered(&other);
-        differing += count_differing(&first, &second, 1, 1.0f / 255);
-        pixels += (uint64_t)first.width * first.height;
-    }
-    print_message("%s: fp32 differs in %llu of %llu pixels\n", name, (unsigned long long)differing,
-                  (unsigned long long)pixels);
-    assert_true(differing * 100000 <= share * pixels);
-}
-
+// 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase has many.
 TEST(fp32_differs_in_few_pixels)
 {
-    check_fp32("silhouette", 0);
-    check_fp32("matte", 0);
-    check_fp32("blinn_phong", 0);
-    check_fp32("reflections", 1);
-    check_fp32("simple", 1);
-}
-
-// Mirrors that face each other amplify every rounding. Only the showcase has many such mirrors.
-TEST(fp32_differs_in_few_pixels_of_meshes)
-{
-    if (!has_models())
-        return;
-    check_fp32("creature", 2);
-    check_fp32("figure", 5);
-    check_fp32("showcase", 100);
+    static const struct {
+        const char *path;
+        uint64_t share;
+        bool needs_models;
+    } cases[] = {{CLRT_SOURCE_FOLDER "/scenes/silhouette.scn", 0, false},
+                 {CLRT_SOURCE_FOLDER "/scenes/matte.scn", 0, false},
+                 {CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn", 0, false},
+                 {CLRT_SOURCE_FOLDER "/scenes/reflections.scn", 1, false},
+                 {CLRT_SOURCE_FOLDER "/scenes/simple.scn", 1, false},
+                 {CLRT_SOURCE_FOLDER "/scenes/creature.scn", 2, true},
+                 {CLRT_SOURCE_FOLDER "/scenes/figure.scn", 5, true},
+                 {CLRT_SOURCE_FOLDER "/scenes/showcase.scn", 100, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint64_t differing = 0, pixels = 0;
+        if (cases[i].needs_models && !models_are_made())
+            continue;
+        FREED_BY(scene_free) Scene scene = loaded(cases[i].path);
+        for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
+            const PictureRequest request = request_of(cases[i].path, &scene, view, 2);
+            const PictureRequest one = rendered_in_form(request, &form_all[0]),
+                                 other = rendered_in_form(request, FP64);
+            FREED_BY(framebuffer_free)
+            Framebuffer first = rendered(&one), second = rendered(&other);
+            differing += count_differing(&first, &second, 1, 1.0f / 255);
+            pixels += (uint64_t)first.width * first.height;
+        }
+        print_message("%s: fp32 differs in %llu of %llu pixels\n", cases[i].path,
+                      (unsigned long long)differing, (unsigned long long)pixels);
+        assert_true(differing * 100000 <= cases[i].share * pixels);
+    }
 }

@@ -6,14 +6,15 @@
 
 #include <stdio.h>
 
-bool probe_open(Probe *probe, const KernelChoice *choice, Error *error)
+static bool probe_open(Probe *probe, Precision precision, Error *error)
 {
     File file = {0};
     *probe = (Probe){0};
     const SceneTraits traits = traits_general(false);
     bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
               device_open(&probe->device, NULL, error);
-    const ProgramSource source = {.appended = file.bytes, .choice = *choice};
+    const ProgramSource source = {.appended = file.bytes,
+                                  .choice = {FAMILY_RAY, NODES_PAIR, 0, precision}};
     ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
     file_free(&file);
     return ok;
@@ -22,8 +23,7 @@ bool probe_open(Probe *probe, const KernelChoice *choice, Error *error)
 int probe_begin(Probe *probe, Precision precision)
 {
     Error error = {0};
-    const KernelChoice choice = {FAMILY_RAY, NODES_PAIR, 0, precision};
-    if (probe_open(probe, &choice, &error))
+    if (probe_open(probe, precision, &error))
         return 0;
     fprintf(stderr, "%s\n", error.text);
     return 1;

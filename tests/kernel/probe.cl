@@ -39,12 +39,10 @@ kernel void probe_highlights(global const float *cases, global float *results)
     global const float *values = cases + 8 * item;
     MaterialLanes material;
     material.shininess = values[6];
-    material.exponent = (UInt)(as_uint(values[7]));
-    const Real result = highlight(&material, load3(values), load3(values + 3));
-    results[item] = *(const float *)&result;
+    material.exponent = as_uint(values[7]);
+    results[item] = highlight(&material, load3(values), load3(values + 3));
 }
 
-#if CLRT_LANES == 1
 // values holds pairs {base, exponent}. results receives the power computed by each kind of
 // highlight.
 kernel void probe_powers(global const Scalar *values, global Scalar *results)
@@ -71,36 +69,3 @@ kernel void probe_units(global const float *vectors, global float *results)
     const Real3 unit = unit_vector(load3(vectors + 3 * item));
     vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }
-#else
-// bits holds CLRT_LANES bits for each item. results receives two words: the mask of these lanes as
-// bits, and the number of true lanes.
-kernel void probe_lanes(global const uint *bits, global uint *results)
-{
-    const uint item = get_global_id(0);
-    const Mask lanes = lanes_of(bits[item]);
-    results[2 * item] = lane_bits(lanes);
-    results[2 * item + 1] = lane_count(lanes);
-}
-
-// Writes 1 for each true lane, 0 for the others.
-kernel void probe_truths(global const uint *bits, global uint *results)
-{
-    const uint item = get_global_id(0);
-    const Mask lanes = lanes_of(bits[item]);
-    const UInt words = lanes ? (UInt)(1) : (UInt)(0);
-    for (uint lane = 0; lane < CLRT_LANES; lane++)
-        results[item * CLRT_LANES + lane] = ((const uint *)&words)[lane];
-}
-
-// places holds CLRT_LANES indices into words for each item.
-kernel void probe_gather(global const uint *words, global const uint *places, global uint *results)
-{
-    const uint item = get_global_id(0);
-    UInt place;
-    for (uint lane = 0; lane < CLRT_LANES; lane++)
-        ((uint *)&place)[lane] = places[item * CLRT_LANES + lane];
-    const UInt gathered = gather(words, place);
-    for (uint lane = 0; lane < CLRT_LANES; lane++)
-        results[item * CLRT_LANES + lane] = ((const uint *)&gathered)[lane];
-}
-#endif

@@ -15,12 +15,10 @@ typedef struct {
     size_t size;
 } ProbeInput;
 
-bool probe_open(Probe *probe, const KernelChoice *choice, Error *error);
-void probe_close(Probe *probe);
-
 // The setup of a group of tests: opens the probe for one ray per work-item. Returns 0, or prints
 // the error and returns 1.
 int probe_begin(Probe *probe, Precision precision);
+void probe_close(Probe *probe);
 
 // Runs kernel with `items` work-items and up to two inputs; unused inputs have size 0. Reads
 // output.size bytes of the kernel's last argument.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Compares device functions with host arithmetic of twice the precision.
+#include "base/vec.h"
 #include "kernel/probe.h"
+#include "scene/scene.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 
-static Probe probe;
+static Probe probe, probe_fp64;
 
 TEST(host_and_device_agree_on_the_layout)
 {
@@ -76,167 +79,196 @@ TEST(unit_vectors_survive_every_magnitude)
     }
 }
 
+#define CASES 4096
+
 typedef struct {
-    SphereData sphere;
-    float ray[6];
-    double exact; // INFINITY for a miss
-    bool clear;   // the ray is no tangent within rounding
-} SphereCase;
+    float normal[3], half_vector[3];
+    float shininess;
+    uint32_t exponent; // as in Material
+} Highlight;
 
-static double random_unit(uint64_t *random)
+static Vec3 random_direction(uint64_t *random)
 {
-    *random = *random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*random >> 11) * 0x1p-52 - 1;
+    const double x = 2 * random_unit(random) - 1, y = 2 * random_unit(random) - 1;
+    return vec3_normalize(vec3(x, y, 2 * random_unit(random) - 1));
 }
 
-static long double exact_distance(const long double f[3], const float d[3], long double radius,
-                                  bool *clear)
+static void store_vector(float values[3], Vec3 vector)
 {
-    long double dd = 0, b = 0, ff = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        dd += (long double)d[axis] * d[axis];
-        b -= f[axis] * (long double)d[axis];
-        ff += f[axis] * f[axis];
-    }
-    const long double c = (sqrtl(ff) - radius) * (sqrtl(ff) + radius);
-    const long double discriminant = b * b - dd * c;
-    *clear = fabsl(discriminant) > 1e-6L * dd * radius * radius;
-    if (discriminant < 0)
-        return INFINITY;
-    const long double q = b + copysignl(sqrtl(discriminant), b);
-    const long double one = c / q, other = q / dd;
-    const long double near = fminl(one, other), far = fmaxl(one, other);
-    return near > 0 ? near : far > 0 ? far : (long double)INFINITY;
+    values[0] = (float)vector.x;
+    values[1] = (float)vector.y;
+    values[2] = (float)vector.z;
 }
 
-// Returns a sphere of that radius at that distance, and a ray aimed within 1.2 radii of its center.
-static SphereCase sphere_case(double radius, double distance, uint64_t *random)
+// The half vector is the normal, or beside it, across it, or at any angle.
+static Highlight highlight_case(int number, double shininess, uint64_t *random)
 {
-    SphereCase made = {0};
-    long double f[3];
-    double aim[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const double center = axis == 0 ? distance : random_unit(random);
-        made.sphere.center[axis] = (float)center;
-        made.sphere.center_low[axis] = (float)(center - (double)made.sphere.center[axis]);
-        made.ray[axis] = (float)(0.1 * random_unit(random));
-        aim[axis] = center + (axis == 0 ? 0 : 0.85 * radius * random_unit(random));
-        made.ray[3 + axis] = (float)((aim[axis] - (double)made.ray[axis]) / distance);
-        f[axis] = (long double)made.ray[axis] - (long double)made.sphere.center[axis] -
-                  (long double)made.sphere.center_low[axis];
-    }
-    made.sphere.radius = (float)radius;
-    made.sphere.radius_low = (float)(radius - (double)made.sphere.radius);
-    const long double whole = (long double)made.sphere.radius + made.sphere.radius_low;
-    made.exact = (double)exact_distance(f, made.ray + 3, whole, &made.clear);
+    Material material = {0};
+    material_set_shininess(&material, (float)shininess);
+    Highlight made = {.shininess = material.shininess, .exponent = material.exponent};
+    const Vec3 normal = random_direction(random);
+    const Vec3 aside = vec3_normalize(vec3_cross(normal, random_direction(random)));
+    const double angles[4] = {0, scalbn(1, -(int)random_below(random, 24)), 0.5 * acos(-1),
+                              random_unit(random) * acos(-1)};
+    const double angle = angles[number % 4];
+    const Vec3 half = vec3_add(vec3_scale(normal, cos(angle)), vec3_scale(aside, sin(angle)));
+    store_vector(made.normal, normal);
+    store_vector(made.half_vector, number % 4 == 0 ? normal : vec3_normalize(half));
     return made;
 }
 
-#define CASES 20000
+// Returns (n . h + more)^shininess for the directions of the float vectors.
+static double exact_highlight(const Highlight *made, double more)
+{
+    long double nn = 0, hh = 0, nh = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        nn += (long double)made->normal[axis] * made->normal[axis];
+        hh += (long double)made->half_vector[axis] * made->half_vector[axis];
+        nh += (long double)made->normal[axis] * made->half_vector[axis];
+    }
+    const long double cosine = fminl(nh / sqrtl(nn * hh) + more, 1);
+    if (made->shininess == 0)
+        return 1;
+    return cosine > 0 ? (double)powl(cosine, made->shininess) : 0;
+}
 
-// Spheres of radius 1 in two floats give correct hits up to a distance of 1e4, and distances within
-// 3e-7. With single floats, a quarter of these rays is wrong at 1e4.
-TEST(far_spheres_are_hit_and_missed_as_exactly)
+// Returns the error of the result. Below shininess 1, powers of small cosines are steep, so the
+// cosine may be off by the rounding of a dot product.
+static double error_of(const Highlight *made, double result)
+{
+    const double slack = made->shininess < 1 ? 0x1p-22 : 0;
+    const double low = exact_highlight(made, -slack), high = exact_highlight(made, slack);
+    return result < low ? low - result : result > high ? result - high : result - result;
+}
+
+TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
+{
+    static Highlight cases[CASES];
+    static float results[CASES];
+    static const double values[] = {0, 1e-3, 1, 50, 1e3, 1e6, 1e9};
+    for (size_t value = 0; value < sizeof values / sizeof *values; value++) {
+        uint64_t random = 53;
+        for (int i = 0; i < CASES; i++)
+            cases[i] = highlight_case(i, values[value], &random);
+        const ProbeInput inputs[2] = {{cases, sizeof cases}, {0}};
+        assert_true(probe_run(&probe, "probe_highlights", inputs, CASES,
+                              (ProbeInput){results, sizeof results}));
+        // Above a million, highlights are single points of light in any picture.
+        const double limit = values[value] <= 1e6 ? 1e-3 : 1;
+        for (int i = 0; i < CASES; i++) {
+            assert_true(error_of(&cases[i], (double)results[i]) <= limit);
+            assert_true(results[i] >= 0 && results[i] <= 1);
+        }
+    }
+}
+
+// In fp64, distant and huge spheres and narrow highlights must be correct to the last bits of
+// double, so float arithmetic would be detected. The exact values are closed forms in long double.
+// Four units of double's rounding.
+#define ROUNDINGS 0x1p-51
+
+typedef struct {
+    SphereData sphere;
+    float ray[6];
+    long double exact; // the distance of the hit
+} SphereCase;
+
+static void store_center(SphereData *sphere, int axis, double center)
+{
+    sphere->center[axis] = (float)center;
+    sphere->center_low[axis] = (float)(center - (double)sphere->center[axis]);
+}
+
+static double largest_error(const SphereCase *cases)
 {
     static SphereData spheres[CASES];
-    static float rays[CASES][6], distances[CASES];
+    static float rays[CASES][6];
+    static double distances[CASES];
+    double largest = 0;
+    for (int i = 0; i < CASES; i++) {
+        spheres[i] = cases[i].sphere;
+        for (int k = 0; k < 6; k++)
+            rays[i][k] = cases[i].ray[k];
+    }
+    const ProbeInput inputs[2] = {{spheres, sizeof spheres}, {rays, sizeof rays}};
+    assert_true(probe_run(&probe_fp64, "probe_spheres", inputs, CASES,
+                          (ProbeInput){distances, sizeof distances}));
+    for (int i = 0; i < CASES; i++)
+        largest = fmax(largest, fabs((double)(distances[i] / cases[i].exact - 1)));
+    return largest;
+}
+
+// Returns a unit sphere at (3, 4, 0) * distance + (-4, 3, 0) * aside. All numbers are exact, and
+// the closed form has no cancellation.
+static SphereCase far_case(double distance, double aside)
+{
+    SphereCase made = {.sphere.radius = 1, .ray = {0, 0, 0, 3, 4, 0}};
+    store_center(&made.sphere, 0, 3 * distance - 4 * aside);
+    store_center(&made.sphere, 1, 4 * distance + 3 * aside);
+    made.exact = distance - sqrtl(1 - 25 * (long double)aside * aside) / 5;
+    return made;
+}
+
+TEST(far_spheres_are_met_where_they_are_in_fp64)
+{
     static SphereCase cases[CASES];
-    uint64_t random = 7;
-    for (double distance = 10; distance <= 1e4; distance *= 10) {
-        for (int i = 0; i < CASES; i++) {
-            cases[i] = sphere_case(1, distance, &random);
-            spheres[i] = cases[i].sphere;
-            for (int k = 0; k < 6; k++)
-                rays[i][k] = cases[i].ray[k];
-        }
-        const ProbeInput inputs[2] = {{spheres, sizeof spheres}, {rays, sizeof rays}};
-        assert_true(probe_run(&probe, "probe_spheres", inputs, CASES,
-                              (ProbeInput){distances, sizeof distances}));
-        int hits = 0;
-        for (int i = 0; i < CASES; i++) {
-            if (!cases[i].clear)
-                continue;
-            assert_int_equal(isinf(distances[i]), isinf(cases[i].exact));
-            if (isinf(cases[i].exact))
-                continue;
-            hits++;
-            assert_true(fabs((double)distances[i] / cases[i].exact - 1) < 3e-7);
-        }
-        assert_in_range(hits, CASES / 4, CASES);
+    for (double distance = 0x1p2; distance <= 0x1p22; distance *= 4) {
+        for (int i = 0; i < CASES; i++)
+            cases[i] = far_case(distance, (i - CASES / 2) * 0x1.98p-14);
+        assert_true(largest_error(cases) <= ROUNDINGS);
     }
 }
 
-#define MASKS 65536
-#define WORDS 4096
-
-static Probe open_lanes(uint32_t lanes)
+// Returns a sphere that touches the origin from below, and a sloped ray from above that hits it.
+static SphereCase ground_case(double radius, float height, float across)
 {
-    Probe opened;
-    Error error = {0};
-    const KernelChoice choice = {FAMILY_PACKET, NODES_WIDE, lanes, PRECISION_FP32};
-    if (!probe_open(&opened, &choice, &error))
-        fail_msg("%s", error.text);
-    return opened;
+    SphereCase made = {.sphere.radius = (float)radius, .ray = {0, 0, height, across, 0, -1}};
+    store_center(&made.sphere, 2, -radius);
+    const long double h = (long double)height, dd = (long double)across * across + 1;
+    const long double b = h + radius, c = h * (h + 2 * radius);
+    made.exact = c / (b + sqrtl(b * b - dd * c));
+    return made;
 }
 
-// Checks all possible masks.
-static void check_masks(const Probe *lanes_probe, uint32_t lanes)
+TEST(ground_spheres_of_any_size_are_met_where_they_are_in_fp64)
 {
-    static uint32_t bits[MASKS], results[MASKS][2], truths[MASKS * 16];
-    const uint32_t count = 1u << lanes;
-    for (uint32_t mask = 0; mask < count; mask++)
-        bits[mask] = mask;
-    const ProbeInput inputs[2] = {{bits, count * sizeof *bits}, {0}};
-    assert_true(probe_run(lanes_probe, "probe_lanes", inputs, count,
-                          (ProbeInput){results, count * sizeof *results}));
-    assert_true(probe_run(lanes_probe, "probe_truths", inputs, count,
-                          (ProbeInput){truths, count * lanes * sizeof *truths}));
-    for (uint32_t mask = 0; mask < count; mask++) {
-        uint32_t set = 0;
-        for (uint32_t lane = 0; lane < lanes; lane++) {
-            assert_int_equal(truths[mask * lanes + lane], mask >> lane & 1);
-            set += mask >> lane & 1;
-        }
-        assert_int_equal(results[mask][0], mask);
-        assert_int_equal(results[mask][1], set);
+    static SphereCase cases[CASES];
+    for (double radius = 1e3; radius <= 1e9; radius *= 10) {
+        for (int i = 0; i < CASES; i++)
+            cases[i] = ground_case(radius, 0.25f + (float)(i % 64), (float)(i / 64) * 0.25f);
+        assert_true(largest_error(cases) <= ROUNDINGS);
     }
 }
 
-TEST(every_mask_becomes_lanes_and_bits_again)
+// Rounding the argument x changes exp(-x) by x exp(-x) times the rounding. With squaring, each unit
+// of the exponent costs a rounding.
+TEST(powers_are_right_in_fp64)
 {
-    for (uint32_t lanes = 4; lanes <= 16; lanes *= 2) {
-        Probe lanes_probe = open_lanes(lanes);
-        check_masks(&lanes_probe, lanes);
-        probe_close(&lanes_probe);
+    static double values[CASES][2], results[CASES][2];
+    static const double exponents[] = {1, 3.5, 50, 1000, 1e4, 1e5, 1e6, 1e7};
+    for (int i = 0; i < CASES; i++) {
+        values[i][1] = exponents[i % 8];
+        values[i][0] = exp(-(i / 8) * 0.05 / values[i][1]);
+    }
+    const ProbeInput inputs[2] = {{values, sizeof values}, {0}};
+    assert_true(probe_run(&probe_fp64, "probe_powers", inputs, CASES,
+                          (ProbeInput){results, sizeof results}));
+    for (int i = 0; i < CASES; i++) {
+        const long double exact = expl(values[i][1] * log1pl(values[i][0] - 1));
+        assert_true(fabs((double)(results[i][1] - exact)) <= ROUNDINGS);
+        if (values[i][1] <= 1024 && values[i][1] == floor(values[i][1]))
+            assert_true(fabs((double)(results[i][0] - exact)) <= (values[i][1] + 1) * 0x1p-53);
     }
 }
 
-TEST(every_lane_gathers_its_own_word)
+SET_UP(open_probes)
 {
-    static uint32_t words[WORDS], places[WORDS], results[WORDS];
-    uint64_t random = 11;
-    for (uint32_t i = 0; i < WORDS; i++) {
-        words[i] = i * 2654435761u;
-        places[i] = (uint32_t)(fabs(random_unit(&random)) * (WORDS - 1));
-    }
-    for (uint32_t lanes = 4; lanes <= 16; lanes *= 2) {
-        Probe lanes_probe = open_lanes(lanes);
-        const ProbeInput inputs[2] = {{words, sizeof words}, {places, sizeof places}};
-        assert_true(probe_run(&lanes_probe, "probe_gather", inputs, WORDS / lanes,
-                              (ProbeInput){results, sizeof results}));
-        for (uint32_t i = 0; i < WORDS; i++)
-            assert_int_equal(results[i], words[places[i]]);
-        probe_close(&lanes_probe);
-    }
+    return probe_begin(&probe, PRECISION_FP32) + probe_begin(&probe_fp64, PRECISION_FP64);
 }
 
-SET_UP(open_probe)
-{
-    return probe_begin(&probe, PRECISION_FP32);
-}
-
-TEAR_DOWN(close_probe)
+TEAR_DOWN(close_probes)
 {
     probe_close(&probe);
+    probe_close(&probe_fp64);
     return 0;
 }

@@ -121,6 +121,14 @@ class Installed(unittest.TestCase):
         environment["POCL_CACHE_DIR"] = str(self.work / "cache")
         self.assertEqual(run(program, env=environment), self.expected)
 
+    def test_the_lock_lies_in_the_folder_with_the_kernels(self):
+        program, cache, home = (self.work / name for name in ("chosen", "chosen-cache", "chosen-home"))
+        self.build_by_pkg_config(program)
+        environment = {**self.environment, "POCL_CACHE_DIR": str(cache), "XDG_CACHE_HOME": str(home)}
+        self.assertEqual(run(program, env=environment), self.expected)
+        self.assertTrue((cache / "clrt/library/lock").exists())
+        self.assertFalse((home / "clrt").exists())
+
     def test_damaged_kernels_are_compiled_again(self):
         program, cache = self.work / "damaged", self.work / "damaged-cache"
         self.build_by_pkg_config(program)

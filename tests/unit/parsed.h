@@ -5,6 +5,7 @@
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static inline bool parse(Scene *scene, const char *text, Error *error)
@@ -20,4 +21,16 @@ static inline Scene parsed(const char *text)
     if (!parse(&scene, text, &error))
         fail_msg("%s\n%s", error.text, text);
     return scene;
+}
+
+// The same for a text that format and its arguments make.
+__attribute__((format(printf, 1, 2))) static inline Scene parsed_format(const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    assert_in_range(length, 0, sizeof text - 1);
+    return parsed(text);
 }

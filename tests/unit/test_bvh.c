@@ -72,10 +72,10 @@ TEST(every_triangle_is_in_one_leaf_inside_nested_boxes)
     static const size_t counts[] = {1, 2, 3, 5, 9, 1000, 50000};
     for (int set = 0; set < SET_KINDS; set++)
         for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+            FREED_BY(triangles_free)
             Triangles triangles = triangle_set((TriangleSet)set, counts[i]);
             for (size_t how = 0; how < SETTINGS; how++)
                 check_tree(&triangles, &settings[how]);
-            triangles_free(&triangles);
         }
 }
 
@@ -93,20 +93,17 @@ static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
 TEST(any_number_of_threads_builds_the_same_tree)
 {
     for (int set = 0; set < SET_KINDS; set++) {
-        Triangles triangles = triangle_set((TriangleSet)set, 60000);
+        FREED_BY(triangles_free) Triangles triangles = triangle_set((TriangleSet)set, 60000);
         for (size_t how = 0; how < SETTINGS; how++) {
-            Bvh one = built(&triangles, &settings[how], 1);
+            FREED_BY(bvh_free) Bvh one = built(&triangles, &settings[how], 1);
             for (uint32_t threads = 1; threads <= 3; threads++) {
-                Bvh other = built(&triangles, &settings[how], threads);
+                FREED_BY(bvh_free) Bvh other = built(&triangles, &settings[how], threads);
                 assert_int_equal(one.node_count, other.node_count);
                 assert_int_equal(one.upper_count, other.upper_count);
                 expect_same(&one, &other, 0);
                 assert_memory_equal(one.order, other.order, triangles.count * sizeof *one.order);
-                bvh_free(&other);
             }
-            bvh_free(&one);
         }
-        triangles_free(&triangles);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests that each cause is found from its channels, with one pixel per cause.
-#include "compare/causes.h"
+#include "compare/difference.h"
 
 #include "unit/cmocka_all.h"
 

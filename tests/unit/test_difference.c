@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares differences of small pictures with values computed by hand, and tests the limits.
 #include "compare/difference.h"
-#include "compare/limits.h"
 
 #include "unit/cmocka_all.h"
 
@@ -41,14 +40,6 @@ static Difference measured(const float (*a)[4], const float (*b)[4])
     StoredImage images[2] = {image_of(a), image_of(b)};
     assert_true(measure(&difference, images, &error));
     return difference;
-}
-
-TEST(equal_pictures_differ_by_nothing)
-{
-    const Difference difference = measured(plain, plain);
-    assert_true(difference.rmse == 0 && difference.maximum == 0);
-    assert_int_equal(difference.off_by_1 + difference.off_by_4 + difference.wrong_hits, 0);
-    assert_true(isinf(difference_psnr(&difference)) && difference_psnr(&difference) > 0);
 }
 
 TEST(all_three_colors_of_all_pixels_count_alike)

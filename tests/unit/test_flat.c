@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tests the arrays that the device reads, and the kernel features that a scene needs.
 #include "accel/flat.h"
-#include "accel/traits.h"
 #include "unit/parsed.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 // A flattened scene and its sources.
@@ -153,82 +151,6 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
 // Every scene here has one sphere, so a triangle's id is its number plus 1.
 #define NUMBER_OF(id) (((id) & ~TRIANGLE_MARKS) - 1)
 
-static void check_block(const Flattened *all, uint32_t number, const Box *box, unsigned *seen)
-{
-    assert_true(number < all->flat.block_count);
-    const TriangleBlock *block = &all->flat.blocks[number];
-    for (int i = 0; i < WIDE; i++)
-        for (int corner = 0; corner < 3; corner++)
-            for (int axis = 0; axis < 3; axis++) {
-                const float at = block->corners[corner][axis][i];
-                if (block->id[i] == NOTHING) {
-                    assert_true(at == 0);
-                    continue;
-                }
-                const uint32_t triangle = NUMBER_OF(block->id[i]);
-                const CornerOrder *order = triangles_order(&all->triangles, triangle);
-                const int place = order->places[corner];
-                assert_true(at == triangles_corner(&all->triangles, triangle, place)[axis]);
-                assert_true(((block->id[i] & TRIANGLE_REVERSED) != 0) == order->reversed);
-                assert_true(box->low[axis] < at && at < box->high[axis]);
-                seen[triangle]++;
-            }
-}
-
-static Box child_box(const BvhWide *wide, uint32_t child)
-{
-    Box box;
-    for (int axis = 0; axis < 3; axis++) {
-        box.low[axis] = wide->planes[axis][0][child];
-        box.high[axis] = wide->planes[axis][1][child];
-    }
-    return box;
-}
-
-static void check_wide(const Flattened *all, uint32_t number, const Box *outer, unsigned *seen)
-{
-    assert_true(number < all->flat.node_count);
-    const BvhWide *wide = &all->flat.wides[number];
-    assert_in_range(wide->child_count, 1, WIDE);
-    for (uint32_t child = 0; child < WIDE; child++) {
-        const Box box = child_box(wide, child);
-        if (child >= wide->child_count) {
-            assert_true(box.low[0] > box.high[0]);
-            continue;
-        }
-        for (int axis = 0; axis < 3; axis++)
-            assert_true(outer->low[axis] <= box.low[axis] && box.high[axis] <= outer->high[axis]);
-        if (wide->child[child] & WIDE_LEAF) {
-            check_block(all, wide->child[child] & ~WIDE_LEAF, &box, seen);
-        } else {
-            assert_true(wide->child[child] > number);
-            check_wide(all, wide->child[child], &box, seen);
-        }
-    }
-}
-
-static void check_all_wide(const Flattened *all)
-{
-    const Box everything = {{-2, -2, -2}, {2, 2, 2}};
-    unsigned *seen = calloc(all->triangles.count, sizeof *seen);
-    assert_non_null(seen);
-    check_wide(all, 0, &everything, seen);
-    for (size_t i = 0; i < all->triangles.count; i++)
-        assert_int_equal(seen[i], 9);
-    free(seen);
-}
-
-TEST(the_wide_tree_holds_every_triangle_once_inside_nested_boxes)
-{
-    static const char *const scenes[] = {"sphere 0 0 0 1\nply_file cube.ply\nply_file cone.ply",
-                                         "sphere 0 0 0 1\nply_file tetrahedron.ply"};
-    for (int i = 0; i < 2; i++) {
-        Flattened all = flattened_as(scenes[i], true, NODES_WIDE);
-        check_all_wide(&all);
-        release(&all);
-    }
-}
-
 TEST(a_leaf_too_large_for_a_block_becomes_several)
 {
     FREED_BY(release)
@@ -243,7 +165,6 @@ TEST(a_leaf_too_large_for_a_block_becomes_several)
     flat_free(&all.flat);
     assert_true(flat_make(&all.flat, &source, &error));
     assert_int_equal(all.flat.block_count, (all.triangles.count + 7) / 8);
-    check_all_wide(&all);
 }
 
 TEST(without_a_tree_blocks_hold_the_triangles_in_file_order)

@@ -2,6 +2,7 @@
 // Tests the parser of clrt-foreign's output with every record, and with hostile streams.
 #include "mesh/foreign_stream.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -245,14 +246,13 @@ static void demand_sound(const Mesh *mesh)
 TEST(a_changed_stream_gives_a_sound_model_or_a_sentence)
 {
     const Builder whole = whole_stream();
-    uint32_t random = 1;
+    uint64_t random = 1;
     size_t survivors = 0;
     for (int run = 0; run < 20000; run++) {
         Builder changed = whole;
-        for (int i = 0; i <= run % 3; i++) {
-            random = random * 1664525 + 1013904223;
-            changed.bytes[(random >> 8) % whole.size] = (char)(random >> 24);
-        }
+        for (int i = 0; i <= run % 3; i++)
+            changed.bytes[random_below(&random, (uint32_t)whole.size)] =
+                (char)random_below(&random, 256);
         ForeignModel model;
         Error error;
         if (!parse(&model, changed.bytes, changed.size, &error))

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Tests the normalized coordinate frame of scenes, how many levels of rays a scene needs, and the
 // axes of camera rays.
+#include "accel/triangles.h"
 #include "scene/camera.h"
 #include "scene/normalize.h"
 #include "unit/parsed.h"
+#include "unit/random.h"
+
+#include <stdlib.h>
 
 TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
 {
@@ -21,6 +25,37 @@ TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
     assert_true(high - low >= 0.5 && high - low < 2);
     int exponent;
     assert_true(frexp(frame.scale, &exponent) == 0.5);
+}
+
+#define PLACES 300
+
+// Coordinates of maps have a million and nine decimals.
+TEST(places_of_many_digits_are_kept_to_the_last_bit)
+{
+    double positions[PLACES][3];
+    uint32_t corners[PLACES / 3][3];
+    uint64_t random = 63;
+    Error error = {0};
+    Scene scene = {0};
+    for (uint32_t i = 0; i < 3 * PLACES; i++) {
+        positions[i / 3][i % 3] = 1000000 + i % 3 * 5000 + random_unit(&random);
+        corners[i / 9][i / 3 % 3] = i / 3;
+    }
+    const MeshObject object = {.mesh = {.positions = positions,
+                                        .triangles = corners,
+                                        .vertex_count = PLACES,
+                                        .triangle_count = PLACES / 3}};
+    assert_true(array_push(&scene.objects, object, &error));
+    const Normalization frame = normalization_of(&scene);
+    const long double center[3] = {frame.center.x, frame.center.y, frame.center.z};
+    FREED_BY(triangles_free) Triangles triangles = {0};
+    assert_true(triangles_make(&triangles, &scene, &frame, NULL, &error));
+    for (int i = 0; i < 3 * PLACES; i++) {
+        const long double place = (positions[i / 3][i % 3] - center[i % 3]) * frame.scale;
+        const long double rounding = scalbnl(1, ilogbl(place) - 24) + 0x1p-52L * fabsl(place);
+        assert_true(fabsl(triangles.points[i / 3][i % 3] - place) <= rounding);
+    }
+    free(scene.objects.memory);
 }
 
 TEST(spheres_frame_a_scene_only_without_triangles)
@@ -80,11 +115,10 @@ TEST(the_level_is_the_first_within_the_bound)
 
 TEST(without_mirrors_one_level_is_exact)
 {
-    Scene scene = scene_of((const float[]){0}, 1), empty = {0};
+    FREED_BY(scene_free) Scene scene = scene_of((const float[]){0}, 1), empty = {0};
     assert_int_equal(truncation_level(&scene, 1e-30), 1);
     assert_int_equal(truncation_level(&empty, 1e-30), 1);
     assert_true(truncation_bound(&scene, 1) == 0);
-    scene_free(&scene);
 }
 
 TEST(perfect_mirrors_take_all_levels)

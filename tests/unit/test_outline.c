@@ -7,24 +7,19 @@
 #define TRIALS 3000
 #define GRID   12
 
-static double random_number(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * random_unit(state);
-}
-
 static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};
 
 // Returns a random triangle. Some triangles extend beyond the grid, and some are slivers.
 static Outline random_triangle(uint64_t *state)
 {
     Outline outline = {.count = 3};
-    const double size = random_number(state, 1, 200);
-    const double x = random_number(state, -50, 400), y = random_number(state, -50, 400);
-    const double flat = random_number(state, 0, 1) < 0.5 ? 0.02 : 1;
+    const double size = random_between(state, 1, 200);
+    const double x = random_between(state, -50, 400), y = random_between(state, -50, 400);
+    const double flat = random_between(state, 0, 1) < 0.5 ? 0.02 : 1;
     for (int i = 0; i < 3; i++) {
-        const double across = size * random_number(state, -1, 1);
+        const double across = size * random_between(state, -1, 1);
         outline.corners[i][0] = x + across;
-        outline.corners[i][1] = y + across + flat * size * random_number(state, -1, 1);
+        outline.corners[i][1] = y + across + flat * size * random_between(state, -1, 1);
     }
     outline_complete(&outline);
     return outline;

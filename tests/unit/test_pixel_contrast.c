@@ -3,25 +3,20 @@
 // neighbors of cells in a refined picture, and its largest size.
 #include "refine/pixel_contrast.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <string.h>
 
-static uint32_t next_number(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return *state >> 8;
-}
-
 static void fill(RefineTree *tree)
 {
-    uint32_t state = 1;
+    uint64_t random = 1;
     for (uint32_t y = 0; y < tree->height; y++)
         for (uint32_t x = 0; x < tree->width; x++) {
             SampleData *sample = &tree->pixels[refine_tree_place(tree, x, y)];
             for (int channel = 0; channel < 3; channel++)
-                sample->color[channel] = (float)next_number(&state) * 0x1p-24f;
-            sample->signature = next_number(&state) % 2;
+                sample->color[channel] = (float)random_unit(&random);
+            sample->signature = random_below(&random, 2);
         }
 }
 

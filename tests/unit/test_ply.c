@@ -98,7 +98,8 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     assert_int_equal(fclose(stream), 0);
     assert_int_equal(size, ply_write_size(&mesh));
     const char *body = (const char *)memmem(bytes, size, "end_header\n", 11) + 11;
-    assert_int_equal(size - (size_t)(body - bytes), 4 * vertex_size + 2 * 13);
+    assert_int_equal(size - (size_t)(body - bytes),
+                     mesh.vertex_count * vertex_size + 13 * mesh.triangle_count);
 
     FREED_BY(mesh_free) Mesh again;
     Error error = {0};
@@ -106,8 +107,10 @@ static void expect_same(Mesh mesh, size_t vertex_size)
         fail_msg("%s", error.text);
     assert_int_equal(again.vertex_count, mesh.vertex_count);
     assert_int_equal(again.triangle_count, mesh.triangle_count);
-    assert_memory_equal(again.positions, mesh.positions, 4 * sizeof *mesh.positions);
-    assert_memory_equal(again.triangles, mesh.triangles, 2 * sizeof *mesh.triangles);
+    if (mesh.vertex_count > 0)
+        assert_memory_equal(again.positions, mesh.positions, 4 * sizeof *mesh.positions);
+    if (mesh.triangle_count > 0)
+        assert_memory_equal(again.triangles, mesh.triangles, 2 * sizeof *mesh.triangles);
     assert_int_equal(again.normals != NULL, mesh.normals != NULL);
     if (mesh.normals != NULL)
         assert_memory_equal(again.normals, mesh.normals, 4 * sizeof *mesh.normals);
@@ -121,21 +124,7 @@ TEST(a_mesh_comes_back_in_floats_where_they_suffice_and_with_its_normals)
     expect_same((Mesh){MESH, .positions = floats}, 12);
     expect_same((Mesh){MESH, .positions = doubles}, 24);
     expect_same((Mesh){MESH, .positions = doubles, .normals = normals}, 36);
-}
-
-TEST(an_empty_mesh_comes_back)
-{
-    char *bytes;
-    size_t size;
-    const Mesh empty = {0};
-    FILE *stream = open_memstream(&bytes, &size);
-    assert_true(ply_write(&empty, stream));
-    fclose(stream);
-    FREED_BY(mesh_free) Mesh again;
-    Error error = {0};
-    assert_true(ply_parse(&again, bytes, size, "t.ply", &error));
-    assert_int_equal(again.vertex_count + again.triangle_count, 0);
-    free(bytes);
+    expect_same((Mesh){0}, 0);
 }
 
 TEST(a_full_disk_is_told)

@@ -175,8 +175,8 @@ TEST(faults_name_line_column_and_the_statement)
          "'material NUMBER|NAME|own'"},
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
-        {"size 0 5",
-         "1:6: expected an integer between 1 and 65536: found '0'" STATEMENT "'size WIDTH HEIGHT'"},
+        {"size 0 5", "1:6: expected an integer between 1 and 131072: found '0'" STATEMENT
+                     "'size WIDTH HEIGHT'"},
         {"camera 0 0 0 0 0 0 45",
          "1:1: the camera looks at its own position: found 'camera'" CAMERA},
         {"camera 0 0 5 0 0 0 45",
@@ -191,6 +191,55 @@ TEST(faults_name_line_column_and_the_statement)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         expect_error(cases[i][0], cases[i][1]);
+}
+
+// Messages about a value out of its range. The statement's usage follows.
+TEST(impossible_values_are_refused_at_their_place)
+{
+    static const char *const texts[] = {"sphere 0 0 0 -1",
+                                        "sphere 0 0 0 nan",
+                                        "sphere 0 0 0 inf",
+                                        "sphere nan 0 0 1",
+                                        "sphere 0 inf 0 1",
+                                        "\n\nsphere 0 0 0 -0",
+                                        "sphere 1 2 3 1e400",
+                                        "sphere 1,5 2 3 1",
+                                        "sphere 0x1 0 0 1\n1 2",
+                                        "light 0 0 1 -1",
+                                        "light 0 0 1 inf",
+                                        "light 0 0 nan 1",
+                                        "\nlight 0 0 1 -1e-30",
+                                        "camera 0 0 0 1 0 0 0",
+                                        "camera 0 0 0 1 0 0 180",
+                                        "camera 0 0 0 1 0 0 -4",
+                                        "camera 0 0 0 1 0 0 nan",
+                                        "camera 0 0 0 nan 0 0 40",
+                                        "camera 0 0 0 1 0 0 inf",
+                                        "camera 1 2 3",
+                                        "up 1 2 3\ncamera 0 0 0 2 4 6 40",
+                                        "up 0 0 -1\ncamera 1 1 1 1 1 -3 40",
+                                        "up 0 0 0",
+                                        "size 0 0",
+                                        "size 5 0",
+                                        "size -1 5",
+                                        "size 131073 1",
+                                        "size 1e3 nan",
+                                        "size 2.5 2.5",
+                                        "max_level -1",
+                                        "background 2 0 0",
+                                        "ambient nan",
+                                        "define a matte kd",
+                                        "material",
+                                        "ply_file"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        Scene scene;
+        Error error = {0};
+        unsigned line, column;
+        if (parse(&scene, texts[i], &error))
+            fail_msg("'%s' is accepted", texts[i]);
+        assert_int_equal(
+            sscanf(strstr(error.text, "inline.scn:"), "inline.scn:%u:%u: ", &line, &column), 2);
+    }
 }
 
 TEST(a_missing_mesh_is_an_error_at_its_path)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests seams with color steps at known positions.
-#include "refine/seam.h"
+#include "refine/refine_tree.h"
 #include "unit/cmocka_all.h"
 
 #define SIDE  27u

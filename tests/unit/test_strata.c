@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests strata with populations of pixels whose errors are known, and the positions and sums of a
 // pixel's samples.
-#include "refine/pixel_requests.h"
+#include "refine/ladder.h"
 #include "refine/strata.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

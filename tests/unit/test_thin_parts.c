@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Tests the cells that are subdivided for thin triangles, if these are hard to project or too many.
-#include "refine/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"

@@ -3,17 +3,12 @@
 #pragma once
 
 #include "accel/triangles.h"
+#include "unit/random.h"
 
 #include <assert.h>
 #include <stdlib.h>
 
 typedef enum { SET_SCATTERED, SET_EQUAL, SET_CONCENTRIC, SET_SPIRAL, SET_KINDS } TriangleSet;
-
-static inline float random_float(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (float)(*state >> 40) * 0x1p-23f - 1.0f;
-}
 
 static inline Triangles triangle_set(TriangleSet set, size_t count)
 {
@@ -33,7 +28,8 @@ static inline Triangles triangle_set(TriangleSet set, size_t count)
             point[3] = 0;
             for (int axis = 0; axis < 3; axis++) {
                 const float at = axis == k ? corner : -0.5f * corner;
-                point[axis] = set == SET_SCATTERED ? random_float(&state) : center + at * size;
+                point[axis] = set == SET_SCATTERED ? (float)random_between(&state, -1, 1)
+                                                   : center + at * size;
             }
         }
         if (set == SET_SPIRAL && i < 100)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """A private display for tests, its contents, and clrt's window on it, controlled by real events."""
 
-import array
 import ctypes
+import inspect
 import mmap
 import os
 import pathlib
@@ -16,6 +16,10 @@ import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "tests" / "cli"))
+
+from pictures import read_pfm  # noqa: E402
+
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
 PATIENCE = 60  # seconds that any step may take, because kernels may have to be compiled
 TICK = 0.02  # waiting counts these steps, so that a pause of the machine does not count
@@ -173,7 +177,8 @@ def render(scene, *options, size=(320, 240)):
         path = f"{folder}/picture.pfm"
         subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", f"{size[0]}x{size[1]}",
                         "-o", path, *options], check=True)
-        return planes_of_pfm(pathlib.Path(path).read_bytes(), size)
+        pixels = bytes(int(value * 255 + 0.5) for row in read_pfm(path) for value in row)
+        return pixels[2::3], pixels[1::3], pixels[0::3]
 
 
 def opened(screen, scene, *options, **more):
@@ -188,15 +193,6 @@ def expect(window, scene, what):
     """Waits until the window shows the picture that -o writes."""
     picture = render(scene)
     window.until(lambda shown: planes_of(shown) == picture, what)
-
-
-def planes_of_pfm(content, size):
-    values = array.array("f", content[-12 * size[0] * size[1]:])
-    bytes_up = bytes(int(value * 255 + 0.5) for value in values)
-    width = 3 * size[0]
-    rows = [bytes_up[row * width:(row + 1) * width] for row in range(size[1])]
-    down = b"".join(reversed(rows))
-    return down[2::3], down[1::3], down[0::3]
 
 
 def planes_of(shown):
@@ -218,10 +214,12 @@ def is_blue(red, green, blue):
     return red == 26 and green == 77 and blue == 255
 
 
-def run_tests(tests, screen):
-    """Runs the functions, or only those named on the command line. A function's name states what it
-    tests."""
-    failures = 0
+def run_tests(module):
+    """Runs the module's functions that take only a screen, or those of them that the command line
+    names. A function's name states what it tests."""
+    screen, failures = Screen(), 0
+    tests = [test for test in module.values() if inspect.isfunction(test) and test.__module__ == "__main__"
+             and list(inspect.signature(test).parameters) in (["screen"], ["_"])]
     named = [test for test in tests if test.__name__ in sys.argv[1:]]
     for test in named or tests:
         start = time.monotonic()

@@ -9,7 +9,8 @@ import pathlib
 import subprocess
 import tempfile
 
-from screen import COURSE, ROOT, Screen, Window, is_blue, is_red, opened, planes_of, run_tests
+from screen import COURSE, ROOT, Window, is_blue, is_red, opened, planes_of, run_tests
+from models import ply
 
 SIDE = 4  # clusters along a side of the scene
 
@@ -58,11 +59,7 @@ def write_clusters(folder):
             corners += [(x + 0.1 * part, y, 0), (x + 0.1 * part + 0.03, y, 0),
                         (x + 0.1 * part, y + 0.5, 0)]
             faces.append((first, first + 1, first + 2))
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(corners)}", "property float x",
-             "property float y", "property float z", f"element face {len(faces)}",
-             "property list uchar int vertex_indices", "end_header"]
-    lines += [f"{x} {y} {z}" for x, y, z in corners] + [f"3 {a} {b} {c}" for a, b, c in faces]
-    (folder / "clusters.ply").write_text("\n".join(lines) + "\n")
+    (folder / "clusters.ply").write_bytes(ply(corners, faces))
     (folder / "clusters.scn").write_text("background 1 1 1\nmaterial 1\nply_file clusters.ply\n"
                                          "up 0 1 0\ncamera 2 2 6  2 2 0  45\n")
     return folder / "clusters.scn"
@@ -106,4 +103,4 @@ def as_many_boxes_are_seen_as_are_told(screen):
 
 
 if __name__ == "__main__":
-    run_tests([counts_agree_with_statistics, as_many_boxes_are_seen_as_are_told], Screen())
+    run_tests(globals())

@@ -9,7 +9,6 @@
 
 #include <dirent.h>
 #include <malloc.h>
-#include <stdio.h>
 #include <string.h>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -82,18 +81,16 @@ bool __wrap_file_read(File *file, const char *path, Error *error)
     return error_set(error, "the test hides all fonts");
 }
 
-static void a_window_without_a_font_shows_pictures(void **state)
+TEST(a_window_without_a_font_shows_pictures)
 {
-    (void)state;
     fonts_missed = 0;
     show_once("hrR");
     assert_true(fonts_missed > 1);
     fonts_missed = -1;
 }
 
-static void a_lost_context_is_made_anew(void **state)
+TEST(a_lost_context_is_made_anew)
 {
-    (void)state;
     openings = 0;
     losses = 2;
     show_once("rBn");
@@ -124,9 +121,8 @@ static Usage measure(void)
                    count_entries("/proc/self/task")};
 }
 
-static void many_windows_leave_nothing_behind(void **state)
+TEST(many_windows_leave_nothing_behind)
 {
-    (void)state;
     Usage before = {0};
     for (int cycle = 0; cycle < CYCLES; cycle++) {
         show_once(cycle % 2 == 0 ? "" : "rB");
@@ -142,13 +138,8 @@ static void many_windows_leave_nothing_behind(void **state)
     assert_true(growth / (CYCLES - 1 - WARMING_UP) < BYTES_A_CYCLE);
 }
 
-int main(void)
+SET_UP(open_cache)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_window_without_a_font_shows_pictures),
-        cmocka_unit_test(a_lost_context_is_made_anew),
-        cmocka_unit_test(many_windows_leave_nothing_behind),
-    };
     cache_open(&cache);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 
 from drag import Drag
-from screen import ROOT, Screen, expect, opened, run_tests
+from screen import ROOT, expect, opened, run_tests
 
 
 def drop(screen, *paths):
@@ -53,5 +53,4 @@ def a_dropped_file_that_is_no_scene_is_told_over_the_last_picture(screen):
 
 if __name__ == "__main__":
     assert "CLRT" in os.environ
-    run_tests([a_dropped_scene_or_mesh_is_shown_through_its_first_camera,
-               a_dropped_file_that_is_no_scene_is_told_over_the_last_picture], Screen())
+    run_tests(globals())

@@ -5,10 +5,9 @@ in the printed state. Usage: CLRT=path/to/clrt test_keys.py"""
 
 import os
 import pathlib
-import subprocess
 import tempfile
 
-from screen import ROOT, Screen, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
+from screen import ROOT, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
 
 SCENE = ROOT / "scenes" / "reflections.scn"
 
@@ -285,26 +284,5 @@ def options_choose_what_the_window_opens_with(screen):
     window.close()
 
 
-def without_a_display_it_says_so(screen):
-    words = [os.environ["CLRT"], str(SCENE)]
-    done = subprocess.run(words, env={**screen.environment(), "DISPLAY": ":12345"}, text=True,
-                          capture_output=True, check=False)
-    assert done.returncode == 2, done.returncode
-    assert done.stderr.startswith("clrt: no window can be opened ("), done.stderr
-    assert done.stderr.endswith("): write the picture with -o FILE\n"), done.stderr
-
-
 if __name__ == "__main__":
-    run_tests([it_opens_with_rays_and_r_switches_to_opengl, a_smooths_the_edges,
-               digits_choose_the_scenes_cameras, b_turns_the_tree_off_and_draws_the_same_picture,
-               boxes_are_blue_at_the_leaves_and_red_above, n_shows_normals_in_red,
-               plus_and_minus_change_the_exposure, o_turns_the_camera_by_itself,
-               the_mouse_turns_and_zooms, the_middle_button_or_shift_moves_sideways,
-               a_click_explains_the_pixel_until_the_next_key,
-               u_turns_the_up_axis_of_a_mesh_without_a_scene, keys_for_the_help_agree,
-               f11_fills_the_screen_and_escape_goes_back, c_prints_the_camera,
-               s_f12_and_ctrl_s_save_the_picture, a_failed_save_says_why, s_holds_a_turning_camera_still,
-               r_in_capitals_reads_everything_again, q_ctrl_q_and_escape_quit,
-               keys_are_played_in_order_from_opengl_and_frames_counted,
-               stats_tell_the_times_of_frames, options_choose_what_the_window_opens_with,
-               without_a_display_it_says_so], Screen())
+    run_tests(globals())

@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import time
 
-from screen import ROOT, Screen, Window, opened, planes_of, render, run_tests
+from screen import ROOT, Window, opened, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
 GONE_SECONDS = 0.1  # in addition to the seconds for closing an idle window on this machine
@@ -135,7 +135,4 @@ def o_never_touches_the_display(_):
 
 
 if __name__ == "__main__":
-    run_tests([a_million_triangles_open_orbit_and_close,
-               a_window_closed_while_it_traces_is_gone_at_once,
-               camera_moves_while_a_picture_is_traced, a_minimised_and_a_tiny_window_go_on,
-               o_never_touches_the_display], Screen())
+    run_tests(globals())

@@ -5,11 +5,10 @@ clrt. Each object gets its own color, and the two pictures may differ only withi
 edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals. Usage:
 CLRT=path/to/clrt test_outlines.py"""
 
-import math
 import pathlib
 import tempfile
 
-from screen import COURSE, ROOT, Screen, opened, run_tests
+from screen import COURSE, ROOT, opened, run_tests
 
 SIZE = (512, 512)
 NAMES = ("silhouette", "matte", "blinn_phong", "reflections", "simple", "cow", "buddha")
@@ -113,37 +112,12 @@ def outlines_agree_in_own_scenes(screen):
         agree(screen, path)
 
 
-def ball(rings=4, slices=7):
-    """Returns a PLY file of a coarse closed ball with the normals of a smooth ball."""
-    corners, faces = [], []
-    for ring in range(rings + 1):
-        for part in range(slices):
-            low, around = math.pi * ring / rings, 2 * math.pi * part / slices
-            corners.append((math.sin(low) * math.cos(around), math.sin(low) * math.sin(around),
-                            math.cos(low)))
-    for ring in range(rings):
-        for part in range(slices):
-            beside = (part + 1) % slices
-            high, down = ring * slices, (ring + 1) * slices
-            if ring + 1 < rings:
-                faces.append((high + part, down + part, down + beside))
-            if ring > 0:
-                faces.append((high + part, down + beside, high + beside))
-    names = "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
-    lines = [f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\n{names}element face {len(faces)}\n"
-             "property list uchar int vertex_indices\nend_header"]
-    lines += [" ".join(f"{value:.9g}" for value in 2 * corner) for corner in corners]
-    lines += [f"3 {a} {b} {c}" for a, b, c in faces]
-    return "\n".join(lines) + "\n"
-
-
 def light_falls_on_the_same_side_of_a_convex_mesh(screen):
     """The light is so bright that every lit pixel is white."""
     with tempfile.TemporaryDirectory() as folder:
-        (pathlib.Path(folder) / "ball.ply").write_text(ball())
         scene = pathlib.Path(folder) / "ball.scn"
         scene.write_text("background 0 0 0\nambient 0\nmaterial 1\nlight -3 1 -2 1e6\n"
-                         "ply_file ball.ply\ncamera 0.4 -2.1 0.6 0 0 0 60\n")
+                         f"ply_file {ROOT}/tests/image/ball.ply\ncamera 0.4 -2.1 0.6 0 0 0 60\n")
         window = opened(screen, scene, size=SIZE)
         traced = window.read()
         window.press("r", "OpenGL")
@@ -154,5 +128,4 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen):
 
 
 if __name__ == "__main__":
-    run_tests([outlines_agree_in_the_courses_scenes, outlines_agree_in_own_scenes,
-               light_falls_on_the_same_side_of_a_convex_mesh], Screen())
+    run_tests(globals())

@@ -4,13 +4,12 @@
 Usage: CLRT=path/to/clrt test_pixels.py"""
 
 import pathlib
-import struct
 import subprocess
 import tempfile
 import os
-import zlib
 
-from screen import COURSE, ROOT, Screen, opened, planes_of, render, run_tests
+from screen import COURSE, ROOT, opened, planes_of, render, run_tests
+from pictures import read_png
 
 SIZE = (512, 512)
 
@@ -79,32 +78,8 @@ def options_that_change_the_picture_do_so_here(screen):
         window.close()
 
 
-def unfiltered(kind, row, above, step=3):
-    """Returns a row of a PNG file after undoing its filter."""
-    out = bytearray(row)
-    for i, value in enumerate(row):
-        left = out[i - step] if i >= step else 0
-        corner = above[i - step] if i >= step else 0
-        up = above[i]
-        guess = left + up - corner
-        paeth = min((abs(guess - near), order, near)
-                    for order, near in enumerate((left, up, corner)))[2]
-        out[i] = (value + (0, left, up, (left + up) // 2, paeth)[kind]) & 255
-    return bytes(out)
-
-
-def planes_of_png(content, size):
-    data, place = b"", 8
-    while place < len(content):
-        length, kind = struct.unpack(">I4s", content[place:place + 8])
-        data += content[place + 8:place + 8 + length] if kind == b"IDAT" else b""
-        place += 12 + length
-    raw, stride = zlib.decompress(data), 3 * size[0] + 1
-    rows, above = [], bytes(stride - 1)
-    for start in range(0, stride * size[1], stride):
-        above = unfiltered(raw[start], raw[start + 1:start + stride], above)
-        rows.append(above)
-    pixels = b"".join(rows)
+def planes_of_png(content):
+    pixels = bytes(value for row in read_png(content) for value in row)
     return pixels[2::3], pixels[1::3], pixels[0::3]
 
 
@@ -123,7 +98,7 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
         window.press("s", "saved")
         window.close()
         png = (folder / "reflections-1.png").read_bytes()
-        assert planes_of_png(png, size) == render(scene, size=size), "the PNG differs"
+        assert planes_of_png(png) == render(scene, size=size), "the PNG differs"
         for ending in ("exr", "pfm"):
             saved = folder / f"reflections-1.{ending}"
             if saved.exists():
@@ -137,7 +112,4 @@ def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
 
 
 if __name__ == "__main__":
-    run_tests([every_view_of_the_courses_scenes_is_the_same, anti_aliased_pictures_are_the_same,
-               pictures_of_any_size_are_the_same, a_moved_camera_prints_what_draws_the_same_picture,
-               options_that_change_the_picture_do_so_here,
-               saved_pictures_are_what_is_seen_and_what_was_traced], Screen())
+    run_tests(globals())

@@ -8,7 +8,7 @@ import pathlib
 import shutil
 import tempfile
 
-from screen import ROOT, Screen, expect, opened, render, run_tests
+from screen import ROOT, expect, opened, render, run_tests
 
 
 def in_folder(test):
@@ -146,8 +146,4 @@ def changed_kernels_trace_the_next_picture(screen, folder):
 
 
 if __name__ == "__main__":
-    run_tests([a_changed_scene_is_shown_in_both_views, a_scene_that_an_editor_replaces_is_shown,
-               a_changed_mesh_is_shown, a_changed_material_library_is_shown,
-               a_fault_is_told_over_the_last_good_picture,
-               a_mesh_that_was_missing_is_found_when_it_comes,
-               changed_kernels_trace_the_next_picture], Screen())
+    run_tests(globals())

@@ -8,7 +8,7 @@ import pathlib
 import tempfile
 import time
 
-from screen import ROOT, Screen, Window, opened, run_tests
+from screen import ROOT, Window, opened, run_tests
 
 SCENE = ROOT / "scenes" / "reflections.scn"
 HINT_SECONDS = 5
@@ -86,6 +86,4 @@ def scenes_that_lack_something_say_so_in_the_line(screen):
 
 
 if __name__ == "__main__":
-    run_tests([text_grows_with_the_density_and_fits_the_window,
-               a_hint_at_the_help_is_shown_for_some_seconds,
-               scenes_that_lack_something_say_so_in_the_line], Screen())
+    run_tests(globals())

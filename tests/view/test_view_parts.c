@@ -3,8 +3,8 @@
 // boxes, changed files, and pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
-#include "view/draw/boxes.h"
 #include "view/draw/canvas.h"
+#include "view/draw/draw.h"
 #include "view/plan.h"
 #include "view/watch.h"
 
@@ -21,9 +21,8 @@ static const PlanRequest plain = {.is_wanted = true,
                                   .samples = 2,
                                   .sample_seconds = 1e-9};
 
-static void what_stands_still_sharpens_step_by_step(void **state)
+TEST(what_stands_still_sharpens_step_by_step)
 {
-    (void)state;
     PlanRequest request = plain;
     request.sample_seconds = 1e-6;
     PlanReached reached = {0};
@@ -43,9 +42,8 @@ static void what_stands_still_sharpens_step_by_step(void **state)
     assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
 }
 
-static void moving_pictures_take_the_time_of_a_frame(void **state)
+TEST(moving_pictures_take_the_time_of_a_frame)
 {
-    (void)state;
     const PlanReached reached = {6, 1, 2, true}; // for another camera
     PlanRequest request = plain;
     assert_int_equal(plan_pass(&request, &reached).divisor, 1);
@@ -57,9 +55,8 @@ static void moving_pictures_take_the_time_of_a_frame(void **state)
     }
 }
 
-static void tiles_are_so_small_that_stopping_takes_no_time(void **state)
+TEST(tiles_are_so_small_that_stopping_takes_no_time)
 {
-    (void)state;
     const PlanReached reached = {7, 1, 1, false};
     PlanRequest request = plain;
     assert_int_equal(plan_pass(&request, &reached).tile, 128);
@@ -71,9 +68,8 @@ static void tiles_are_so_small_that_stopping_takes_no_time(void **state)
     }
 }
 
-static void nothing_is_traced_unasked_or_for_no_window(void **state)
+TEST(nothing_is_traced_unasked_or_for_no_window)
 {
-    (void)state;
     const PlanReached reached = {0};
     PlanRequest request = plain;
     request.width = 0;
@@ -83,9 +79,8 @@ static void nothing_is_traced_unasked_or_for_no_window(void **state)
     assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
 }
 
-static void brute_force_is_expected_to_be_dear(void **state)
+TEST(brute_force_is_expected_to_be_dear)
 {
-    (void)state;
     assert_true(plan_first_guess(1000000, true) == plan_first_guess(10, true));
     assert_true(plan_first_guess(1000000, false) > 1e-4);
 }
@@ -100,34 +95,30 @@ static uint32_t count_level(const Bvh *bvh, uint32_t number, uint32_t depth, uin
            count_level(bvh, node->first + 1, depth + 1, level);
 }
 
-static void every_level_has_a_box_for_each_of_its_nodes(void **state)
+TEST(every_level_has_a_box_for_each_of_its_nodes)
 {
-    (void)state;
     Bvh bvh;
     Error error = {0};
     uint32_t inner = 0;
-    Triangles triangles = triangle_set((TriangleSet)0, 500);
+    FREED_BY(triangles_free) Triangles triangles = triangle_set((TriangleSet)0, 500);
     const BvhSettings settings = {BVH_SAH, LEAVES_SINGLE};
     assert_true(bvh_build(&bvh, &triangles, &settings, NULL, &error));
     for (uint32_t level = 0; level <= boxes_levels(&bvh); level++) {
-        Boxes boxes = {0};
+        FREED_BY(boxes_free) Boxes boxes = {0};
         assert_true(boxes_make(&boxes, &bvh, level, &error));
         assert_int_equal(boxes.count, count_level(&bvh, 0, 1, level));
         assert_true(boxes.count > 0);
         inner += level > 0 ? (uint32_t)boxes.count : 0;
         if (level == 1)
             assert_memory_equal(&boxes.data[0], &bvh.nodes[0].box, sizeof(Box));
-        boxes_free(&boxes);
     }
     assert_int_equal(inner, bvh.node_count - bvh.leaf_count);
     bvh_free(&bvh);
-    triangles_free(&triangles);
 }
 
-static void a_tree_of_nothing_or_one_leaf_has_no_inner_boxes(void **state)
+TEST(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes)
 {
-    (void)state;
-    Boxes boxes = {0};
+    FREED_BY(boxes_free) Boxes boxes = {0};
     Error error = {0};
     Bvh none = {0};
     assert_int_equal(boxes_levels(&none), 0);
@@ -138,7 +129,6 @@ static void a_tree_of_nothing_or_one_leaf_has_no_inner_boxes(void **state)
     assert_int_equal(boxes_levels(&single), 0);
     assert_true(boxes_make(&boxes, &single, 0, &error));
     assert_int_equal(boxes.count, 1);
-    boxes_free(&boxes);
 }
 
 static void write_text(const char *path, const char *text)
@@ -176,11 +166,10 @@ static void watched_free(WatchedFolder *watched)
     rmdir(watched->folder);
 }
 
-static void changed_files_are_told_once_and_when_they_stand_still(void **state)
+TEST(changed_files_are_told_once_and_when_they_stand_still)
 {
-    (void)state;
     Error error = {0};
-    WatchedFolder watched = watched_make();
+    FREED_BY(watched_free) WatchedFolder watched = watched_make();
     write_text(watched.path, "one");
     const char *const paths[] = {watched.path, watched.folder};
     assert_true(watch_set(&watched.watch, paths, 2, &error));
@@ -196,14 +185,12 @@ static void changed_files_are_told_once_and_when_they_stand_still(void **state)
     write_text(watched.path, "two");
     assert_false(watch_poll(&watched.watch));
     assert_true(watch_poll(&watched.watch));
-    watched_free(&watched);
 }
 
-static void watching_other_files_too_loses_no_change(void **state)
+TEST(watching_other_files_too_loses_no_change)
 {
-    (void)state;
     Error error = {0};
-    WatchedFolder watched = watched_make();
+    FREED_BY(watched_free) WatchedFolder watched = watched_make();
     write_text(watched.path, "one");
     assert_true(watch_set(&watched.watch, (const char *[]){watched.path, "gone"}, 2, &error));
     set_time(watched.path, 1);
@@ -211,26 +198,22 @@ static void watching_other_files_too_loses_no_change(void **state)
     assert_int_equal(watched.watch.files.count, 2);
     assert_false(watch_poll(&watched.watch));
     assert_true(watch_poll(&watched.watch));
-    watched_free(&watched);
 }
 
-static void a_folder_is_watched_for_what_is_in_it(void **state)
+TEST(a_folder_is_watched_for_what_is_in_it)
 {
-    (void)state;
     Error error = {0};
-    WatchedFolder watched = watched_make();
+    FREED_BY(watched_free) WatchedFolder watched = watched_make();
     const char *const paths[] = {watched.folder};
     assert_true(watch_set(&watched.watch, paths, 1, &error));
     assert_false(watch_poll(&watched.watch));
     write_text(watched.path, "new");
     assert_false(watch_poll(&watched.watch));
     assert_true(watch_poll(&watched.watch));
-    watched_free(&watched);
 }
 
-static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(void **state)
+TEST(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place)
 {
-    (void)state;
     Canvas canvas;
     Error error = {0};
     const RenderSettings settings = {.width = 4, .height = 2, .tile_width = 2, .tile_height = 2};
@@ -257,22 +240,4 @@ static void a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place(
     canvas_end(&canvas, second, true);
     assert_ptr_equal(canvas_whole(&canvas), second);
     canvas_close(&canvas);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_still_sharpens_step_by_step),
-        cmocka_unit_test(moving_pictures_take_the_time_of_a_frame),
-        cmocka_unit_test(tiles_are_so_small_that_stopping_takes_no_time),
-        cmocka_unit_test(nothing_is_traced_unasked_or_for_no_window),
-        cmocka_unit_test(brute_force_is_expected_to_be_dear),
-        cmocka_unit_test(every_level_has_a_box_for_each_of_its_nodes),
-        cmocka_unit_test(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes),
-        cmocka_unit_test(changed_files_are_told_once_and_when_they_stand_still),
-        cmocka_unit_test(watching_other_files_too_loses_no_change),
-        cmocka_unit_test(a_folder_is_watched_for_what_is_in_it),
-        cmocka_unit_test(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests the effect of keys and mouse on the view's state, and the state's text.
-#include "scene/scn.h"
-#include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 #include "view/state.h"
 #include "view/status_text.h"
 
@@ -16,14 +15,16 @@ typedef struct {
 
 static Fixture opened(const char *text)
 {
-    Fixture fixture;
-    Error error = {0};
-    if (!scn_parse(&fixture.scene, text, strlen(text), "inline.scn", &error))
-        fail_msg("%s", error.text);
+    Fixture fixture = {.scene = parsed(text)};
     fixture.facts = (StateScene){fixture.scene.viewpoints.data, fixture.scene.viewpoints.count,
                                  fixture.scene.has_course_views, 3};
     fixture.state = state_begin(&fixture.facts, (State){.view = 1, .uses_bvh = true});
     return fixture;
+}
+
+static void release(Fixture *fixture)
+{
+    scene_free(&fixture->scene);
 }
 
 static unsigned press(Fixture *fixture, const char *keys)
@@ -52,12 +53,11 @@ static bool same_place(Vec3 a, Vec3 b)
     return vec3_extent(vec3_sub(a, b)) < 1e-12;
 }
 
-static void the_courses_cameras_are_on_the_courses_orbits(void **state)
+TEST(the_courses_cameras_are_on_the_courses_orbits)
 {
-    (void)state;
     static const double orbits[6][3] = {{-40, 25, 6.5}, {-27.5, -30.5, 2}, {-73.8, 37, 3.8},
                                         {46.2, 0, 6.2}, {-35, 172.8, 2.8}, {-80.3, 27, 1.1}};
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     for (int view = 0; view < 6; view++) {
         press(&fixture, (char[]){(char)('1' + view), '\0'});
         assert_int_equal(fixture.state.view, view + 1);
@@ -65,22 +65,19 @@ static void the_courses_cameras_are_on_the_courses_orbits(void **state)
         assert_true(near(fixture.state.orbit.rotation, orbits[view][1]));
         assert_true(near(fixture.state.orbit.distance, orbits[view][2]));
     }
-    scene_free(&fixture.scene);
 }
 
-static void a_camera_that_has_not_moved_is_the_scenes_to_the_bit(void **state)
+TEST(a_camera_that_has_not_moved_is_the_scenes_to_the_bit)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     press(&fixture, "3");
     assert_memory_equal(&fixture.state.camera, &fixture.scene.viewpoints.data[2],
                         sizeof fixture.state.camera);
-    scene_free(&fixture.scene);
 }
 
-static void an_orbit_gives_back_the_camera_it_was_made_of(void **state)
+TEST(an_orbit_gives_back_the_camera_it_was_made_of)
 {
-    (void)state;
+    FREED_BY(release)
     Fixture fixture =
         opened("up 1 2 -3\ncamera 4 5 6  1 0 2  30\nup 0 -1 0\ncamera 9 1 1 0 0 0 50");
     for (size_t view = 0; view < 2; view++) {
@@ -91,13 +88,11 @@ static void an_orbit_gives_back_the_camera_it_was_made_of(void **state)
         assert_true(same_place(back.look_at, camera->look_at));
         assert_true(back.fov_degrees == camera->fov_degrees);
     }
-    scene_free(&fixture.scene);
 }
 
-static void dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole(void **state)
+TEST(dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     happen(&fixture, EVENT_TURN, 40, -20);
     assert_true(near(fixture.state.orbit.rotation, 15) && near(fixture.state.orbit.azimuth, -35));
     assert_true(fixture.state.moved);
@@ -105,7 +100,6 @@ static void dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole(void **state)
     assert_true(near(fixture.state.orbit.azimuth, -89.99));
     happen(&fixture, EVENT_TURN, 0, -5000);
     assert_true(near(fixture.state.orbit.azimuth, 89.99));
-    scene_free(&fixture.scene);
 }
 
 // Computes the position of a point in a window of 512 x 512, relative to the center.
@@ -119,11 +113,10 @@ static void see(const Viewpoint *camera, Vec3 point, double place[2])
     place[1] = vec3_dot(arm, vec3_cross(ahead, across)) / pixel;
 }
 
-static void what_is_looked_at_follows_a_drag_sideways(void **state)
+TEST(what_is_looked_at_follows_a_drag_sideways)
 {
-    (void)state;
     double place[2];
-    Fixture fixture = opened("camera 5 4 3  1 0 2  30");
+    FREED_BY(release) Fixture fixture = opened("camera 5 4 3  1 0 2  30");
     const Viewpoint before = fixture.state.camera;
     happen(&fixture, EVENT_PAN, 40, -25);
     const Viewpoint *after = &fixture.state.camera;
@@ -133,13 +126,11 @@ static void what_is_looked_at_follows_a_drag_sideways(void **state)
         same_place(vec3_sub(after->look_at, after->eye), vec3_sub(before.look_at, before.eye)));
     happen(&fixture, EVENT_PAN, -40, 25);
     assert_true(same_place(fixture.state.camera.eye, before.eye));
-    scene_free(&fixture.scene);
 }
 
-static void zooming_keeps_to_the_courses_distances(void **state)
+TEST(zooming_keeps_to_the_courses_distances)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     happen(&fixture, EVENT_ZOOM, 0, 10);
     assert_true(near(fixture.state.orbit.distance, 8));
     happen(&fixture, EVENT_ZOOM, 0, -1000);
@@ -148,24 +139,20 @@ static void zooming_keeps_to_the_courses_distances(void **state)
     assert_true(near(fixture.state.orbit.distance, 100));
     happen(&fixture, EVENT_WHEEL, 0, 1);
     assert_true(near(fixture.state.orbit.distance, 90));
-    scene_free(&fixture.scene);
 }
 
-static void scenes_of_any_size_zoom_alike(void **state)
+TEST(scenes_of_any_size_zoom_alike)
 {
-    (void)state;
-    Fixture fixture = opened("camera 6500 0 0  0 0 0  45");
+    FREED_BY(release) Fixture fixture = opened("camera 6500 0 0  0 0 0  45");
     happen(&fixture, EVENT_ZOOM, 0, 10);
     assert_true(near(fixture.state.orbit.distance, 8000));
     happen(&fixture, EVENT_ZOOM, 0, -1000);
     assert_true(near(fixture.state.orbit.distance, 500));
-    scene_free(&fixture.scene);
 }
 
-static void every_switch_has_a_key_that_turns_it_back(void **state)
+TEST(every_switch_has_a_key_that_turns_it_back)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     press(&fixture, "rabBn?o");
     const State on = fixture.state;
     assert_true(on.traced && on.smooth && !on.uses_bvh && on.boxes && on.normals && on.help);
@@ -174,13 +161,11 @@ static void every_switch_has_a_key_that_turns_it_back(void **state)
     const State off = fixture.state;
     assert_false(off.traced || off.smooth || !off.uses_bvh || off.boxes || off.normals);
     assert_false(off.help || off.turning || off.text);
-    scene_free(&fixture.scene);
 }
 
-static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
+TEST(levels_go_from_the_leaves_to_the_deepest_inner_nodes)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     press(&fixture, "[");
     assert_false(fixture.state.boxes);
     press(&fixture, "]]");
@@ -194,13 +179,11 @@ static void levels_go_from_the_leaves_to_the_deepest_inner_nodes(void **state)
     assert_int_equal(fixture.state.level, 0);
     press(&fixture, "]BB");
     assert_int_equal(fixture.state.level, 0); // showing boxes again starts with the leaves
-    scene_free(&fixture.scene);
 }
 
-static void exposure_goes_by_half_stops(void **state)
+TEST(exposure_goes_by_half_stops)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     assert_true(state_gain(&fixture.state) == 1);
     press(&fixture, "++");
     assert_true(state_gain(&fixture.state) == 2);
@@ -208,13 +191,11 @@ static void exposure_goes_by_half_stops(void **state)
     assert_true(state_gain(&fixture.state) == 0.25);
     press(&fixture, "====");
     assert_true(state_gain(&fixture.state) == 1);
-    scene_free(&fixture.scene);
 }
 
-static void commands_are_given_and_change_nothing(void **state)
+TEST(commands_are_given_and_change_nothing)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     const State before = fixture.state;
     assert_int_equal(press(&fixture, "c"), COMMAND_CAMERA);
     assert_int_equal(press(&fixture, "s"), COMMAND_SAVE);
@@ -225,90 +206,74 @@ static void commands_are_given_and_change_nothing(void **state)
     const Event click = {.kind = EVENT_CLICK, .right = 3, .down = 4};
     assert_int_equal(state_apply(&fixture.state, &click, &fixture.facts), COMMAND_EXPLAIN);
     assert_memory_equal(&before, &fixture.state, sizeof before);
-    scene_free(&fixture.scene);
 }
 
-static void escape_leaves_full_screen_before_the_window(void **state)
+TEST(escape_leaves_full_screen_before_the_window)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     const Event full = {.kind = EVENT_KEY, .key = KEY_FULL_SCREEN};
     assert_int_equal(state_apply(&fixture.state, &full, &fixture.facts), 0);
     assert_true(fixture.state.full_screen);
     assert_int_equal(press(&fixture, "\033"), 0);
     assert_false(fixture.state.full_screen);
     assert_int_equal(press(&fixture, "\033"), COMMAND_QUIT);
-    scene_free(&fixture.scene);
 }
 
-static void turning_moves_the_camera_with_time_alone(void **state)
+TEST(turning_moves_the_camera_with_time_alone)
 {
-    (void)state;
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     state_advance(&fixture.state, 1);
     assert_false(fixture.state.moved);
     press(&fixture, "o");
     state_advance(&fixture.state, 1);
     assert_true(near(fixture.state.orbit.rotation, 45));
-    scene_free(&fixture.scene);
 }
 
-static void a_scene_read_again_moves_only_a_camera_at_its_place(void **state)
+TEST(a_scene_read_again_moves_only_a_camera_at_its_place)
 {
-    (void)state;
-    Fixture fixture = opened("camera 5 0 0 0 0 0 45");
-    Fixture changed = opened("camera 7 0 0 0 0 0 45");
+    FREED_BY(release) Fixture fixture = opened("camera 5 0 0 0 0 0 45");
+    FREED_BY(release) Fixture changed = opened("camera 7 0 0 0 0 0 45");
     state_adopt(&fixture.state, &changed.facts);
     assert_true(fixture.state.camera.eye.x == 7);
     happen(&fixture, EVENT_TURN, 4, 0);
     const Viewpoint moved = fixture.state.camera;
-    Fixture again = opened("camera 9 0 0 0 0 0 45");
+    FREED_BY(release) Fixture again = opened("camera 9 0 0 0 0 0 45");
     again.facts.levels = 1;
     press(&fixture, "B]]]");
     state_adopt(&fixture.state, &again.facts);
     assert_memory_equal(&moved, &fixture.state.camera, sizeof moved);
     assert_int_equal(fixture.state.level, 1);
-    scene_free(&fixture.scene);
-    scene_free(&changed.scene);
-    scene_free(&again.scene);
 }
 
-static void another_scene_is_seen_through_its_first_camera(void **state)
+TEST(another_scene_is_seen_through_its_first_camera)
 {
-    (void)state;
-    Fixture fixture = opened("camera 5 0 0 0 0 0 45\ncamera 6 0 0 0 0 0 45");
-    Fixture other = opened("camera 7 0 0 0 0 0 45\ncamera 8 0 0 0 0 0 45");
+    FREED_BY(release) Fixture fixture = opened("camera 5 0 0 0 0 0 45\ncamera 6 0 0 0 0 0 45");
+    FREED_BY(release) Fixture other = opened("camera 7 0 0 0 0 0 45\ncamera 8 0 0 0 0 0 45");
     press(&fixture, "2rn");
     happen(&fixture, EVENT_TURN, 4, 0);
     state_open(&fixture.state, &other.facts);
     assert_true(fixture.state.camera.eye.x == 7 && fixture.state.view == 1);
     assert_true(!fixture.state.moved && fixture.state.traced && fixture.state.normals);
-    scene_free(&fixture.scene);
-    scene_free(&other.scene);
 }
 
-static void the_printed_camera_is_read_back_to_the_bit(void **state)
+TEST(the_printed_camera_is_read_back_to_the_bit)
 {
-    (void)state;
     char text[STATUS_TEXT_SIZE] = "";
     FILE *stream = fmemopen(text, sizeof text, "w");
-    Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
+    FREED_BY(release) Fixture fixture = opened("up 0.1 0.2 0.9\ncamera 1 2 3  0.3 0.1 0  33.3");
     happen(&fixture, EVENT_TURN, 17, 31);
     assert_non_null(stream);
     status_text_camera(&fixture.state, stream);
     fclose(stream);
     assert_memory_equal(text, "azimuth ", 8);
-    Fixture back = opened(strchr(text, '\n'));
+    FREED_BY(release) Fixture back = opened(strchr(text, '\n'));
     assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
-    scene_free(&fixture.scene);
-    scene_free(&back.scene);
 }
 
-static void the_title_tells_view_and_progress(void **state)
+TEST(the_title_tells_view_and_progress)
 {
-    (void)state;
     char text[256];
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     Figures figures = {.scene_name = "a.scn", .busy = ""};
     status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - OpenGL - clrt");
@@ -319,14 +284,12 @@ static void the_title_tells_view_and_progress(void **state)
     figures.is_finished = true;
     status_text_title(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "a.scn - ray traced - clrt");
-    scene_free(&fixture.scene);
 }
 
-static void the_line_tells_messages_first_and_the_panel_failures_and_help(void **state)
+TEST(the_line_tells_messages_first_and_the_panel_failures_and_help)
 {
-    (void)state;
     char text[STATUS_TEXT_SIZE];
-    Fixture fixture = opened("");
+    FREED_BY(release) Fixture fixture = opened("");
     Figures figures = {.samples = 2,
                        .divisor = 2,
                        .frame_seconds = 0.0123,
@@ -353,30 +316,4 @@ static void the_line_tells_messages_first_and_the_panel_failures_and_help(void *
     status_text_panel(text, sizeof text, &fixture.state, &figures);
     assert_memory_equal(text, "pixel 1,2\n", 10);
     assert_string_equal(text + 10, status_text_help());
-    scene_free(&fixture.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_courses_cameras_are_on_the_courses_orbits),
-        cmocka_unit_test(a_camera_that_has_not_moved_is_the_scenes_to_the_bit),
-        cmocka_unit_test(an_orbit_gives_back_the_camera_it_was_made_of),
-        cmocka_unit_test(dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole),
-        cmocka_unit_test(what_is_looked_at_follows_a_drag_sideways),
-        cmocka_unit_test(zooming_keeps_to_the_courses_distances),
-        cmocka_unit_test(scenes_of_any_size_zoom_alike),
-        cmocka_unit_test(every_switch_has_a_key_that_turns_it_back),
-        cmocka_unit_test(levels_go_from_the_leaves_to_the_deepest_inner_nodes),
-        cmocka_unit_test(exposure_goes_by_half_stops),
-        cmocka_unit_test(commands_are_given_and_change_nothing),
-        cmocka_unit_test(escape_leaves_full_screen_before_the_window),
-        cmocka_unit_test(turning_moves_the_camera_with_time_alone),
-        cmocka_unit_test(a_scene_read_again_moves_only_a_camera_at_its_place),
-        cmocka_unit_test(another_scene_is_seen_through_its_first_camera),
-        cmocka_unit_test(the_printed_camera_is_read_back_to_the_bit),
-        cmocka_unit_test(the_title_tells_view_and_progress),
-        cmocka_unit_test(the_line_tells_messages_first_and_the_panel_failures_and_help),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 // "--name=value" into three words. Optional values complete only after '='.
 #include "bash.h"
 
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 #include "command_names.h"
 #include "value.h"
 

@@ -2,7 +2,7 @@
 // In the order of the table, which is that of --help.
 #include "command_names.h"
 
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 
 void command_names_write(FILE *stream, const char *separator)
 {

@@ -2,7 +2,7 @@
 // Writes a line for each option. Fish offers an option if the command on the line accepts it.
 #include "fish.h"
 
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 #include "command_names.h"
 #include "value.h"
 

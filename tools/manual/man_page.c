@@ -3,7 +3,7 @@
 #include "man_page.h"
 
 #include "cli/commands.h"
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 #include "render/aov.h"
 #include "value.h"
 

@@ -2,7 +2,7 @@
 // The kinds of an option's value.
 #pragma once
 
-#include "cli/options/table.h"
+#include "cli/options/option.h"
 
 typedef enum {
     VALUE_NONE, // the option takes none

@@ -2,7 +2,7 @@
 // Writes a list of options for _arguments for rendering, and one for each command.
 #include "zsh.h"
 
-#include "cli/options/command.h"
+#include "cli/options/option.h"
 #include "command_names.h"
 #include "value.h"
 

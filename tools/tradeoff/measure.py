@@ -112,16 +112,70 @@ def first_rows(scene, options, folder):
                    for place, setting in enumerate(more)]
 
 
-def measure_scene(scene, name, options, folder):
-    """Returns all figures of one scene. Settings alternate, so that drift of the machine affects
-    all of them."""
-    folder.mkdir(parents=True, exist_ok=True)
-    report = draw_reference(scene, options, folder)
+def tasks_of(options):
+    """Returns the tasks of the grid: place in its scene's grid, setting, scene and folder."""
+    settings = grid.all_settings(options.quick, options.kinds)
+    return [(place, setting, scene, options.output / name)
+            for scene, name in zip(options.scenes, names_of(options.scenes))
+            for place, setting in enumerate(settings)]
+
+
+def missing_references(options):
+    return [number for number, name in enumerate(names_of(options.scenes), 1)
+            if not (options.output / name / "reference.json").exists()]
+
+
+def missing_settings(options):
+    return [number for number, (place, *_, folder) in enumerate(tasks_of(options), 1)
+            if not (folder / f"{place}.row").exists()]
+
+
+def run_task(options):
+    """Draws one reference, or measures one setting and stores its row."""
+    kind, number = options.task.split("-")
+    if kind == "reference":
+        scene = options.scenes[int(number) - 1]
+        folder = options.output / names_of(options.scenes)[int(number) - 1]
+        folder.mkdir(parents=True, exist_ok=True)
+        draw_reference(scene, options, folder)
+        return
+    place, setting, scene, folder = tasks_of(options)[int(number) - 1]
+    row = first_row(place, setting, scene, options, folder)
+    for _ in range(options.runs):
+        time_row(row, scene, options, folder)
+    partial = folder / f"{place}.row.part"
+    partial.write_text(json.dumps(row))
+    partial.rename(folder / f"{place}.row")
+
+
+def stored_rows(scene, options, folder):
+    """Returns the rows of run_task, and those of settings that their results demand."""
+    places = range(len(grid.all_settings(options.quick, options.kinds)))
+    rows = [json.loads((folder / f"{place}.row").read_text()) for place in places]
+    more = [first_row(len(rows) + place, setting, scene, options, folder)
+            for place, setting in enumerate(holding_settings(rows, scene, options, folder))]
+    for row in more * options.runs:
+        time_row(row, scene, options, folder)
+    return rows + more
+
+
+def measured_rows(scene, options, folder):
+    """Measures all settings of a scene. They alternate, so that drift of the machine affects all."""
     rows = first_rows(scene, options, folder)
     for turn in range(options.runs):
         for row in rows if turn % 2 == 0 else reversed(rows):
             time_row(row, scene, options, folder)
         print(f"{scene}: round {turn + 1} of {options.runs}", file=sys.stderr)
+    return rows
+
+
+def measure_scene(scene, name, options, folder):
+    """Returns all figures of one scene."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if options.task:
+        report, rows = json.loads((folder / "reference.json").read_text()), stored_rows(scene, options, folder)
+    else:
+        report, rows = draw_reference(scene, options, folder), measured_rows(scene, options, folder)
     for row in rows:
         finish_row(row)
     front.mark(rows)

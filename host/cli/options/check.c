@@ -2,8 +2,6 @@
 // Checks combinations of options. clrt rejects options that would have no effect.
 #include "cli/options/option.h"
 
-#include "cli/options/table.h"
-
 #include <string.h>
 
 #define NAMES_MOST 4
@@ -11,8 +9,7 @@
 // Options that exclude each other, regardless of their values.
 typedef struct {
     const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
-    const char *sentence;                               // a format; %s is the name of the first
-    // option
+    const char *sentence;                               // a format; %s is the first name
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"
@@ -22,7 +19,7 @@ static const Conflict conflicts[] = {
     {{"aa", REFINES},
      {"aa", REFINES},
      "--aa, --aa-adaptive, --error and --time each choose the samples: give one"},
-    {{"crop", "part", "resume"},
+    {{"crop", "part"},
      {REFINES},
      "--%s does not go with --aa-adaptive, --error and --time, which refine the picture as a "
      "whole: "
@@ -32,10 +29,6 @@ static const Conflict conflicts[] = {
     {{"frames", "turntable"},
      {"expect-hash"},
      "--frames and --turntable draw many pictures, and --expect-hash is of one"},
-    {{"frames", "turntable"},
-     {"resume"},
-     "--frames and --turntable draw many pictures, and --resume is of one: name those that are "
-     "missing by --frames"},
 };
 
 // Returns the first name on the command line, or NULL. Skips the name `but`.
@@ -155,7 +148,13 @@ static bool check_part(const Options *options, Error *error)
 
 static bool check_resume(const Options *options, Error *error)
 {
-    return !options->resume || strcmp(options->output_path, "-") != 0 ||
+    if (!options->resume)
+        return true;
+    if (options_are_adaptive(options))
+        return error_set(error,
+                         "--resume does not go with --aa-adaptive, --error and --time, which "
+                         "refine the picture as a whole: give --aa");
+    return strcmp(options->output_path, "-") != 0 ||
            error_set(error, "--resume needs a file: give -o FILE");
 }
 
@@ -169,6 +168,7 @@ static bool check_frames(Options *options, Error *error)
         {strcmp(options->output_path, "-") == 0, "standard output takes one: give -o FILE"},
         {options->statistics_path != NULL, "--stats=FILE is of one"},
         {options->reference_path != NULL, "--reference=FILE is of one"},
+        {options->resume && frames->is_film, "--resume wants a file for each: give another format"},
     };
     if (!frames_are_many(frames))
         return true;
@@ -181,8 +181,9 @@ static bool check_frames(Options *options, Error *error)
     if (frames->turntable > 0 && frames->last > frames->turntable)
         return error_set(error, "--turntable %u has no picture %u", frames->turntable,
                          frames->last);
-    frames_complete(&options->frames);
-    return true;
+    options->frames.skips_finished = options->resume;
+    options->resume = false;
+    return frames_complete(&options->frames, error);
 }
 
 // Error goals below this limit select fp64, because the error of fp32 was measured as 4e-5.
@@ -218,7 +219,7 @@ bool options_check_purpose(Options *options, Error *error)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_exposure(options, error) &&
            check_aovs(options, error) && check_part(options, error) &&
-           check_resume(options, error) && check_frames(options, error) &&
+           check_frames(options, error) && check_resume(options, error) &&
            check_certainty(options, error) && check_streams(options, error);
 }
 
@@ -228,9 +229,7 @@ bool options_check_compare(Options *options, Error *error)
         return options->format == NULL ||
                error_set(error,
                          "--format is for the picture of differences: give one with -o FILE");
-    const bool json_on_stdout =
-        options->json && (options->json_path == NULL || strcmp(options->json_path, "-") == 0);
-    if (strcmp(options->output_path, "-") == 0 && (json_on_stdout || !options->quiet))
+    if (strcmp(options->output_path, "-") == 0 && (options_print_json(options) || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
 }

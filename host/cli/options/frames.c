@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// File numbers follow the convention of programs that convert films to numbered pictures and back.
-#include "cli/options/frames.h"
+// Which pixels and which pictures a run draws. A pixel of a crop has the same bits as in the whole
+// picture. File numbers follow the convention of programs that convert films.
+#include "cli/options/options.h"
 
 #include "base/array.h"
 #include "base/number.h"
@@ -15,10 +16,9 @@ static bool in_range(int64_t number)
     return number >= 1 && number <= FRAMES_MOST;
 }
 
-bool frames_parse(Frames *frames, const char *text)
+static bool parse_range(Frames *frames, const char *text, const char *end)
 {
     int64_t first, last, step = 1;
-    const char *end = text + strlen(text);
     const char *next = integer_parse(text, end, &first);
     if (next == NULL || *next != '-')
         return false;
@@ -33,17 +33,41 @@ bool frames_parse(Frames *frames, const char *text)
     return true;
 }
 
-bool frames_are_many(const Frames *frames)
+bool frames_parse(Frames *frames, const char *text, Error *error)
 {
-    return frames->last > 0 || frames->turntable > 0;
+    const char *end = text + strcspn(text, ","), *share = *end == ',' ? end + 1 : text;
+    if (strchr(text, '/') == NULL)
+        return parse_range(frames, text, text + strlen(text));
+    return (share == text || parse_range(frames, text, end)) &&
+           share_parse(&frames->share, share, FRAMES_MOST, error);
 }
 
-void frames_complete(Frames *frames)
+bool frames_are_many(const Frames *frames)
 {
-    if (frames->last > 0 || frames->turntable == 0)
-        return;
-    frames->first = frames->step = 1;
-    frames->last = frames->turntable;
+    return frames->last > 0 || frames->turntable > 0 || frames->share.count > 0;
+}
+
+bool frames_complete(Frames *frames, Error *error)
+{
+    Share *share = &frames->share;
+    if (frames->last == 0 && frames->turntable == 0)
+        return error_set(error, "--frames I/N divides the pictures of a turntable or of a range: "
+                                "give --turntable, or --frames A-B,I/N");
+    if (frames->last == 0) {
+        frames->first = frames->step = 1;
+        frames->last = frames->turntable;
+    }
+    const uint32_t count = frames_count(frames), first = frames->first;
+    if (share->count > count)
+        return error_set(error, "--frames: %u pictures make at most %u runs, not %u", count, count,
+                         share->count);
+    if (share->count > 0) {
+        frames->first = first + share_begin(share, count) * frames->step;
+        share->index++; // the run ends where the next one begins
+        frames->last = first + (share_begin(share, count) - 1) * frames->step;
+        *share = (Share){0};
+    }
+    return true;
 }
 
 uint32_t frames_count(const Frames *frames)
@@ -72,4 +96,57 @@ char *frames_name(const char *pattern, uint32_t number, Error *error)
         snprintf(name, size, "%.*s%s%0*u%s", (int)(start - pattern), pattern,
                  last != NULL ? "" : ".", digits, number, end);
     return name;
+}
+
+bool crop_parse(Crop *crop, const char *text)
+{
+    const char *end = text + strlen(text);
+    *crop = (Crop){.is_given = true, .in_parts = strchr(text, '.') != NULL};
+    for (int i = 0; i < 4; i++) {
+        int64_t pixels = 0;
+        text = crop->in_parts ? number_parse(text, end, &crop->corners[i])
+                              : integer_parse(text, end, &pixels);
+        if (text == NULL || *text != (i < 3 ? ',' : '\0'))
+            return false;
+        text++;
+        crop->corners[i] = crop->in_parts ? crop->corners[i] : (double)pixels;
+        const double most = crop->in_parts ? 1 : PICTURE_SIZE_MAX;
+        if (!(crop->corners[i] >= 0 && crop->corners[i] <= most))
+            return false;
+    }
+    return crop->corners[0] < crop->corners[2] && crop->corners[1] < crop->corners[3];
+}
+
+static uint32_t edge_of(const Crop *crop, int corner, uint32_t side)
+{
+    const double place = crop->corners[corner];
+    return (uint32_t)(crop->in_parts ? place * side + 0.5 : place);
+}
+
+bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error)
+{
+    const uint32_t width = settings->width, height = settings->height;
+    if (!crop->is_given)
+        return true;
+    const uint32_t left = edge_of(crop, 0, width), top = edge_of(crop, 1, height),
+                   right = edge_of(crop, 2, width), bottom = edge_of(crop, 3, height);
+    if (right > width || bottom > height)
+        return error_set(error, "the crop %u,%u,%u,%u leaves the picture of %u x %u pixels", left,
+                         top, right, bottom, width, height);
+    if (left == right || top == bottom)
+        return error_set(error, "no pixel of the picture of %u x %u is in the crop", width, height);
+    settings->whole_width = width;
+    settings->whole_height = height;
+    settings->left = left;
+    settings->top = top;
+    settings->width = right - left;
+    settings->height = bottom - top;
+    return true;
+}
+
+json_t *crop_json(const RenderSettings *settings)
+{
+    return json_pack("[iiii]", (int)settings->left, (int)settings->top,
+                     (int)(settings->left + settings->width),
+                     (int)(settings->top + settings->height));
 }

@@ -16,11 +16,30 @@ bool option_names_file(const Option *option)
     return option->argument != NULL && strstr(option->argument, "FILE") != NULL;
 }
 
+static bool read_integer(const char *text, int64_t low, int64_t high, int64_t *number)
+{
+    const char *end = text + strlen(text);
+    return integer_parse(text, end, number) == end && *number >= low && *number <= high;
+}
+
+// Reads two integers, each from low to high, with a separator between them.
+static bool read_pair(const char *text, char separator, int64_t low, int64_t high, int64_t pair[2])
+{
+    const char *middle = integer_parse(text, text + strlen(text), &pair[0]);
+    return middle != NULL && *middle == separator && pair[0] >= low && pair[0] <= high &&
+           read_integer(middle + 1, low, high, &pair[1]);
+}
+
+static bool read_number(const char *text, double low, double high, double *number)
+{
+    const char *end = text + strlen(text);
+    return number_parse(text, end, number) == end && *number >= low && *number <= high;
+}
+
 static bool store_count(const Option *option, uint32_t *count, const char *text, Error *error)
 {
     int64_t number;
-    const char *end = text + strlen(text);
-    if (integer_parse(text, end, &number) != end || number < 1 || number > option->limit)
+    if (!read_integer(text, 1, option->limit, &number))
         return error_set(error, "--%s wants an integer between 1 and %lld, not '%s'", option->name,
                          (long long)option->limit, text);
     *count = (uint32_t)number;
@@ -29,26 +48,22 @@ static bool store_count(const Option *option, uint32_t *count, const char *text,
 
 static bool store_part(const Option *option, double *part, const char *text, Error *error)
 {
-    const char *end = text + strlen(text);
-    return (number_parse(text, end, part) == end && *part > 0 && *part <= 1) ||
+    return (read_number(text, 0, 1, part) && *part > 0) ||
            error_set(error, "--%s wants a number above 0 and up to 1, not '%s'", option->name,
                      text);
 }
 
 static bool store_area(const Option *option, uint32_t *area, const char *text, Error *error)
 {
-    int64_t width, height;
-    const char *end = text + strlen(text);
-    const char *cross = integer_parse(text, end, &width);
-    const bool is_side = cross == end && width >= 1 && width <= option->limit;
-    if (cross == NULL || *cross != 'x' || integer_parse(cross + 1, end, &height) != end ||
-        width < 1 || width > option->limit || height < 1 || height > option->limit)
+    int64_t sides[2];
+    const bool is_side = read_integer(text, 1, option->limit, &sides[0]);
+    if (!read_pair(text, 'x', 1, option->limit, sides))
         return error_set(error,
                          "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s%s%s%s",
                          option->name, (long long)option->limit, text, is_side ? ", perhaps " : "",
                          is_side ? text : "", is_side ? "x" : "", is_side ? text : "");
-    area[0] = (uint32_t)width;
-    area[1] = (uint32_t)height;
+    area[0] = (uint32_t)sides[0];
+    area[1] = (uint32_t)sides[1];
     return true;
 }
 
@@ -104,4 +119,164 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
         break;
     }
     return option->set(options, text, error);
+}
+
+// The setters of OPTION_ODD, in the order of option_table.
+
+bool set_output(Options *options, const char *text, Error *error)
+{
+    options->output_path = text;
+    return text[0] != '\0' || error_set(error, "--output wants the name of a file");
+}
+
+bool set_format(Options *options, const char *text, Error *error)
+{
+    options->format = image_format_named(text);
+    return options->format != NULL ||
+           error_set(error, "--format wants one of %s, not '%s'", image_format_names(), text);
+}
+
+bool set_exposure(Options *options, const char *text, Error *error)
+{
+    return read_number(text, -EXPOSURE_MOST, EXPOSURE_MOST, &options->exposure) ||
+           error_set(error, "--exposure wants stops between -%d and %d, not '%s'", EXPOSURE_MOST,
+                     EXPOSURE_MOST, text);
+}
+
+bool set_aov(Options *options, const char *text, Error *error)
+{
+    if (!aov_read_list(text, &options->aovs, error))
+        return false;
+    options->reference = options->reference || aov_needs(options->aovs, AOV_NEEDS_REFERENCE);
+    return true;
+}
+
+bool set_expect_hash(Options *options, const char *text, Error *error)
+{
+    options->expected_hash = text;
+    return (strlen(text) == FRAMEBUFFER_HASH_SIZE - 1 &&
+            strspn(text, "0123456789abcdefABCDEF") == FRAMEBUFFER_HASH_SIZE - 1) ||
+           error_set(error, "--expect-hash wants %d hexadecimal digits, not '%s'",
+                     FRAMEBUFFER_HASH_SIZE - 1, text);
+}
+
+bool set_crop(Options *options, const char *text, Error *error)
+{
+    return crop_parse(&options->crop, text) ||
+           error_set(error,
+                     "--crop wants X0,Y0,X1,Y1, pixels from the upper left corner or parts of the "
+                     "sides from 0 to 1, not '%s'",
+                     text);
+}
+
+bool set_max_level(Options *options, const char *text, Error *error)
+{
+    options->fits_level = strcmp(text, "auto") == 0;
+    return options->fits_level || read_integer(text, 0, MAX_LEVEL_LIMIT, &options->max_level) ||
+           error_set(error, "--max-level wants auto or an integer between 0 and %d, not '%s'",
+                     MAX_LEVEL_LIMIT, text);
+}
+
+bool set_error(Options *options, const char *text, Error *error)
+{
+    const size_t length = strlen(text);
+    const bool is_percent = length > 0 && text[length - 1] == '%';
+    const char *end = text + length - is_percent;
+    const bool ok = number_parse(text, end, &options->error_goal) == end;
+    options->error_goal /= is_percent ? 100 : 1;
+    return (ok && options->error_goal > 0 && options->error_goal <= 1) ||
+           error_set(error, "--error wants a number above 0 and up to 1, or 100%%, not '%s'", text);
+}
+
+bool set_time(Options *options, const char *text, Error *error)
+{
+    return (read_number(text, 0, TIME_GOAL_MOST, &options->time_goal) && options->time_goal > 0) ||
+           error_set(error, "--time wants seconds above 0 and up to %d, not '%s'", TIME_GOAL_MOST,
+                     text);
+}
+
+bool set_frames(Options *options, const char *text, Error *error)
+{
+    return frames_parse(&options->frames, text, error) ||
+           error_set(error,
+                     "--frames wants A-B or A-B:S, from 1 to %d, or I/N, auto/N, A-B,I/N or "
+                     "A-B,auto/N, not '%s'",
+                     FRAMES_MOST, text);
+}
+
+bool set_part(Options *options, const char *text, Error *error)
+{
+    Share share;
+    if (!share_parse(&share, text, PARTS_MAX, error))
+        return error_set(error,
+                         "--part wants I/N or auto/N, I from 1 to N and N up to %d, not '%s'",
+                         PARTS_MAX, text);
+    options->part = share.index;
+    options->parts = share.count;
+    return true;
+}
+
+bool set_list_devices(Options *options, const char *text, Error *error)
+{
+    options->action = ACTION_LIST_DEVICES;
+    options->lists_json = text != NULL && strcmp(text, "json") == 0;
+    return text == NULL || options->lists_json || strcmp(text, "text") == 0 ||
+           error_set(error, "--list-devices wants text or json, not '%s'", text);
+}
+
+bool set_stats(Options *options, const char *text, Error *error)
+{
+    options->statistics = true;
+    options->statistics_path = text;
+    return text == NULL || text[0] != '\0' || error_set(error, "--stats= wants the name of a file");
+}
+
+bool set_reference(Options *options, const char *text, Error *error)
+{
+    options->reference = true;
+    options->reference_path = text;
+    return text == NULL || image_format_of_path(text) != NULL ||
+           error_set(error, "--reference= wants the name of a picture whose ending is one of %s",
+                     image_format_names());
+}
+
+bool set_reference_samples(Options *options, const char *text, Error *error)
+{
+    int64_t samples;
+    options->reference = true;
+    // Each half of the samples makes a picture. The two pictures' difference measures the
+    // reference's own error.
+    if (!read_integer(text, 2, REFERENCE_SAMPLES_MAX, &samples) || samples % 2 != 0)
+        return error_set(error,
+                         "--reference-samples wants an even number between 2 and %d, not '%s'",
+                         REFERENCE_SAMPLES_MAX, text);
+    options->reference_samples = (uint32_t)samples;
+    return true;
+}
+
+bool set_explain_pixel(Options *options, const char *text, Error *error)
+{
+    int64_t place[2];
+    if (!read_pair(text, ',', 0, PICTURE_SIZE_MAX - 1, place))
+        return error_set(error,
+                         "--explain-pixel wants X,Y counted from 0, X from the left and Y "
+                         "from the top, not '%s'",
+                         text);
+    options->pixel[0] = (uint32_t)place[0];
+    options->pixel[1] = (uint32_t)place[1];
+    options->action = ACTION_EXPLAIN;
+    return true;
+}
+
+bool set_fail(Options *options, const char *text, Error *error)
+{
+    Error cause = {0};
+    return limits_parse(&options->limits, text, &cause) ||
+           error_set(error, "--fail %s", cause.text);
+}
+
+bool set_json(Options *options, const char *text, Error *error)
+{
+    options->json_path = text != NULL ? text : "-";
+    return options->json_path[0] != '\0' || error_set(error, "--json= wants the name of a file");
 }

@@ -62,8 +62,7 @@ typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
     const char *name;
-    const char *argument; // for --help; "a|b" for OPTION_WORD; "[=X]" if optional; NULL: no
-                          // argument
+    const char *argument; // for --help; "a|b" for OPTION_WORD; "[=X]" if optional; NULL: none
     char letter;          // the short form; 0: none
     OptionKind kind;
     size_t offset;        // of the field in Options
@@ -99,5 +98,48 @@ bool options_check_merge(Options *options, Error *error);
 
 // Setters of options whose values fit none of the kinds.
 SetOption set_output, set_format, set_exposure, set_aov, set_expect_hash, set_crop, set_max_level,
-    set_error, set_time, set_no_bvh, set_frames, set_part, set_list_devices, set_stats,
-    set_reference, set_reference_samples, set_explain_pixel, set_fail, set_json;
+    set_error, set_time, set_frames, set_part, set_list_devices, set_stats, set_reference,
+    set_reference_samples, set_explain_pixel, set_fail, set_json;
+
+// The table of all options. The parser, --help, the man page and the completions iterate over it.
+
+#define OPTIONS_MOST 64
+
+// Sorted by group.
+extern const Option option_table[];
+extern const size_t option_count; // at most OPTIONS_MOST
+
+// The heading of a group.
+extern const char *const option_group_names[OPTION_GROUPS];
+
+// The name of a class and its meaning; both are "" for CLASS_NONE.
+extern const char *const option_class_names[OPTION_CLASSES];
+extern const char *const option_class_meanings[OPTION_CLASSES];
+
+// Returns whether the command line contains the option. name must be in option_table.
+bool option_is_given(const Options *options, const char *name);
+
+// The commands. If the first operand names no command, clrt renders a scene.
+typedef struct {
+    const char *name;
+    Action action;
+    unsigned use;         // one FOR_... bit; the command accepts the options with this bit
+    const char *operands; // the arguments after the name, for --help
+    const char *help;
+    const char *two_operands; // two file operands, for messages; NULL: one scene, or parts
+} Command;
+
+extern const Command command_table[];
+extern const size_t command_count;
+
+// Returns the command called word, or NULL.
+const Command *command_named(const char *word);
+
+// Returns the command that an option such as --explain selects, or NULL.
+const Command *command_of_action(Action action);
+
+// Returns whether the command accepts the option. If command is NULL, clrt renders.
+bool command_takes(const Command *command, const Option *option);
+
+// Writes the commands that accept the option, for example "clrt check or clrt compare".
+void command_list_takers(const Option *option, char *text, size_t size);

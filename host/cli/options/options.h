@@ -3,14 +3,68 @@
 #pragma once
 
 #include "accel/bvh.h"
-#include "cli/options/crop.h"
-#include "cli/options/frames.h"
-#include "compare/limits.h"
+#include "base/error.h"
+#include "cli/options/share.h"
+#include "compare/difference.h"
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"
 
+#include <jansson.h>
+#include <stdint.h>
 #include <string.h>
+
+// The frames of a run and their file names. A frame is a view of the scene or a step of a
+// turntable.
+
+#define FRAMES_MOST 1000000
+
+typedef struct {
+    uint32_t first, last, step; // last is 0 without --frames
+    uint32_t turntable;         // steps per full turn; 0: frames are views
+    bool is_film;               // one animated file instead of numbered files
+    Share share;                // of the frames above, until frames_complete
+    bool skips_finished;        // skip frames whose files exist, and write only whole frames
+} Frames;
+
+// Parses "A-B" or "A-B:S", a share, or both with a comma between them. Returns false if text is
+// malformed, and fills error as share_parse does.
+bool frames_parse(Frames *frames, const char *text, Error *error);
+
+// Returns whether --frames or --turntable is given.
+bool frames_are_many(const Frames *frames);
+
+// Without a range, selects all steps of the turntable. Reduces first and last to the share. Fails
+// if there are fewer frames than shares.
+bool frames_complete(Frames *frames, Error *error);
+
+// Returns the number of pictures.
+uint32_t frames_count(const Frames *frames);
+
+// Returns the number of the frame at position place of the sequence; place counts from 0.
+uint32_t frames_at(const Frames *frames, uint32_t place);
+
+// Returns the file name of a frame. The number with leading zeros replaces the last run of '#' in
+// pattern. Without '#', a number such as ".0001" precedes the ending. The caller frees the name.
+// Returns NULL if memory is exhausted.
+char *frames_name(const char *pattern, uint32_t number, Error *error);
+
+// --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any of them has a dot.
+typedef struct {
+    bool is_given;
+    bool in_parts;     // fractions of the sides, each from 0 to 1
+    double corners[4]; // left, top, right and bottom; right and bottom are exclusive
+} Crop;
+
+// Parses text; returns false if it is malformed.
+bool crop_parse(Crop *crop, const char *text);
+
+// Replaces the settings of a whole picture by the crop's settings. Rounds fractions to the nearest
+// pixel edge, so adjacent crops neither overlap nor leave gaps.
+bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error);
+
+// Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.
+json_t *crop_json(const RenderSettings *settings);
 
 typedef enum {
     ACTION_RENDER,
@@ -30,12 +84,12 @@ typedef enum {
 // The exit status. If a signal stopped the process, the status is 128 + the signal's number.
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // failing findings of check, exceeded limits of compare, an unexpected hash,
-    // or a missed goal
+    EXIT_FAULTS = 1, // findings of check, limits of compare, an unexpected hash, a missed goal
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
-    EXIT_OUTPUT = 5
+    EXIT_OUTPUT = 5,
+    EXIT_BUSY = 75 // another process draws the picture; EX_TEMPFAIL of sysexits.h
 } ExitCode;
 
 // The treatment of triangles without area.
@@ -53,8 +107,10 @@ typedef enum {
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 
-// The default side of a tile in pixels. The window chooses other sizes.
-#define OPTIONS_TILE 128
+// The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
+// so that each part has more of them and takes about as long as the others.
+#define OPTIONS_TILE      128
+#define OPTIONS_PART_TILE 64
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
@@ -69,9 +125,8 @@ typedef enum {
 typedef struct {
     Action action;
     uint64_t given;         // bit i: the command line contains the option of row i of option_table
-    const char *scene_path; // the first picture of ACTION_COMPARE; NULL for ACTION_WARM without a
-    // scene
-    char **part_paths; // part_count file names of ACTION_MERGE
+    const char *scene_path; // the first picture of ACTION_COMPARE; may be NULL for ACTION_WARM
+    char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
     const char *output_path; // "-": standard output; NULL: no -o, so the window opens
@@ -86,12 +141,11 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
-    bool resume;
+    bool resume;          // one picture; frames have their own flag
     Frames frames;
     int64_t max_level; // negative: the scene's
-    bool fits_level;   // use the smallest max_level whose error is below half a step of the file's
-    // values
-    bool uses_bvh;
+    bool fits_level;   // use the smallest max_level whose error no file of the format shows
+    bool no_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one
     uint32_t threads;           // 0: as many as the process may use
@@ -111,14 +165,13 @@ typedef struct {
     bool hash;                 // print the hash of the pixels
     const char *expected_hash; // of the pixels; NULL: do not check
     const char *keys;          // key presses to play in the window; NULL for none
-    uint32_t quit_after;       // the number of frames before the window closes; 0: the user closes
-    // it
+    uint32_t quit_after;       // frames before the window closes; 0: the user closes it
     BadGeometry bad_geometry;
     bool lists_json;       // ACTION_LIST_DEVICES prints JSON
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
-    bool json;             // of check, compare, --explain and --explain-pixel
-    const char *json_path; // NULL or "-": print JSON instead of the text on standard output
+    const char *json_path; // of check, compare, --explain and --explain-pixel: NULL for text; "-":
+                           // print JSON instead of the text on standard output
     bool quiet, verbose;
 } Options;
 
@@ -126,6 +179,12 @@ typedef struct {
 static inline bool options_are_adaptive(const Options *options)
 {
     return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;
+}
+
+// Returns whether JSON replaces the text on standard output.
+static inline bool options_print_json(const Options *options)
+{
+    return options->json_path != NULL && strcmp(options->json_path, "-") == 0;
 }
 
 // Returns whether the scene comes from standard input, which can be read only once.

@@ -4,9 +4,7 @@
 #include "cli/options/options.h"
 
 #include "base/word.h"
-#include "cli/options/command.h"
 #include "cli/options/option.h"
-#include "cli/options/table.h"
 
 #include <assert.h>
 #include <getopt.h>
@@ -174,7 +172,6 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
                          .repeat = 1,
                          .reference_samples = REFERENCE_SAMPLES,
                          .max_level = -1,
-                         .uses_bvh = true,
                          .tile_width = OPTIONS_TILE,
                          .tile_height = OPTIONS_TILE};
     if (!read_options(options, count, arguments, error))

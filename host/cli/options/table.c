@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The table of options, in the order of --help.
-#include "cli/options/table.h"
-
+// The table of options, in the order of --help, and the table of commands. To open a scene file
+// called like a command, users write ./NAME.
 #include "cli/options/option.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <string.h>
 
 #define FIELD(kind, field) OPTION_##kind, offsetof(Options, field)
@@ -68,10 +68,10 @@ const Option option_table[] = {
     {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "build the tree by the surface area heuristic (default) or by midpoints; without this "
      "option, up to 32 triangles get no tree"},
-    {"no-bvh", NULL, 0, ODD(set_no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "build no tree and test every triangle"},
     {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
-     "size of the tiles in which the picture is traced (default: 128x128)"},
+     "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE, "size of the device's work-groups (default: 8x8; for packets 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
@@ -87,13 +87,16 @@ const Option option_table[] = {
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
      "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
-    {"frames", "A-B[:S]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw views A to B, or pictures A to B of the turntable, or every S-th of them"},
+    {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
+     "draw views A to B, or pictures A to B of the turntable, or every S-th of them; I/N draws the "
+     "I-th of N equal runs of them, or of the whole turntable, and auto/N is as for --part"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw only every N-th tile, from the I-th on; clrt merge joins the N parts"},
+     "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
+     "takes "
+     "I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
-     "incomplete EXR file"},
+     "incomplete EXR file; of many pictures, skip those whose files exist"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
@@ -188,4 +191,69 @@ bool option_is_given(const Options *options, const char *name)
         row++;
     assert(row < option_count);
     return (options->given >> row & 1) != 0;
+}
+
+// Commands that an option selects.
+static const Command silent_commands[] = {
+    {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
+    {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
+};
+
+#define SILENT_COMMANDS (sizeof silent_commands / sizeof silent_commands[0])
+
+const Command *command_of_action(Action action)
+{
+    for (size_t i = 0; i < SILENT_COMMANDS; i++)
+        if (silent_commands[i].action == action)
+            return &silent_commands[i];
+    return NULL;
+}
+
+const Command command_table[] = {
+    {"check", ACTION_CHECK, FOR_CHECK, "SCENE",
+     "report faults in the scene's geometry; draw nothing", NULL},
+    {"compare", ACTION_COMPARE, FOR_COMPARE, "PICTURE PICTURE",
+     "report how much two pictures differ; -o draws a map of the differences",
+     "the names of two pictures"},
+    {"merge", ACTION_MERGE, FOR_MERGE, "PART...",
+     "join the EXR files of all parts (--part) into the whole picture (-o)", NULL},
+    {"convert", ACTION_CONVERT, FOR_CONVERT, "SCENE FILE",
+     "write a scene or mesh as FILE: a .scn with a binary .ply per mesh beside it, or one .ply "
+     "with all meshes",
+     "the names of a scene or mesh and of the file to write"},
+};
+
+const size_t command_count = sizeof command_table / sizeof command_table[0];
+
+const Command *command_named(const char *word)
+{
+    for (size_t i = 0; i < command_count; i++)
+        if (strcmp(word, command_table[i].name) == 0)
+            return &command_table[i];
+    return NULL;
+}
+
+bool command_takes(const Command *command, const Option *option)
+{
+    return (option->uses & (command != NULL ? command->use : FOR_PICTURE)) != 0;
+}
+
+static size_t append_command(const char *name, char *text, size_t size, size_t length)
+{
+    if (length >= size)
+        return length;
+    return length + (size_t)snprintf(text + length, size - length, "%sclrt %s",
+                                     length > 0 ? " or " : "", name);
+}
+
+void command_list_takers(const Option *option, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < command_count; i++)
+        if (command_takes(&command_table[i], option))
+            length = append_command(command_table[i].name, text, size, length);
+    for (size_t i = 0; i < SILENT_COMMANDS; i++)
+        if (command_takes(&silent_commands[i], option))
+            length = append_command(silent_commands[i].name, text, size, length);
 }

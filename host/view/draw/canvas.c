@@ -78,7 +78,6 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
     return ok ? layer : NULL;
 }
 
-// Encodes count pixels from first on, multiplied by gain.
 static void encode_row(const Canvas *canvas, Layer *layer, size_t first, size_t count, double gain)
 {
     encode_channels(layer->framebuffer.pixels[first], 3 * count, canvas->encoding, gain,

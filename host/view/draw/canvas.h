@@ -5,7 +5,7 @@
 #pragma once
 
 #include "image/image_file.h"
-#include "render/tile.h"
+#include "render/renderer.h"
 
 #include <pthread.h>
 

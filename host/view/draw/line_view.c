@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws each box as an instance of a cube's edges or of a cube's diagonal.
-#include "view/draw/model_views.h"
-
-#include "view/draw/shader.h"
+#include "view/draw/draw.h"
 
 #include <stddef.h>
 

@@ -1,20 +1,54 @@
 // SPDX-License-Identifier: MIT
 // The course's viewer draws lines of length 0.15. Its scenes have a size of 2 to 4, which
 // normalization reduces to 1 to 2. The lines here are therefore half as long.
-#include "view/draw/boxes.h"
+#include "view/draw/draw.h"
+
+#include <stdlib.h>
+
+// The depth of the tree bounds the recursion.
+
+typedef struct {
+    Boxes *boxes;
+    const Bvh *bvh;
+    uint32_t level; // 0 for leaves; the root is at 1
+    Error *error;
+} Collection;
+
+static bool collect(const Collection *collection, uint32_t number, uint32_t level)
+{
+    const BvhNode *node = &collection->bvh->nodes[number];
+    const bool is_leaf = node->count > 0;
+    if (is_leaf ? collection->level == 0 : collection->level == level)
+        return array_push(collection->boxes, node->box, collection->error);
+    return is_leaf || (collect(collection, node->first, level + 1) &&
+                       collect(collection, node->first + 1, level + 1));
+}
+
+uint32_t boxes_levels(const Bvh *bvh)
+{
+    return bvh->depth > 0 ? bvh->depth - 1 : 0;
+}
+
+bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error)
+{
+    const Collection collection = {boxes, bvh, level, error};
+    return bvh->node_count == 0 || collect(&collection, 0, 1);
+}
+
+void boxes_free(Boxes *boxes)
+{
+    free(boxes->memory);
+    *boxes = (Boxes){0};
+}
 
 #define LINE_LENGTH 0.075
-
-static Vec3 point_at(const float point[4])
-{
-    return vec3((double)point[0], (double)point[1], (double)point[2]);
-}
 
 static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)
 {
     const Vec3 end = vec3_add(start, vec3_scale(vec3_normalize(normal), LINE_LENGTH));
-    const Box line = {{(float)start.x, (float)start.y, (float)start.z},
-                      {(float)end.x, (float)end.y, (float)end.z}};
+    Box line;
+    vec3_store(line.low, start);
+    vec3_store(line.high, end);
     return array_push(lines, line, error);
 }
 
@@ -22,10 +56,9 @@ static bool add_vertices(Boxes *lines, const Mesh *mesh, const float (*points)[4
 {
     bool ok = true;
     for (size_t vertex = 0; ok && vertex < mesh->vertex_count; vertex++) {
-        const float *n = mesh->normals[vertex];
-        const Vec3 normal = {(double)n[0], (double)n[1], (double)n[2]};
+        const Vec3 normal = vec3_of_floats(mesh->normals[vertex]);
         if (vec3_extent(normal) > 0)
-            ok = add_line(lines, point_at(points[vertex]), normal, error);
+            ok = add_line(lines, vec3_of_floats(points[vertex]), normal, error);
     }
     return ok;
 }
@@ -35,8 +68,8 @@ static bool add_faces(Boxes *lines, const Mesh *mesh, const float (*points)[4], 
     bool ok = true;
     for (size_t triangle = 0; ok && triangle < mesh->triangle_count; triangle++) {
         const uint32_t *corners = mesh->triangles[triangle];
-        const Vec3 a = point_at(points[corners[0]]), b = point_at(points[corners[1]]);
-        const Vec3 c = point_at(points[corners[2]]);
+        const Vec3 a = vec3_of_floats(points[corners[0]]), b = vec3_of_floats(points[corners[1]]);
+        const Vec3 c = vec3_of_floats(points[corners[2]]);
         const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
         const Vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
         ok = add_line(lines, middle, normal, error);

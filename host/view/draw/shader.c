@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Uses GLSL 1.40, which OpenGL 3.1 to 4.6 accept in all profiles.
-#include "view/draw/shader.h"
+#include "view/draw/draw.h"
 
 #define MESSAGE_SIZE 1024
 

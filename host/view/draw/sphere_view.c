@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes each sphere's position relative to the eye in fp64 for every frame. For a ground sphere
 // of radius 1e9, float cannot resolve this position.
-#include "view/draw/model_views.h"
-
-#include "view/draw/shader.h"
+#include "view/draw/draw.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,9 +55,7 @@ static void store_sphere(float *numbers, const Model *model, const Sphere *spher
     const Vec3 offset = vec3_sub(place, eye);
     const double radius = sphere->radius * model->normalization.scale;
     light_store_material(material, &model->scene.materials.data[sphere->material]);
-    numbers[0] = (float)offset.x;
-    numbers[1] = (float)offset.y;
-    numbers[2] = (float)offset.z;
+    vec3_store(numbers, offset);
     numbers[3] = (float)radius;
     memcpy(numbers + 4, material, sizeof material);
     numbers[HEIGHT_PLACE] = (float)(sqrt(vec3_dot(offset, offset)) - radius);

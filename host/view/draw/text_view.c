@@ -2,7 +2,7 @@
 // stb_truetype draws a packaged font into a texture. A panel is laid out repeatedly with a smaller
 // font, until it fits the window.
 #define STB_TRUETYPE_IMPLEMENTATION
-#include "view/draw/text_view.h"
+#include "view/draw/draw.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -231,7 +231,6 @@ static void draw_corners(TextView *view)
     glBindVertexArray(0);
 }
 
-// Draws a text below top, and returns its lower end.
 static float draw_text(TextView *view, const char *text, const TextOverlay *overlay, float top)
 {
     Pen pen, start = {.view = view, .size = SIZE * overlay->density};

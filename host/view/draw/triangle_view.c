@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles share vertices as in the meshes. Each object takes one draw call.
-#include "view/draw/model_views.h"
+#include "view/draw/draw.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -39,15 +39,10 @@ void triangle_view_close(TriangleView *view)
 
 static void store_vertex(Vertex *vertex, const float point[4], const float *normal)
 {
-    const Vec3 given = normal == NULL
-                           ? vec3(0, 0, 0)
-                           : vec3((double)normal[0], (double)normal[1], (double)normal[2]);
-    const Vec3 unit = vec3_normalize(given);
     for (int axis = 0; axis < 3; axis++)
         vertex->position[axis] = point[axis];
-    vertex->normal[0] = (float)unit.x;
-    vertex->normal[1] = (float)unit.y;
-    vertex->normal[2] = (float)unit.z;
+    vec3_store(vertex->normal,
+               normal == NULL ? vec3(0, 0, 0) : vec3_normalize(vec3_of_floats(normal)));
 }
 
 static void store_vertices(Vertex *vertices, const Model *model)

@@ -87,11 +87,11 @@ static size_t judge_ids(RayBatch *batch, Rays rays, const char *aim)
     return ties;
 }
 
-static void rays_at_a_fan_hit_its_lowest_triangle_t07(void **state)
+EXTREME(rays_at_a_fan_hit_its_lowest_triangle_t07)
 {
     Random random = {7};
-    const Rays rays = rays_make(RAYS);
-    Rig rig = rig_open("T-07", *state, shape_scene(shape_fan(TRIANGLES)));
+    FREED_BY(rays_free) const Rays rays = rays_make(RAYS);
+    FREED_BY(rig_close) Rig rig = rig_open("T-07", *state, shape_scene(shape_fan(TRIANGLES)));
     aim_at_apex(rays, &random);
     outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "aim=apex");
     // The test needs rays that hit several triangles at one distance.
@@ -99,8 +99,6 @@ static void rays_at_a_fan_hit_its_lowest_triangle_t07(void **state)
     aim_along_spokes(rays, &rig.stage.triangles, &random);
     outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "aim=spokes");
     judge_ids(*state, rays, "spokes");
-    rig_close(&rig);
-    free(rays.data);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown, EXTREME(rays_at_a_fan_hit_its_lowest_triangle_t07))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

@@ -51,27 +51,24 @@ static bool judge_leak(void *context, const Traced *traced)
     return leaks && verdict.id != NOTHING && verdict.clear;
 }
 
-static void a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09(void **state)
+EXTREME(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09)
 {
     Random random = {9};
     Outcome sum = {0};
     Cracks cracks = {0};
-    const Rays rays = rays_make(tier_size(1000, 10000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(1000, 10000));
     for (int rotation = 0; rotation < 10; rotation++) {
         Vec3 axes[3];
         random_rotation(&random, axes);
-        Rig rig = rig_open("T-09", *state, joined_halves(axes));
+        FREED_BY(rig_close) Rig rig = rig_open("T-09", *state, joined_halves(axes));
         aim_at_joint(rays, &rig.stage, axes, &random);
         cracks.triangles = &rig.stage.triangles;
         outcome_add(&sum, rig_judge(&rig, rays, judge_leak, &cracks));
-        rig_close(&rig);
     }
-    free(rays.data);
     outcome_report(sum,
                    "leaks=%zu oracle_leaks=%zu embree_default_leaks=%zu embree_robust_leaks=%zu",
                    cracks.leaks[BY_CLRT], cracks.true_leaks, cracks.leaks[BY_EMBREE_DEFAULT],
                    cracks.leaks[BY_EMBREE_ROBUST]);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(a_joint_of_meshes_leaks_no_more_than_its_true_cracks_t09))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

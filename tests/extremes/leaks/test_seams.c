@@ -10,6 +10,7 @@ static Outcome judge_diagonal(RayBatch *batch, const Vec3 axes[3], Random *rando
 {
     Vec3 from = {0};
     TestRay rays[QUAD_RAYS];
+    FREED_BY(rig_close)
     Rig rig = rig_open("T-05", batch, shape_scene(shape_plane(vec3(0, 0, 0), axes[0], axes[1], 1)));
     for (size_t i = 0; i < QUAD_RAYS; i++) {
         const double place = random_between(random, 0.01, 0.99);
@@ -20,12 +21,10 @@ static Outcome judge_diagonal(RayBatch *batch, const Vec3 axes[3], Random *rando
         rays[i] =
             ray_between_in(&rig.stage, rotated(axes, from), rotated(axes, vec3(place, place, 0)));
     }
-    const Outcome outcome = rig_judge(&rig, (Rays){rays, QUAD_RAYS}, judge_misses, NULL);
-    rig_close(&rig);
-    return outcome;
+    return rig_judge(&rig, (Rays){rays, QUAD_RAYS}, judge_misses, NULL);
 }
 
-static void no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05(void **state)
+EXTREME(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05)
 {
     Random random = {5};
     // A rotation by 90 degrees around (1, 1, 1) comes first.
@@ -61,8 +60,8 @@ static Scene random_pair(Random *random)
 static Outcome judge_pair(RayBatch *batch, Random *random)
 {
     Vec3 from = {0};
-    const Rays rays = rays_make(50000);
-    Rig rig = rig_open("T-06", batch, random_pair(random));
+    FREED_BY(rays_free) const Rays rays = rays_make(50000);
+    FREED_BY(rig_close) Rig rig = rig_open("T-06", batch, random_pair(random));
     for (size_t i = 0; i < rays.count; i++) {
         const double along = random_between(random, 0.01, 0.99);
         if (rays_move_origin(i, 64))
@@ -70,10 +69,7 @@ static Outcome judge_pair(RayBatch *batch, Random *random)
                                    vec3_add(random_in_cube(random, 1), vec3(0, 0, 3)));
         rays.data[i] = ray_between(from, point_of(&rig.stage.triangles, 0, along, 0));
     }
-    const Outcome outcome = rig_judge(&rig, rays, judge_misses, NULL);
-    rig_close(&rig);
-    free(rays.data);
-    return outcome;
+    return rig_judge(&rig, rays, judge_misses, NULL);
 }
 
 static void judge_pairs(RayBatch *batch, const char *contraction)
@@ -85,7 +81,7 @@ static void judge_pairs(RayBatch *batch, const char *contraction)
     outcome_report(sum, "contraction=%s", contraction);
 }
 
-static void no_ray_slips_between_two_triangles_whether_contracted_or_not_t06(void **state)
+EXTREME(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06)
 {
     RayBatch contracted;
     judge_pairs(*state, "off");
@@ -116,7 +112,7 @@ static void judge_plane(const Rig *rig, double distance, PlaneTarget kind)
     static const char *const names[] = {"points", "edges", "vertices"};
     Random random = {(uint64_t)(8000 + kind)};
     Vec3 from = {0};
-    const Rays rays = rays_make(tier_size(20000, 250000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(20000, 250000));
     for (size_t i = 0; i < rays.count; i++) {
         if (rays_move_origin(i, 64))
             from = vec3_sub(random_in_cube(&random, 2), vec3(distance - PLANE_X, 0, 0));
@@ -124,11 +120,11 @@ static void judge_plane(const Rig *rig, double distance, PlaneTarget kind)
     }
     outcome_report(rig_judge(rig, rays, judge_misses, NULL), "aim=%s distance=%g", names[kind],
                    distance);
-    free(rays.data);
 }
 
-static void no_ray_passes_a_plane_far_from_the_origin_t08(void **state)
+EXTREME(no_ray_passes_a_plane_far_from_the_origin_t08)
 {
+    FREED_BY(rig_close)
     Rig rig = rig_open(
         "T-08", *state,
         shape_scene(shape_plane(vec3(PLANE_X, -6, -6), vec3(0, 12, 0), vec3(0, 0, 12), 200)));
@@ -136,10 +132,6 @@ static void no_ray_passes_a_plane_far_from_the_origin_t08(void **state)
     judge_plane(&rig, 2.5, PLANE_EDGES);
     judge_plane(&rig, 2.5, PLANE_VERTICES);
     judge_plane(&rig, PLANE_X, PLANE_EDGES);
-    rig_close(&rig);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05),
-          EXTREME(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06),
-          EXTREME(no_ray_passes_a_plane_far_from_the_origin_t08))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

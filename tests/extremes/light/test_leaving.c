@@ -25,14 +25,14 @@ static void leaving_free(Leaving *leaving)
 static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t lowest,
                            Random *random)
 {
-    Vec3 direction = random_unit(random);
+    Vec3 direction = random_direction(random);
     if (ray % 4 == 0) {
         const double height =
             scalbn(random_between(random, 0.5, 1), -(int)random_below(random, lowest));
         const Vec3 along = vec3_sub(direction, vec3_scale(normal, vec3_dot(normal, direction)));
         direction = vec3_normalize(vec3_add(along, vec3_scale(normal, height)));
     }
-    vec3_store(leaving->outward[ray], direction);
+    shape_store(leaving->outward[ray], direction);
 }
 
 // Counts two tries for each ray that left a surface: a reflected ray and a shadow ray. The ray
@@ -78,7 +78,7 @@ static Scene triangle_and_twin(Random *random)
     return scene;
 }
 
-static void a_ray_that_leaves_a_triangle_never_meets_it_again_t37(void **state)
+EXTREME(a_ray_that_leaves_a_triangle_never_meets_it_again_t37)
 {
     Random random = {37};
     Outcome sum = {0};
@@ -87,7 +87,7 @@ static void a_ray_that_leaves_a_triangle_never_meets_it_again_t37(void **state)
     Leaving leaving = leaving_make(tier_size(200, 1000));
     for (size_t i = 0; i < triangles; i++) {
         Stage stage;
-        Scene scene = triangle_and_twin(&random);
+        FREED_BY(scene_free) Scene scene = triangle_and_twin(&random);
         stage_make(&stage, &scene, TREE_SAH);
         const Vec3 normal = normal_of(&stage.triangles, 0);
         for (size_t ray = 0; ray < leaving.rays.count; ray++) {
@@ -100,7 +100,6 @@ static void a_ray_that_leaves_a_triangle_never_meets_it_again_t37(void **state)
         ray_batch_upload(*state, &stage.flat);
         outcome_add(&sum, judge_leaving("T-37", *state, &leaving));
         stage_free(&stage);
-        scene_free(&scene);
     }
     report_leaving(sum, "triangles", triangles * leaving.rays.count / 4);
     leaving_free(&leaving);
@@ -116,7 +115,7 @@ static void aim_at_shape(Leaving *leaving, const Triangles *triangles, Random *r
         const double u = random_between(random, 0.01, 0.9);
         const double v = i % 2 == 0 ? 0x1p-6 : random_between(random, 0.01, 0.99 - u);
         if (rays_move_origin(i, RAY_BUNDLE))
-            origin = vec3_scale(random_unit(random), 4);
+            origin = vec3_scale(random_direction(random), 4);
         leaving->rays.data[i] = ray_between(origin, point_of(triangles, triangle, u, v));
         choose_outward(leaving, i, normal_of(triangles, triangle), 10, random);
     }
@@ -126,7 +125,7 @@ static void judge_shape(RayBatch *batch, const char *name, Mesh mesh)
 {
     Stage stage;
     Random random = {3737};
-    Scene scene = shape_scene(mesh);
+    FREED_BY(scene_free) Scene scene = shape_scene(mesh);
     Leaving leaving = leaving_make(tier_size(10000, 500000));
     stage_make(&stage, &scene, TREE_SAH);
     ray_batch_upload(batch, &stage.flat);
@@ -134,10 +133,9 @@ static void judge_shape(RayBatch *batch, const char *name, Mesh mesh)
     report_leaving(judge_leaving("T-37", batch, &leaving), name, leaving.rays.count / 2);
     leaving_free(&leaving);
     stage_free(&stage);
-    scene_free(&scene);
 }
 
-static void a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37(void **state)
+EXTREME(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37)
 {
     judge_shape(*state, "cube", shape_cube(1, 9));
     judge_shape(*state, "plane", shape_plane(vec3(5, 7, 9), vec3(8, 0, 0), vec3(0, 8, 0), 64));
@@ -146,7 +144,7 @@ static void a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37(void **s
 }
 
 // Spheres have radii from 1e-4 to 1e4, and are up to 1e5 radii away.
-static void a_ray_that_leaves_a_sphere_never_meets_it_again_t38(void **state)
+EXTREME(a_ray_that_leaves_a_sphere_never_meets_it_again_t38)
 {
     Random random = {38};
     Outcome sum = {0};
@@ -156,11 +154,11 @@ static void a_ray_that_leaves_a_sphere_never_meets_it_again_t38(void **state)
     for (size_t i = 0; i < spheres; i++) {
         const double radius = pow(10, random_between(&random, -4, 4));
         const double away = radius * pow(10, random_between(&random, 0, 5));
-        const Vec3 center = vec3_scale(random_unit(&random), away);
+        const Vec3 center = vec3_scale(random_direction(&random), away);
         SphereData sphere = {.radius = (float)radius};
-        vec3_store(sphere.center, center);
+        shape_store(sphere.center, center);
         for (size_t ray = 0; ray < leaving.rays.count; ray++) {
-            const Vec3 from = random_unit(&random), to = random_unit(&random);
+            const Vec3 from = random_direction(&random), to = random_direction(&random);
             if (rays_move_origin(ray, 64))
                 origin = vec3_add(center, vec3_scale(from, random_between(&random, 2, 9) * radius));
             leaving.rays.data[ray] = ray_between(origin, vec3_add(center, vec3_scale(to, radius)));
@@ -173,7 +171,4 @@ static void a_ray_that_leaves_a_sphere_never_meets_it_again_t38(void **state)
     leaving_free(&leaving);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(a_ray_that_leaves_a_triangle_never_meets_it_again_t37),
-          EXTREME(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37),
-          EXTREME(a_ray_that_leaves_a_sphere_never_meets_it_again_t38))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

@@ -76,18 +76,16 @@ static bool judge_axis_ray(void *context, const Traced *traced)
     return traced->hit->t != INFINITY || traced->hit->id != NOTHING;
 }
 
-static void axis_parallel_rays_meet_a_lattice_cube_exactly_t20(void **state)
+EXTREME(axis_parallel_rays_meet_a_lattice_cube_exactly_t20)
 {
-    const Rays rays = rays_make(AXIS_RAYS);
+    FREED_BY(rays_free) const Rays rays = rays_make(AXIS_RAYS);
     for (size_t i = 0; i < rays.count; i++)
         rays.data[i] = axis_ray(i).ray;
     for (TreeKind tree = TREE_SAH; tree < TREE_KINDS; tree++) {
-        Rig rig = open_cube("T-20", *state, tree);
+        FREED_BY(rig_close) Rig rig = open_cube("T-20", *state, tree);
         outcome_report(rig_judge(&rig, rays, judge_axis_ray, &rig.stage.triangles), "tree=%s",
                        tree_names[tree]);
-        rig_close(&rig);
     }
-    free(rays.data);
 }
 
 // A plane through a face: the points whose product with normal is HALF.
@@ -108,29 +106,6 @@ static bool judge_plane(void *context, const Traced *traced)
         is_in_plane = is_in_plane && vec3_dot(point, plane->normal) == (double)HALF;
     }
     return is_in_plane;
-}
-
-// The cube's edge is at t = 1.
-static bool judge_top(void *context, const Traced *traced)
-{
-    return traced->hit->t != 1 || judge_plane(context, traced);
-}
-
-// Rays in the plane z = 0.5 of the cube's top start at x = -1.5 and reach its edge at x = -0.5.
-static void rays_in_the_plane_of_a_face_meet_its_neighbor_instead_t19(void **state)
-{
-    Rays rays = rays_make(25 * 25);
-    Rig rig = open_cube("T-19", *state, TREE_SAH);
-    Plane plane = {&rig.stage.triangles, {0, 0, 1}};
-    rays.count = 0;
-    for (int start = -12; start <= 12; start++)
-        for (int slope = -12; slope <= 12; slope++)
-            if (abs(start + slope) <= 8)
-                rays.data[rays.count++] = ray_between(vec3(-1.5, start / 16.0, 0.5),
-                                                      vec3(-0.5, (start + slope) / 16.0, 0.5));
-    outcome_report(rig_judge(&rig, rays, judge_top, &plane), "plane=face");
-    rig_close(&rig);
-    free(rays.data);
 }
 
 // Returns the octahedron |x| + |y| + |z| = 4, which is 0.5 in normalized coordinates.
@@ -164,17 +139,15 @@ static TestRay ray_in_tilted_plane(Random *random)
     return ray;
 }
 
-static void rays_in_a_tilted_plane_meet_a_neighbor_instead_t19(void **state)
+EXTREME(rays_in_a_tilted_plane_meet_a_neighbor_instead_t19)
 {
     Random random = {19};
-    const Rays rays = rays_make(20000);
-    Rig rig = rig_open("T-19", *state, octahedron());
+    FREED_BY(rays_free) const Rays rays = rays_make(20000);
+    FREED_BY(rig_close) Rig rig = rig_open("T-19", *state, octahedron());
     Plane plane = {&rig.stage.triangles, {1, 1, 1}};
     for (size_t i = 0; i < rays.count; i++)
         rays.data[i] = ray_in_tilted_plane(&random);
     outcome_report(rig_judge(&rig, rays, judge_plane, &plane), "plane=tilted");
-    rig_close(&rig);
-    free(rays.data);
 }
 
 // Returns a ray in the plane of a random triangle, as exactly as float allows.
@@ -211,10 +184,11 @@ static bool judge_point(void *context, const Traced *traced)
     return !(distance <= sqrt(3) * 24 * 0x1p-24 * reach);
 }
 
-static void hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19(void **state)
+EXTREME(hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19)
 {
     Random random = {1919};
-    const Rays rays = rays_make(200000);
+    FREED_BY(rays_free) const Rays rays = rays_make(200000);
+    FREED_BY(rig_close)
     Rig rig = rig_open("T-19", *state, shape_scene(shape_soup(&random, 2000, 0.2)));
     Soup soup = {&rig.stage.triangles, 0};
     for (size_t i = 0; i < rays.count; i++)
@@ -223,12 +197,6 @@ static void hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19(void **st
     outcome.count = soup.hits;
     outcome_report(outcome, "plane=random");
     assert_in_range(soup.hits, rays.count / 4, rays.count);
-    rig_close(&rig);
-    free(rays.data);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(rays_in_the_plane_of_a_face_meet_its_neighbor_instead_t19),
-          EXTREME(rays_in_a_tilted_plane_meet_a_neighbor_instead_t19),
-          EXTREME(hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19),
-          EXTREME(axis_parallel_rays_meet_a_lattice_cube_exactly_t20))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

@@ -35,12 +35,12 @@ static void aim_at_scales(Rays rays, const Stage *stage, Random *random)
     }
 }
 
-static void triangles_of_three_scales_are_all_hit_where_they_are_t18(void **state)
+EXTREME(triangles_of_three_scales_are_all_hit_where_they_are_t18)
 {
     Random random = {18};
     size_t clear = 0, small = 0;
-    const Rays rays = rays_make(tier_size(6000, 99999));
-    Rig rig = rig_open("T-18", *state, three_scales());
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(6000, 99999));
+    FREED_BY(rig_close) Rig rig = rig_open("T-18", *state, three_scales());
     Triangles *triangles = &rig.stage.triangles;
     aim_at_scales(rays, &rig.stage, &random);
     outcome_report(rig_judge(&rig, rays, judge_exactly, triangles), "scales=1e-6,1,1e6");
@@ -49,11 +49,8 @@ static void triangles_of_three_scales_are_all_hit_where_they_are_t18(void **stat
         clear += verdict.clear;
         small += verdict.clear && verdict.id == triangles->count - 1;
     }
-    rig_close(&rig);
-    free(rays.data);
     assert_in_range(clear, rays.count * 9 / 10, rays.count);
     assert_in_range(small, rays.count / 20, rays.count);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(triangles_of_three_scales_are_all_hit_where_they_are_t18))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

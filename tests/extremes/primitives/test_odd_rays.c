@@ -1,12 +1,47 @@
 // SPDX-License-Identifier: MIT
-// Rays that no picture should have: without direction, NaN, infinite, and from very far. They must
-// end in time and leave the rays beside them undisturbed.
+// Directions of zeros and denormals, and rays that no picture should have: without direction, NaN,
+// infinite, and from very far. They must end in time and leave the rays beside them undisturbed.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
 
 #include <string.h>
 #include <time.h>
+
+// Components of directions: zeros, denormals, the smallest normal numbers and small ones.
+static const float components[] = {0.0f,   -0.0f,   1e-45f, -1e-45f, 1e-38f, -1e-38f,
+                                   1e-20f, -1e-20f, 0.25f,  -0.25f,  1.0f,   -1.0f};
+
+#define DIRECTIONS (COUNT(components) * COUNT(components) * COUNT(components))
+#define INNER_RAYS 100 // per direction
+
+// Returns a ray from a point of the room. The digits of number choose the direction's components.
+static TestRay special_ray(size_t number, const Room *room, Random *random)
+{
+    TestRay ray = {.own = NOTHING};
+    vec3_store(ray.origin, room_point(room, random));
+    for (int axis = 0; axis < 3; axis++, number /= COUNT(components))
+        ray.direction[axis] = components[number % COUNT(components)];
+    return ray;
+}
+
+// Every direction leads from inside a closed shape to the shape. A camera's or reflection's is
+// about as long as 1, and a shadow ray is at least as long as its origin's distance from the
+// surface. Reciprocals of shorter directions overflow.
+EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
+{
+    Random random = {21};
+    FREED_BY(rays_free) Rays rays = rays_make(DIRECTIONS * INNER_RAYS);
+    FREED_BY(rig_close) Rig rig = rig_open("T-21", *state, shape_scene(shape_cube(1, 5)));
+    const Room room = room_inside(&rig.stage, vec3(0, 0, 0), 1);
+    rays.count = 0;
+    for (size_t i = 0; i < DIRECTIONS * INNER_RAYS; i++) {
+        const TestRay ray = special_ray(i / INNER_RAYS, &room, &random);
+        if (vec3_extent(vec3_of(ray.direction)) >= (double)1e-20f)
+            rays.data[rays.count++] = ray;
+    }
+    outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "shape=cube");
+}
 
 // A field is one of three coordinates of the origin or three of the direction. The last field means
 // the whole direction.
@@ -56,7 +91,7 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
 {
     size_t disturbed = 0;
     double usual, seconds, slowest = 0;
-    const Rays spoiled = rays_make(rays.count);
+    FREED_BY(rays_free) const Rays spoiled = rays_make(rays.count);
     TestHit *expected = trace_timed(batch, rays, &usual);
     for (int field = 0; field < FIELDS; field++) {
         memcpy(spoiled.data, rays.data, rays.count * sizeof *rays.data);
@@ -68,7 +103,6 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
             disturbed += count_disturbed(hits, expected, rays.count);
         free(hits);
     }
-    free(spoiled.data);
     free(expected);
     // Times at tier 0 mean nothing, because other tests run beside this one.
     disturbed += tier() > 0 && slowest > SLOWEST;
@@ -76,18 +110,17 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
                    (double)value, slowest);
 }
 
-static void rays_of_no_direction_or_no_number_meet_nothing_and_end_t23(void **state)
+EXTREME(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23)
 {
     static const float values[] = {0, NAN, -NAN, INFINITY, -INFINITY, 0x1p100f};
     Random random = {23};
-    const Rays rays = rays_make(tier_size(8192, 65536));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(8192, 65536));
+    FREED_BY(rig_close)
     Rig rig = rig_open("T-23", *state, shape_scene(shape_sphere(20, vec3(0, 0, 0))));
     const Room room = room_inside(&rig.stage, vec3(0, 0, 0), 1);
     rays_aim(rays, AIM_RANDOM, &room, &rig.stage.triangles, &random);
     for (size_t i = 0; i < COUNT(values); i++)
         judge_spoiled(*state, rays, values[i]);
-    rig_close(&rig);
-    free(rays.data);
 }
 
 // The hit must be the exact one, and its distance not NaN. clrt does not follow rays from beyond
@@ -116,11 +149,12 @@ static void aim_from(Rays rays, float distance, Random *random)
     }
 }
 
-static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
+EXTREME(rays_from_very_far_meet_what_is_there_or_nothing_t24)
 {
     static const float distances[] = {1e3f, 1e6f, 1e9f, 1e12f, 1e18f, 1e24f, 1e30f, 3e38f};
     Random random = {24};
-    const Rays rays = rays_make(tier_size(200, 2000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(200, 2000));
+    FREED_BY(rig_close)
     Rig rig = rig_open("T-24", *state, shape_scene(shape_sphere(20, vec3(0, 0, 0))));
     for (size_t i = 0; i < COUNT(distances); i++) {
         aim_from(rays, distances[i], &random);
@@ -130,10 +164,6 @@ static void rays_from_very_far_meet_what_is_there_or_nothing_t24(void **state)
         outcome_report(rig_judge(&rig, rays, judge_far, &rig.stage.triangles), "distance=%g",
                        (double)distances[i]);
     }
-    rig_close(&rig);
-    free(rays.data);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23),
-          EXTREME(rays_from_very_far_meet_what_is_there_or_nothing_t24))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

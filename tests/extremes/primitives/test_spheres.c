@@ -12,8 +12,8 @@ __extension__ typedef __float128 Quad;
 static SphereData sphere_of(Vec3 center, double radius)
 {
     SphereData data = {.radius = (float)radius};
-    vec3_store(data.center, center);
-    vec3_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
+    shape_store(data.center, center);
+    shape_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
     data.radius_low = (float)(radius - (double)data.radius);
     return data;
 }
@@ -97,15 +97,14 @@ static Vec3 at_distance(double distance)
     return vec3_scale(vec3_normalize(vec3(3, -2, 1.5)), distance);
 }
 
-static void a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31(void **state)
+EXTREME(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31)
 {
     Random random = {31};
-    const Rays rays = rays_make(tier_size(10000, 1000000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 1000000));
     const SphereData sphere = sphere_of(at_distance(1e6), 1e-6);
     aim_around(rays, at_distance(1e6), 1e-6, &random);
     const Differences found = trace(*state, &sphere, rays);
     outcome_report(outcome_of("T-31", rays.count, found.invalid), "false_hits=%zu", found.sides);
-    free(rays.data);
 }
 
 // Returns how many rays may be wrong at a distance. Beyond 1e5, the rays' directions are too
@@ -115,10 +114,10 @@ static size_t limit_at(double distance, size_t count)
     return distance < 0.9e5 ? 0 : distance < 0.9e6 ? (size_t)(2e-5 * (double)count) : count;
 }
 
-static void far_spheres_are_met_and_missed_as_exactly_t32(void **state)
+EXTREME(far_spheres_are_met_and_missed_as_exactly_t32)
 {
     Random random = {32};
-    const Rays rays = rays_make(tier_size(10000, 300000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 300000));
     for (double distance = 10; distance < 2e6; distance *= 10) {
         const SphereData sphere = sphere_of(at_distance(distance), 1);
         aim_around(rays, at_distance(distance), 1, &random);
@@ -129,7 +128,6 @@ static void far_spheres_are_met_and_missed_as_exactly_t32(void **state)
         outcome_report(outcome_of("T-32", rays.count, found.inexact + found.invalid),
                        "distance=%g largest_error=%.2g", distance, found.largest_error);
     }
-    free(rays.data);
 }
 
 // Traces the rays, and reports all differences.
@@ -141,11 +139,11 @@ static void judge_radius(const char *test, RayBatch *batch, const SphereData *sp
 }
 
 // Rays go downward from a height of 1 above the top of the sphere.
-static void the_ground_may_be_a_sphere_of_any_radius_t33(void **state)
+EXTREME(the_ground_may_be_a_sphere_of_any_radius_t33)
 {
     Random random = {33};
     Vec3 origin = {0};
-    const Rays rays = rays_make(tier_size(10000, 300000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 300000));
     for (double radius = 1e3; radius < 2e9; radius *= 10) {
         const SphereData sphere = sphere_of(vec3(0, 0, -radius), radius);
         for (size_t i = 0; i < rays.count; i++) {
@@ -159,15 +157,14 @@ static void the_ground_may_be_a_sphere_of_any_radius_t33(void **state)
         }
         judge_radius("T-33", *state, &sphere, rays);
     }
-    free(rays.data);
 }
 
-static void an_eye_inside_a_sphere_sees_its_far_wall_t34(void **state)
+EXTREME(an_eye_inside_a_sphere_sees_its_far_wall_t34)
 {
     static const double radii[] = {1, 1e6};
     Random random = {34};
     Vec3 origin = {0};
-    const Rays rays = rays_make(tier_size(10000, 300000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 300000));
     for (int i = 0; i < 2; i++) {
         const SphereData sphere = sphere_of(vec3(0.1 * radii[i], 0, -0.3 * radii[i]), radii[i]);
         for (size_t ray = 0; ray < rays.count; ray++) {
@@ -177,7 +174,6 @@ static void an_eye_inside_a_sphere_sees_its_far_wall_t34(void **state)
         }
         judge_radius("T-34", *state, &sphere, rays);
     }
-    free(rays.data);
 }
 
 // Pythagorean triples: (a, b) is on the circle of radius c around the origin.
@@ -201,7 +197,7 @@ static TestRay tangent(const int *triple, int apart, Random *random)
     return ray;
 }
 
-static void rays_along_a_tangent_are_met_by_the_exact_sign_t35(void **state)
+EXTREME(rays_along_a_tangent_are_met_by_the_exact_sign_t35)
 {
     for (int apart = -2; apart <= 2; apart++) {
         size_t sides = 0;
@@ -217,9 +213,4 @@ static void rays_along_a_tangent_are_met_by_the_exact_sign_t35(void **state)
     }
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31),
-          EXTREME(far_spheres_are_met_and_missed_as_exactly_t32),
-          EXTREME(the_ground_may_be_a_sphere_of_any_radius_t33),
-          EXTREME(an_eye_inside_a_sphere_sees_its_far_wall_t34),
-          EXTREME(rays_along_a_tangent_are_met_by_the_exact_sign_t35))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

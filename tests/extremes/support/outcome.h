@@ -25,19 +25,27 @@ static inline Outcome outcome_of(const char *test, size_t count, size_t failures
 // Adds the count and failures of another case of the same test. sum is {0} before the first.
 void outcome_add(Outcome *sum, Outcome more);
 
-// Prints the outcome of the case that details and its arguments describe. Details that start with
-// "skipped: " give the reason why the test cannot run on this machine.
+// Prints the outcome of the case that details and its arguments describe.
 __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const char *details,
                                                           ...);
 
-// Defines main, which runs the tests with these fixtures of their group.
-#define RUN_TESTS(setup, teardown, ...)                                                            \
-    int main(void)                                                                                 \
+// Fixtures of all tests of a program. They set the tests' *state.
+#define FIXTURES(set_up, tear_down)                                                                \
+    AT_START(fixtures)                                                                             \
     {                                                                                              \
-        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
-        return cmocka_run_group_tests(tests, setup, teardown);                                     \
+        test_set_up(set_up);                                                                       \
+        test_tear_down(tear_down);                                                                 \
     }
 
-// A test that continues after a case has more failures than its limit, and then fails at its end.
-#define EXTREME(function) cmocka_unit_test_setup_teardown(function, NULL, outcome_teardown)
-int outcome_teardown(void **state);
+// A TEST that continues after a case has more failures than its limit, and then fails at its end.
+#define EXTREME(name)                                                                              \
+    static void name##_cases(void **);                                                             \
+    TEST(name)                                                                                     \
+    {                                                                                              \
+        outcome_begin();                                                                           \
+        name##_cases(state);                                                                       \
+        outcome_end();                                                                             \
+    }                                                                                              \
+    static void name##_cases(__attribute__((unused)) void **state)
+void outcome_begin(void);
+void outcome_end(void);

@@ -1,36 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are equal on every machine: splitmix64 (Steele, Lea and Flood, "Fast
-// splittable pseudorandom number generators", 2014).
+// Random points and rotations.
 #pragma once
 
 #include "base/vec.h"
+#include "unit/random.h"
 
-#include <stdint.h>
-
-typedef struct {
-    uint64_t state; // any value is a seed
-} Random;
-
-static inline uint64_t random_bits(Random *random)
-{
-    random->state += 0x9e3779b97f4a7c15u;
-    uint64_t bits = random->state;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-}
-
-// Returns a number in [low, high).
-static inline double random_between(Random *random, double low, double high)
-{
-    return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
-}
-
-// Returns a number below count, which is at least 1.
-static inline uint32_t random_below(Random *random, uint32_t count)
-{
-    return (uint32_t)(((random_bits(random) >> 32) * count) >> 32);
-}
+typedef uint64_t Random; // any value is a seed
 
 // Returns a point of the cube [-half_side, half_side)^3.
 static inline Vec3 random_in_cube(Random *random, double half_side)
@@ -40,7 +15,8 @@ static inline Vec3 random_in_cube(Random *random, double half_side)
     return vec3(x, y, random_between(random, -half_side, half_side));
 }
 
-static inline Vec3 random_unit(Random *random)
+// Returns a vector of length 1.
+static inline Vec3 random_direction(Random *random)
 {
     return vec3_normalize(random_in_cube(random, 1));
 }

@@ -16,7 +16,7 @@
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
-                                                      "batch_each", "batch_boxes", "batch_leave"};
+                                                      "batch_each", "batch_leave"};
 
 static void require_success(cl_int status, const char *attempt)
 {
@@ -100,7 +100,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
         batch->choice.lanes = BATCH_LANES;
     cache_open(&batch->cache);
     require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&
-                file_read(&file, EXTREMES_FOLDER "/support/ray_batch.cl", &error),
+                file_read(&file, CLRT_SOURCE_FOLDER "/tests/extremes/support/ray_batch.cl", &error),
             &error);
     batch->rays = make_buffer(batch, NULL, BATCH_RAYS * sizeof(TestRay));
     batch->hits = make_buffer(batch, NULL, BATCH_RAYS * sizeof(TestHit));
@@ -190,24 +190,19 @@ static void run(const RayBatch *batch, BatchTask task, size_t items, TestHit *hi
                     "read hits");
 }
 
-// The properties that the rays of a packet share, and then the ray's index.
+// The ray's properties by which rays are sorted, so that alike ones form beams, and its index.
 typedef struct {
-    uint32_t kind;
-    float origin[3];              // zeros for reflected rays, which share none
-    uint32_t longest_axis, signs; // of the direction
+    uint32_t kind, signs; // signs of the direction
+    float origin[3];
     uint32_t index;
 } RayOrder;
 
-static RayOrder order_of(const TestRay *ray, uint32_t index, bool shares_origin)
+static RayOrder order_of(const TestRay *ray, uint32_t index)
 {
     RayOrder order = {.kind = ray->kind, .index = index};
-    if (shares_origin && ray->kind != RAY_REFLECTED)
-        memcpy(order.origin, ray->origin, sizeof order.origin);
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        if (fabsf(ray->direction[axis]) > fabsf(ray->direction[order.longest_axis]))
-            order.longest_axis = axis;
+    memcpy(order.origin, ray->origin, sizeof order.origin);
+    for (uint32_t axis = 0; axis < 3; axis++)
         order.signs = 2 * order.signs + (signbit(ray->direction[axis]) != 0);
-    }
     return order;
 }
 
@@ -216,45 +211,14 @@ static int compare_orders(const void *first, const void *second)
     return memcmp(first, second, sizeof(RayOrder));
 }
 
-// Returns the rays' orders, sorted so that the rays of a packet follow each other. The caller frees
-// them.
-static RayOrder *sorted_orders(Rays rays, bool share_origins)
+// Returns the rays' orders, sorted. The caller frees them.
+static RayOrder *sorted_orders(Rays rays)
 {
     RayOrder *orders = require_memory(rays.count, sizeof *orders);
     for (size_t i = 0; i < rays.count; i++)
-        orders[i] = order_of(&rays.data[i], (uint32_t)i, share_origins);
+        orders[i] = order_of(&rays.data[i], (uint32_t)i);
     qsort(orders, rays.count, sizeof *orders, compare_orders);
     return orders;
-}
-
-// Returns a wide node with the children of a pair and no others.
-static BvhWide widened(const BvhPair *pair)
-{
-    BvhWide wide = {.child_count = 2};
-    for (int axis = 0; axis < 3; axis++)
-        for (int child = 0; child < WIDE; child++) {
-            wide.planes[axis][0][child] = child < 2 ? pair->planes[axis][0][child] : 1;
-            wide.planes[axis][1][child] = child < 2 ? pair->planes[axis][1][child] : -1;
-        }
-    return wide;
-}
-
-// Uploads the nodes of the rays in the given order.
-static void upload_nodes(RayBatch *batch, const BvhPair *nodes, const RayOrder *orders,
-                         size_t count)
-{
-    BvhPair *pairs = require_memory(count, sizeof *pairs);
-    BvhWide *wides = require_memory(count, sizeof *wides);
-    for (size_t i = 0; i < count; i++) {
-        pairs[i] = nodes[orders[i].index];
-        wides[i] = widened(&pairs[i]);
-    }
-    if (batch->choice.nodes == NODES_WIDE)
-        set_array(batch, BATCH_NODES, wides, count * sizeof *wides);
-    else
-        set_array(batch, BATCH_NODES, pairs, count * sizeof *pairs);
-    free(pairs);
-    free(wides);
 }
 
 // Returns the rays from first on, as many as a launch takes.
@@ -264,19 +228,16 @@ static Rays chunk_of(Rays rays, size_t first)
     return (Rays){rays.data + first, left < BATCH_RAYS ? left : BATCH_RAYS};
 }
 
-// Traces rays in an order that suits packets. nodes are the rays' own for BATCH_BOXES, else NULL.
-static TestHit *trace_ordered(RayBatch *batch, BatchTask task, Rays rays, const BvhPair *nodes)
+TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays)
 {
     TestHit *hits = require_memory(rays.count, sizeof *hits);
     TestRay *ordered = require_memory(BATCH_RAYS, sizeof *ordered);
     TestHit *found = require_memory(BATCH_RAYS, sizeof *found);
     for (size_t first = 0; first < rays.count; first += BATCH_RAYS) {
         const Rays chunk = chunk_of(rays, first);
-        RayOrder *orders = sorted_orders(chunk, nodes == NULL);
+        RayOrder *orders = sorted_orders(chunk);
         for (size_t i = 0; i < chunk.count; i++)
             ordered[i] = chunk.data[orders[i].index];
-        if (nodes != NULL)
-            upload_nodes(batch, nodes + first, orders, chunk.count);
         write_buffer(batch, batch->rays, ordered, chunk.count * sizeof *ordered);
         run(batch, task, chunk.count, found, chunk.count);
         for (size_t i = 0; i < chunk.count; i++)
@@ -286,11 +247,6 @@ static TestHit *trace_ordered(RayBatch *batch, BatchTask task, Rays rays, const 
     free(ordered);
     free(found);
     return hits;
-}
-
-TestHit *ray_batch_trace(RayBatch *batch, BatchTask task, Rays rays)
-{
-    return trace_ordered(batch, task, rays, NULL);
 }
 
 TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3])
@@ -314,10 +270,4 @@ void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
     assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
     write_buffer(batch, batch->rays, ray, sizeof *ray);
     run(batch, BATCH_EACH, items, hits, triangles);
-}
-
-TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes)
-{
-    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
-    return trace_ordered(batch, BATCH_BOXES, rays, nodes);
 }

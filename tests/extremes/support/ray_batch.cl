@@ -94,9 +94,12 @@ static inline void trace_kind(const Tracer *tracer, const TestRays *all, RayKind
 }
 
 // Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
-static inline void trace_rays(const Tracer *tracer, const TestRays *all, bool are_shadows,
-                              global TestHit *hits)
+static inline void trace_rays(const Tracer *tracer, global const TestRay *rays, uint count,
+                              bool are_shadows, global TestHit *hits)
 {
+    TestRays all[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        all[i] = test_rays(rays, count, i);
     for (uint kind = RAY_CAMERA; kind <= RAY_SHADOW; kind++) {
         bool any = false;
         for (uint i = 0; i < PACKETS; i++)
@@ -119,19 +122,13 @@ static inline void trace_rays(const Tracer *tracer, const TestRays *all, bool ar
 kernel void batch_nearest(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    TestRays all[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        all[i] = test_rays(rays, count, i);
-    trace_rays(&tracer, all, false, hits);
+    trace_rays(&tracer, rays, count, false, hits);
 }
 
 kernel void batch_blocked(BATCH_ARGUMENTS)
 {
     BATCH_TRACER
-    TestRays all[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        all[i] = test_rays(rays, count, i);
-    trace_rays(&tracer, all, true, hits);
+    trace_rays(&tracer, rays, count, true, hits);
 }
 
 // The id of a ray that hits nothing, from a surface that the point at its end does not light.
@@ -219,50 +216,6 @@ kernel void batch_each(BATCH_ARGUMENTS)
                 (TestHit){distance_alone(triangles, block, place, &packet), id};
     }
 }
-
-// Returns which of its own node's first two boxes each lane's ray meets, as bits 0 and 1.
-static inline UInt boxes_met(global const Node *nodes, const Packet *packet, uint lanes)
-{
-    UInt met = 0;
-    const Bounds bounds = bounds_over(packet, 1);
-    const NearPlanes planes = near_planes(&packet->rays.slabs.inverse);
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const uint lane = lowest_bit(lanes);
-        float8 entry;
-        uint near = lane_bits(
-            CLRT_PACKET ? children_near(&nodes[lane], &bounds, INFINITY, &entry)
-                        : children_hit(&nodes[lane], &packet->rays, &planes, lane, INFINITY, &entry));
-        for (uint child = 0; child < 2 && CLRT_PACKET; child++) {
-            const Mask inside = lanes_in_child(&nodes[lane], child, packet, &bounds, INFINITY);
-            if ((lane_bits(inside) >> lane & 1) == 0)
-                near &= ~(1u << child);
-        }
-        ((uint *)&met)[lane] = near & 3;
-    }
-    return met;
-}
-
-// Stores which boxes of its own node each ray meets: bit 0 of id for the first, bit 1 for the
-// second. Rays whose directions share their signs form packets.
-kernel void batch_boxes(BATCH_ARGUMENTS)
-{
-    BATCH_TRACER
-    for (uint i = 0; i < PACKETS; i++) {
-        const TestRays all = test_rays(rays, count, i);
-        const Octants octants = octants_of(all.direction);
-        for (uint signs = 0; signs < 8; signs++) {
-            const Mask lanes = all.exists && lanes_of(lanes_in_octant(&octants, signs));
-            if (!any_lane(lanes))
-                continue;
-            Ray ray = ray_of(&tracer, &all, RAY_REFLECTED, lanes);
-            ray.direction = filled_lanes(all.direction, lanes);
-            Packet packet;
-            packet_prepare(&packet, &tracer, &ray);
-            store_hits(hits, &all, lanes, 0.0f,
-                       boxes_met(nodes + all.first, &packet, lane_bits(lanes)));
-        }
-    }
-}
 #else
 // Intersects the first ray with each of count triangles alone. Hits are in file order.
 kernel void batch_each(BATCH_ARGUMENTS)
@@ -276,20 +229,5 @@ kernel void batch_each(BATCH_ARGUMENTS)
     const Search search = search_along(&tracer, &ray);
     const Real t = triangle_distance(&triangles[place], &search);
     hits[triangles[place].id - frame.sphere_count] = (TestHit){t, triangles[place].id};
-}
-
-// The same for single rays.
-kernel void batch_boxes(BATCH_ARGUMENTS)
-{
-    const uint place = get_global_id(0);
-    if (place >= count)
-        return;
-    BATCH_TRACER
-    const TestRays all = test_rays(rays, count, 0);
-    const Ray ray = ray_of(&tracer, &all, (RayKind)all.kind, 1);
-    const Search search = search_along(&tracer, &ray);
-    Real2 entry, leave;
-    intersect_slabs(&nodes[place], &search, INFINITY, &entry, &leave);
-    hits[place] = (TestHit){0.0f, (entry.x <= leave.x ? 1u : 0u) | (entry.y <= leave.y ? 2u : 0u)};
 }
 #endif

@@ -32,7 +32,6 @@ typedef enum {
     BATCH_NEAREST, // nearest_hit
     BATCH_BLOCKED, // is_blocked: id is 1 or 0
     BATCH_EACH,    // ray_batch_each
-    BATCH_BOXES,   // ray_batch_boxes
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
@@ -78,7 +77,7 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
 // Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
 // from one origin and reflected rays form packets.
-TestHit *ray_batch_trace(RayBatch *batch, BatchTask task, Rays rays);
+TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
 // Intersects one ray with each triangle of the scene alone. Fills a hit per triangle, in file
 // order.
@@ -90,7 +89,3 @@ void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
 // Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or
 // the opposite direction, on the side that rays.data[i] came from. t is 0 without a surface.
 TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3]);
-
-// Returns hits whose id has bit 0 set if ray i meets the first box of nodes[i], and bit 1 for the
-// second box. Replaces the scene.
-TestHit *ray_batch_boxes(RayBatch *batch, Rays rays, const BvhPair *nodes);

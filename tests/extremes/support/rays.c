@@ -11,6 +11,11 @@ Rays rays_make(size_t count)
     return (Rays){require_memory(count, sizeof(TestRay)), count};
 }
 
+void rays_free(const Rays *rays)
+{
+    free(rays->data);
+}
+
 bool rays_move_origin(size_t i, size_t bundle)
 {
     return form_choice().family != FAMILY_PACKET || i % bundle == 0;
@@ -33,7 +38,7 @@ TestRay ray_between_in(const Stage *stage, Vec3 from, Vec3 to)
                        normalize_point(&stage->normalization, to));
 }
 
-static Vec3 random_target(Aim aim, const Triangles *triangles, Random *random)
+Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random)
 {
     const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
     const uint32_t corner = random_below(random, 3);
@@ -57,7 +62,7 @@ static double exact_part(double coordinate, double part)
 static Vec3 exact_origin(Vec3 *target, const Room *room, const Triangles *triangles, Random *random)
 {
     for (;;) {
-        const Vec3 vertex = random_target(AIM_VERTICES, triangles, random);
+        const Vec3 vertex = rays_target(AIM_VERTICES, triangles, random);
         const Vec3 part = vec3_add(vec3(0.5, 0.5, 0.5), random_in_cube(random, 0.5));
         const Vec3 origin = {exact_part(vertex.x, part.x), exact_part(vertex.y, part.y),
                              exact_part(vertex.z, part.z)};
@@ -78,7 +83,7 @@ void rays_aim(Rays rays, Aim aim, const Room *room, const Triangles *triangles, 
         if (aim == AIM_RANDOM)
             target = vec3_add(origin, random_in_cube(random, 1));
         else if (aim != AIM_VERTICES_EXACTLY)
-            target = random_target(aim, triangles, random);
+            target = rays_target(aim, triangles, random);
         rays.data[i] = ray_between(origin, target);
     }
 }

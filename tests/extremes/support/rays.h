@@ -5,8 +5,9 @@
 #include "ray_batch.h"
 #include "room.h"
 
-// Returns uninitialized rays. The caller frees rays.data.
+// Returns uninitialized rays.
 Rays rays_make(size_t count);
+void rays_free(const Rays *rays);
 
 // The rays of a packet start at one point. Returns whether ray i starts a new packet of `bundle`
 // rays; always true unless the kernels trace packets.
@@ -29,5 +30,8 @@ typedef enum {
     AIM_VERTICES_EXACTLY, // the same without rounding: origin + direction is the vertex
     AIM_KINDS
 } Aim;
+
+// Returns a random edge point or vertex.
+Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random);
 
 void rays_aim(Rays rays, Aim aim, const Room *room, const Triangles *triangles, Random *random);

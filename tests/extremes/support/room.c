@@ -72,7 +72,7 @@ bool room_contains(const Room *room, Vec3 point)
 static Vec3 float_place(const Normalization *normalization, Vec3 point)
 {
     float place[3];
-    vec3_store(place, denormalize_point(normalization, point));
+    shape_store(place, denormalize_point(normalization, point));
     return normalize_point(normalization, vec3_of(place));
 }
 

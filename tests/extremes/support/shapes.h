@@ -19,7 +19,7 @@ static inline Vec3 vec3_of(const float values[3])
     return vec3((double)values[0], (double)values[1], (double)values[2]);
 }
 
-static inline void vec3_store(float values[3], Vec3 vector)
+static inline void shape_store(float values[3], Vec3 vector)
 {
     values[0] = (float)shape_rounded(vector.x);
     values[1] = (float)shape_rounded(vector.y);

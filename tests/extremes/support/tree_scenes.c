@@ -5,11 +5,11 @@
 #include "check.h"
 #include "shapes.h"
 
-const char *const tree_scene_names[TREE_SCENES] = {"far_sphere",   "bumpy",  "fan",    "plane",
-                                                   "tilted_plane", "cube",   "soup",   "slivers",
-                                                   "coincident",   "nested", "spiral", "mixed"};
+const char *const tree_scene_names[TREE_SCENES] = {
+    "far_sphere", "bumpy",      "fan",    "plane",  "tilted_plane", "cube",        "soup",
+    "slivers",    "coincident", "nested", "spiral", "mixed",        "one_triangle"};
 
-enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED };
+enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED, ONE_TRIANGLE };
 
 // Moves the third corner of each triangle to the middle of the others, plus 1e-5 of its position.
 static Mesh slivers(Random *random)
@@ -49,6 +49,8 @@ static Mesh first_mesh(size_t number, Random *random)
         return shape_soup(random, 1, 1);
     case SPIRAL:
         return shape_soup(random, 10, 0.5);
+    case ONE_TRIANGLE:
+        return shape_triangle(vec3(-1, 0, -0.75), vec3(1, 0.5, -1), vec3(0.25, -0.5, 1));
     default:
         return shape_soup(random, 300, 0.4);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Twelve scenes that are hard for trees: flat, far, thin, equal, nested and mixed. Each is small
+// Scenes that are hard for trees: flat, far, thin, equal, nested, mixed and tiny. Each is small
 // enough to test every triangle.
 #pragma once
 
 #include "scene/scene.h"
 
-#define TREE_SCENES 12
+#define TREE_SCENES 13
 
 extern const char *const tree_scene_names[TREE_SCENES];
 

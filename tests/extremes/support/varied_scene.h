@@ -7,8 +7,5 @@
 
 Scene varied_scene(void);
 
-// Draws the varied scene. The caller frees the picture.
-Framebuffer varied_picture(const Studio *studio, const PictureSettings *settings);
-
-// Multiplies all lengths and places of a scene with one viewpoint by 2^exponent.
-void varied_scene_scale(Scene *scene, int exponent);
+// Multiplies all lengths and places of a scene with one viewpoint by scale, and then moves it.
+void varied_scene_place(Scene *scene, double scale, Vec3 move);

@@ -117,14 +117,11 @@ static void check_trees(const char *name, Scene scene)
     scene_free(&scene);
 }
 
-static void every_box_of_a_tree_holds_all_vertices_below_it_t27(void **state)
+EXTREME(every_box_of_a_tree_holds_all_vertices_below_it_t27)
 {
-    (void)state;
     for (size_t number = 0; number < TREE_SCENES; number++)
         check_trees(tree_scene_names[number], tree_scene_make(number));
     check_trees("sphere_k0", shape_scene(shape_sphere(100, shape_center(0))));
     check_trees("sphere_k10", shape_scene(shape_sphere(100, shape_center(10))));
     check_trees("sphere_k20", shape_scene(shape_sphere(100, shape_center(20))));
 }
-
-RUN_TESTS(NULL, NULL, EXTREME(every_box_of_a_tree_holds_all_vertices_below_it_t27))

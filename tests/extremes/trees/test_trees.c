@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-static Vec3 random_corner(const Triangles *triangles, Random *random)
-{
-    const uint32_t triangle = random_below(random, (uint32_t)triangles->count);
-    return corner_of(triangles, triangle, random_below(random, 3));
-}
-
 // Returns a point of the line through an edge of a random triangle.
 static Vec3 random_target(const Triangles *triangles, Random *random)
 {
@@ -25,7 +19,7 @@ static TestRay along_an_axis(Vec3 through, Random *random)
     const double sign = random_below(random, 2) == 0 ? -1 : 1;
     const Vec3 step = {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
     TestRay ray = ray_between(vec3_sub(through, vec3_scale(step, 2)), through);
-    vec3_store(ray.direction, step);
+    shape_store(ray.direction, step);
     return ray;
 }
 
@@ -42,13 +36,14 @@ static void make_free_rays(Rays rays, const Triangles *triangles, Random *random
         Vec3 origin = i % 8 == 4 ? far : near;
         Vec3 target = random_in_cube(random, 1);
         if (i % 8 == 1 || i % 8 == 2)
-            target = random_corner(triangles, random);
+            target = rays_target(AIM_VERTICES, triangles, random);
         else if (i % 8 == 3 || i % 8 == 4)
             target = random_target(triangles, random);
         else if (i % 8 == 5)
-            origin = random_corner(triangles, random);
-        rays.data[i] = i % 8 == 6 ? along_an_axis(random_corner(triangles, random), random)
-                                  : ray_between(origin, target);
+            origin = rays_target(AIM_VERTICES, triangles, random);
+        rays.data[i] = i % 8 == 6
+                           ? along_an_axis(rays_target(AIM_VERTICES, triangles, random), random)
+                           : ray_between(origin, target);
     }
 }
 
@@ -72,14 +67,13 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
 {
     Stage stage;
     Random random = {25 + number};
-    Scene scene = tree_scene_make(number);
+    FREED_BY(scene_free) Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, TREE_NONE);
     if (from_surfaces)
         make_surface_rays(rays, &stage, &random);
     else
         make_free_rays(rays, &stage.triangles, &random);
     stage_free(&stage);
-    scene_free(&scene);
     for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
         rays.data[i].kind = RAY_SHADOW;
         // A ray of twice the length meets its target halfway. The other rays end there.
@@ -91,17 +85,16 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
 static TestHit *trace(RayBatch *batch, BatchTask task, Rays rays, size_t number, TreeKind tree)
 {
     Stage stage;
-    Scene scene = tree_scene_make(number);
+    FREED_BY(scene_free) Scene scene = tree_scene_make(number);
     stage_make(&stage, &scene, tree);
     ray_batch_upload(batch, &stage.flat);
     stage_free(&stage);
-    scene_free(&scene);
     return ray_batch_trace(batch, task, rays);
 }
 
 static void compare_trees(RayBatch *batch, BatchTask task, bool from_surfaces)
 {
-    const Rays rays = rays_make(tier_size(10000, 100000));
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 100000));
     const uint32_t nothing = task == BATCH_BLOCKED ? 0 : NOTHING;
     const size_t least_met = rays.count / (task == BATCH_BLOCKED ? 100 : 20);
     for (size_t number = 0; number < TREE_SCENES; number++) {
@@ -124,21 +117,18 @@ static void compare_trees(RayBatch *batch, BatchTask task, bool from_surfaces)
         }
         free(expected);
     }
-    free(rays.data);
 }
 
-static void every_tree_finds_the_hits_that_testing_all_triangles_finds_t25(void **state)
+EXTREME(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25)
 {
     compare_trees(*state, BATCH_NEAREST, false);
     compare_trees(*state, BATCH_NEAREST, true);
 }
 
-static void every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25(void **state)
+EXTREME(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25)
 {
     compare_trees(*state, BATCH_BLOCKED, false);
     compare_trees(*state, BATCH_BLOCKED, true);
 }
 
-RUN_TESTS(ray_batch_setup, ray_batch_teardown,
-          EXTREME(every_tree_finds_the_hits_that_testing_all_triangles_finds_t25),
-          EXTREME(every_tree_finds_the_shadows_that_testing_all_triangles_finds_t25))
+FIXTURES(ray_batch_setup, ray_batch_teardown)

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The handlers stay installed while clrt writes the picture, so a single signal never loses traced
+// tiles. Before the first tile, a signal ends the process, as compilation cannot be interrupted.
+#include "cli/process.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t stopped_by, waits_for_tiles;
+static pid_t watcher;
+
+// Ends the process. Only the process that installed the handlers prints a message. Its forks, which
+// read or write pictures, end silently.
+static void end_process(int number)
+{
+    static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";
+    const bool speaks = getpid() == watcher;
+    const ssize_t told = speaks ? write(STDERR_FILENO, sentence, sizeof sentence - 1) : 0;
+    (void)told; // the process ends even if the message cannot be written
+    _exit(128 + number);
+}
+
+static void stop(int number)
+{
+    if (!waits_for_tiles)
+        end_process(number);
+    stopped_by = number;
+}
+
+// Installs the handler. A signal that is already ignored, as in a background job, stays ignored.
+static void take_signal(int number)
+{
+    struct sigaction before;
+    // SA_RESETHAND gives the second signal its default action.
+    struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, NULL, &before);
+    if (before.sa_handler != SIG_IGN)
+        sigaction(number, &action, NULL);
+}
+
+void stop_watch(void)
+{
+    watcher = getpid();
+    take_signal(SIGINT);
+    take_signal(SIGTERM);
+}
+
+void stop_wait_for_tiles(void)
+{
+    waits_for_tiles = 1;
+}
+
+int stop_signal(void)
+{
+    return stopped_by;
+}
+
+// RLIMIT_STACK bounds the main thread's stack and sets the default for other threads.
+#define STACK_LEAST ((rlim_t)8 << 20)
+#define STACK_SIZE  ((size_t)16 << 20)
+
+typedef struct {
+    void (*work)(void *context);
+    void *context;
+} Task;
+
+static void *run_task(void *context)
+{
+    const Task *task = context;
+    task->work(task->context);
+    return NULL;
+}
+
+static bool run_on_thread(Task *task)
+{
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    pthread_setattr_default_np(&attributes);
+    const bool ok = pthread_create(&thread, &attributes, run_task, task) == 0;
+    pthread_attr_destroy(&attributes);
+    if (ok)
+        pthread_join(thread, NULL);
+    return ok;
+}
+
+void stack_run(void (*work)(void *context), void *context)
+{
+    struct rlimit limit;
+    Task task = {work, context};
+    const bool is_small = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LEAST;
+    if (!is_small || !run_on_thread(&task))
+        work(context);
+}

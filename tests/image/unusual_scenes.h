@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Scenes with features that no scene of the course has: open two-sided meshes, facets and mirrors,
+// a huge sphere far away, and distant lights.
+#pragma once
+
+#define UNUSUAL(name) CLRT_SOURCE_FOLDER "/tests/image/" name ".scn"
+
+static const char *const unusual_scenes[] = {UNUSUAL("open_sheet"), UNUSUAL("mirrors"),
+                                             UNUSUAL("far_away"), UNUSUAL("distant_lights")};
+#define UNUSUAL_COUNT (sizeof unusual_scenes / sizeof *unusual_scenes)

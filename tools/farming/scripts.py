@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""Writes the job scripts, unless they exist. Their users may have changed them."""
+
+import os
+import shlex
+import sys
+
+from benchmark import common
+
+HEAD = """\
+#!/bin/sh
+#SBATCH --job-name={name}
+#SBATCH --output={log}
+#SBATCH --open-mode=append
+#SBATCH --requeue
+# {command}
+# Change this script as your machines need; the command above runs it again as it is.
+set -eu
+export CLRT={clrt}
+folder={folder}
+cd {here}
+"""
+
+# A task's number, from Slurm or from the command line.
+TASK = """\
+task=${1:-$SLURM_ARRAY_TASK_ID}
+"""
+
+# A task that is requeued finds its number in the same variable. The part gets its final name last, so
+# that a file of that name is whole.
+PART = """\
+part=$folder/part.$task.exr
+[ ! -e "$part" ] || exit 0
+status=0
+"$CLRT" {words} --part "$task/{parts}" --resume -o "$folder/drawing.$task.exr" || status=$?
+[ $status != 0 ] || mv "$folder/drawing.$task.exr" "$part"
+"""
+
+FRAMES = """\
+status=0
+"$CLRT" {words} --frames "{frames}$task/{parts}" --resume -o {output} || status=$?
+"""
+
+# Slurm starts the task again later, on any host. Until Slurm ends this run, it waits.
+END = """\
+# Status 75: a host that is cut off from the cluster still draws this.
+if [ $status = 75 ] && [ -n "${SLURM_JOB_ID-}" ]; then
+    scontrol requeue "$SLURM_JOB_ID"
+    sleep 600
+fi
+exit $status
+"""
+
+MERGE = """\
+"$CLRT" merge $(seq -f "part.%.0f.exr" {parts}) -o {output}
+"""
+
+
+def write(folder, command, scripts):
+    """Writes the scripts to the folder: (name, name of the log, where it runs, its lines)."""
+    first = folder / f"{scripts[0][0]}.sh"
+    if first.exists():
+        if f"\n# {command}\n" not in first.read_text():
+            sys.exit(f"{folder} is of another command: give that, or remove the folder")
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, log, here, lines in scripts:
+        head = HEAD.format(name=f"clrt-{name}", log=log, command=command, here=shlex.quote(str(here)),
+                           clrt=shlex.quote(os.path.abspath(common.CLRT)), folder=shlex.quote(str(folder)))
+        (folder / f"{name}.sh").write_text(head + lines)
+
+
+def write_farm(options, folder):
+    """Writes task.sh and, for parts, merge.sh to the folder."""
+    words = [options.scene, *options.more]
+    if options.turntable:
+        words += ["--turntable", str(options.turntable)]
+    frames = ["--frames", options.frames] if options.frames else []
+    command = "tools/farm " + shlex.join([*words, *frames, "-o", options.output,
+                                          "--parts", str(options.parts)])
+    values = {"words": shlex.join(words), "parts": options.parts,
+              "frames": f"{options.frames}," if options.frames else "",
+              "output": shlex.quote(options.output if options.numbers else os.path.abspath(options.output))}
+    lines = TASK + (FRAMES if options.numbers else PART).format(**values) + END
+    merge = [] if options.numbers else [("merge", "merge.log", folder, MERGE.format(**values))]
+    write(folder, command, [("task", "task-%a.log", os.getcwd(), lines), *merge])
