@@ -90,11 +90,11 @@ TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
 {
     const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
     ClrtPicture bad[] = {good, good, good, good, good, good};
-    static const char *const words[] = {"the width is 0",      "the height is 65537",
+    static const char *const words[] = {"the width is 0",      "the height is 131073",
                                         "samples is 65",       "the level is 1001",
                                         "view 3 is not among", "the width is 4.29497e+09"};
     bad[0].width = 0;
-    bad[1].height = 65537;
+    bad[1].height = 131073;
     bad[2].samples = 65;
     bad[3].max_level = 1001;
     bad[4].view = 3;
