@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Beams: up to PACKETS packets that walk the tree of wide nodes together. Bounds over all their
-// rays cull a node's children and a block's triangles for all packets at once. Each entry of the
-// stack knows the packets with rays inside its parent. Only those test their lanes against the
-// entry's own box, as single packets do (Wald, Slusallek, Benthin and Wagner, "Interactive
-// rendering with coherent ray tracing", 2001).
+// A beam is up to PACKETS packets that traverse the tree of wide nodes together. Bounds over all
+// their rays cull a node's children and a block's triangles for all packets at once. Each stack
+// entry stores which packets have rays inside its parent. Only these packets test their lanes
+// against the entry's own box, as single packets do (Wald, Slusallek, Benthin and Wagner,
+// "Interactive rendering with coherent ray tracing", 2001).
 #ifndef CLRT_BEAM_CL
 #define CLRT_BEAM_CL
 #include "bounds.cl"
@@ -11,8 +11,8 @@
 #if CLRT_WIDE_NODES
 
 // A subtree that this many lanes of a beam enter, or fewer, is searched ray by ray. Dense scenes
-// scatter rays. With the other limit, pictures of 6 thousand triangles take 9 % longer, and those
-// of a million 10 %.
+// scatter rays. With the other limit, scenes of 6 thousand triangles take 9 % longer, and scenes of
+// a million 10 %.
 #define MOST_LANES_LEAVING       12
 #define MOST_LANES_LEAVING_DENSE 40
 
@@ -32,7 +32,8 @@ typedef struct {
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
 
-// Returns bounds over the packets whose bits are set. Several packets get those of the whole beam.
+// Returns bounds over the packets whose bits are set. If several are set, returns the whole beam's
+// bounds.
 static inline const Bounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
@@ -80,7 +81,7 @@ static inline Mask lanes_in_child(global const BvhWide *node, uint child, const 
     return entry <= min(min(far_x, far_y), min(far_z, reach));
 }
 
-// Returns the packets that enter the child, and the bits of their lanes that do.
+// Returns the packets that enter the child, and stores their entering lanes in `bits`.
 static inline uint packets_entering(Beam *beam, uint child, uint packets, uint bits[PACKETS])
 {
     global const BvhWide *node = &beam->tracer->nodes[child / WIDE];
@@ -196,7 +197,7 @@ static inline void test_all_blocks(Beam *beam)
     }
 }
 
-// Sets up a beam of rays whose directions share their signs. The hits must be set.
+// Sets up a beam of rays whose directions share their signs. The count and the hits must be set.
 static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;
@@ -210,8 +211,8 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     beam->bounded = 0;
 }
 
-// Searches the nearest hits of the beam's rays, or any hits of shadow rays: together, or ray by
-// ray.
+// Finds the nearest hits of the beam's rays, or any hit of each shadow ray. If `alone` is set,
+// searches ray by ray.
 static NOT_INLINE void search_beam(Beam *beam, bool alone)
 {
     if (!CLRT_BVH || !beam->tracer->frame->uses_bvh)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bounds over rays whose directions share their signs, which cull a node's children and a block's
-// triangles eight at a time (Boulos, Wald and Shirley, "Geometric and arithmetic culling methods
-// for entire ray packets", 2006).
+// Computes bounds over rays whose directions share their signs. The bounds cull a node's children
+// and a block's triangles, eight at a time (Boulos, Wald and Shirley, "Geometric and arithmetic
+// culling methods for entire ray packets", 2006).
 #ifndef CLRT_BOUNDS_CL
 #define CLRT_BOUNDS_CL
 #include "packet.cl"
@@ -102,7 +102,8 @@ static inline float8 node_plane(global const BvhWide *node, const Bounds *bounds
     return vload8(0, node->planes[axis][bounds->axes[axis].negative ^ other]);
 }
 
-// Returns the children that some ray may enter before `reach`, and bounds of where.
+// Returns the children that some ray may enter before `reach`. Stores lower bounds of the entry
+// distances in *entry.
 static inline int8 children_near(global const BvhWide *node, const Bounds *bounds, float reach,
                                  float8 *entry)
 {
@@ -125,9 +126,9 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
     return (bounds->axes[axis].negative ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
-// Returns bits of the triangles that some ray may hit before `reach`: a third of a block's. Testing
-// one triangle against all lanes costs as much as this call. Sharing the bounds' comparison with
-// children_near makes pictures 2 to 4 % slower.
+// Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
+// block. Testing one triangle against all lanes costs as much as this call. Sharing the bounds'
+// comparison with children_near makes pictures 2 to 4 % slower.
 static inline uint triangles_near(global const TriangleBlock *block, const Bounds *bounds,
                                   float reach)
 {

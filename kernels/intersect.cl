@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Finds a ray's hit: the smallest (distance, id) of all primitives, or whether anything blocks a
-// shadow ray.
+// Finds a ray's nearest hit, the smallest (distance, id) of all primitives. For a shadow ray, finds
+// whether any primitive blocks it.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
 #include "pair.cl"
 #include "regroup.cl"
 #include "sphere.cl"
 
-// A ray hits its own sphere only from inside, and only by reflection.
+// Only a reflected ray can hit the sphere on which it starts, and only from inside.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
     if (ray->kind != RAY_REFLECTED || !any_lane(is_own))
@@ -77,9 +77,9 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
         intersect_triangles(tracer, rays, searching, count, hits);
 }
 
-// Finds anything between the shaded points and the light of shadow rays. If nothing blocks a ray,
-// its hit has no id, and t is the limit of the search. A primitive that the light lies on, within
-// the error of a distance, does not block it.
+// Finds whether a primitive lies between a shaded point and the light, for each shadow ray. If
+// nothing blocks a ray, its hit has no id, and t is the limit of the search. If the light lies on a
+// primitive, within the error of a distance, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];

@@ -11,7 +11,7 @@
 typedef struct {
     Search rays;   // inactive lanes copy an active one
     bool one_axis; // all rays have the same longest axis
-    uint axes[3];  // if so, the shear's x, y and z
+    uint axes[3];  // if one_axis is set, the shear's x, y and z axes
 } Packet;
 
 static inline void packet_prepare(Packet *packet, const Tracer *tracer, const Ray *ray)
@@ -42,14 +42,16 @@ static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet 
                     (Real)(at->block->corners[corner][packet->axes[2]][at->place]) - o.z);
 }
 
-// The result of testing a packet against a triangle: the lanes whose rays pass inside its edges.
+// The result of testing a packet against a triangle. `inside` selects the rays that pass inside its
+// edges.
 typedef struct {
     Corners sheared;
     Edges edges;
     Mask inside;
 } PacketTest;
 
-// Returns which rays stop on a triangle that their lines hit within rounding of the ray's own.
+// Returns which rays stop on a triangle so close to their starting triangle that rounding hides the
+// order.
 static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *packet,
                                         Mask from_back)
 {
@@ -59,7 +61,8 @@ static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *pa
     return known && hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
-// Returns the distances of those hits, INFINITY for rays that do not stop before `reach`.
+// Returns the distances of those hits, and INFINITY for other rays. Distances of camera rays may be
+// beyond `reach`.
 static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
                                     const PacketTest *test, Real reach)
 {
@@ -117,7 +120,7 @@ static ALWAYS_INLINE bool intersect_packet_triangle(const BlockPlace *at, const 
 }
 
 // Tests a block's triangles against the rays of the lanes whose bits are set. `near` has the bits
-// of the triangles that they may hit. Returns whether a hit changed.
+// of the triangles that these rays may hit. Returns whether a hit changed.
 static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const Packet *packet,
                                                  uint bits, uint near, Hit *best)
 {

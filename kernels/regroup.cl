@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Makes beams of a work-item's rays. Bounds cull only if directions share their signs, so the rays
-// of each octant form beams of their own. Rays in partly filled packets move together into full
-// ones, and their hits move back.
+// Groups the rays of a work-item into beams. Bounds cull only if directions share their signs, so
+// the rays of each octant form beams of their own. Rays in partly filled packets move together into
+// full ones, and their hits move back.
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
 #include "beam.cl"
 
 #if CLRT_WIDE_NODES
 
-// Fewer rays than this are faster one by one.
+// Groups of fewer rays are faster ray by ray.
 #define SMALLEST_BEAM 6
 
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssi512_mask)
 typedef int LaneRegister __attribute__((vector_size(64)));
 
-// Moves the lanes whose bits are set to the front, in their order.
+// Returns v with the lanes selected by `bits` moved to the front, in order.
 static inline UInt compressed(UInt v, uint bits)
 {
     return as_uint16(__builtin_ia32_compresssi512_mask((LaneRegister)as_int16(v),
                                                        (LaneRegister)as_int16(v), (ushort)bits));
 }
 
-// Undoes compressed in the lanes whose bits are set; the others keep `rest`.
+// Inverse of compressed(): moves the first lanes of v back to the lanes selected by `bits`. The
+// other lanes come from `rest`.
 static inline UInt expanded(UInt v, uint bits, UInt rest)
 {
     return as_uint16(__builtin_ia32_expandsi512_mask((LaneRegister)as_int16(v),
@@ -44,8 +45,8 @@ static inline UInt expanded(UInt v, uint bits, UInt rest)
 }
 #endif
 
-// Words of a ray in a list: its origin, its direction, the id and index of its own primitive, and
-// its hit's distance, id and index.
+// Words of a ray in a list: its origin, its direction, the id and index of the primitive it starts
+// on, and its hit's distance, id and index.
 enum {
     WORD_ORIGIN = 0,
     WORD_DIRECTION = 3,
@@ -107,7 +108,7 @@ static inline void list_fill(RayList *list)
         list_write(list, word, list->count, (UInt)(list->words[word][0]));
 }
 
-// Returns the ray of each lane of a packet, which starts at `place`.
+// Returns the packet of rays that starts at `place` in the list.
 static inline Ray list_ray(const RayList *list, uint place, RayKind kind)
 {
     const uint left = list->count - place;
@@ -187,8 +188,8 @@ typedef struct {
     bool alone;
 } RayGroup;
 
-// Searches the hits of a group. Full packets are not moved, which makes pictures of small scenes
-// 5 % faster.
+// Finds the hits of a group's rays. Full packets are not moved, which makes pictures of small
+// scenes 5 % faster.
 static inline void search_group(const Tracer *tracer, const Ray *rays, const RayGroup *group,
                                 Hit *hits)
 {
@@ -224,7 +225,7 @@ static inline Octants octants_of(Real3 direction)
     return (Octants){{sign_bits(direction.x), sign_bits(direction.y), sign_bits(direction.z)}};
 }
 
-// Returns the lanes whose octant has a lane's signs.
+// Returns the lanes whose directions have these signs.
 static inline uint lanes_in_octant(const Octants *octants, uint signs)
 {
     uint bits = ~0u;
@@ -244,7 +245,7 @@ static inline uint octant_of_lane(const Octants *octants, uint lane)
 typedef struct {
     Octants octants[PACKETS];
     uint left[PACKETS];  // bits of the lanes in no group yet
-    uint small[PACKETS]; // of those in groups that are too small for a beam
+    uint small[PACKETS]; // bits of the lanes in groups that are too small for a beam
     uint count;          // packets
 } Ungrouped;
 
@@ -266,8 +267,8 @@ static inline bool take_octant(Ungrouped *rays, RayGroup *group)
     return true;
 }
 
-// Takes the next group: an octant with at least `smallest` rays or, when no such is left, all other
-// rays, which search alone.
+// Takes the next group: an octant with at least `smallest` rays. If no such octant is left, takes
+// all remaining rays, and each searches alone.
 static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
 {
     while (take_octant(rays, group)) {
@@ -285,7 +286,7 @@ static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
     return group->size != 0;
 }
 
-// Searches the hits of the first `count` packets' lanes whose bits are set in `wanted`.
+// Finds the hits of the lanes selected by `wanted`, in `count` packets.
 static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const uint *wanted,
                                     uint count, Hit *hits)
 {

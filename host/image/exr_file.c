@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The layout of tiled OpenEXR files: a magic number and the version, the attributes, a table of the
-// positions of tiles, and the tiles. ZIP stores a tile's even bytes, then its odd ones, each as its
-// difference from the byte before, and deflates them.
+// positions of tiles, and the tiles. ZIP compression moves a tile's even bytes before its odd
+// bytes, replaces each byte by its difference from the previous one, and deflates the result.
 #include "image/exr_file.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#define MAGIC           "\x76\x2f\x31\x01\x02\x02\0" // a single part of tiles
+#define MAGIC           "\x76\x2f\x31\x01\x02\x02\0" // version 2, single-part, tiled
 #define HEADER_SIZE_MAX 65536
 #define ZIP             3
 #define CHANNEL_SIZE    16 // bytes after a channel's name
@@ -29,8 +29,8 @@ static const char *skip_text(const char *at, const char *end)
     return zero == NULL ? NULL : zero + 1;
 }
 
-// Reads the attribute at *at and moves *at behind it. Returns false at the end of the header, where
-// *at is the position after it, and at damaged attributes, where *at is NULL.
+// Reads the attribute at *at and advances *at past it. At the end of the header, returns false and
+// sets *at to the byte after it. At a damaged attribute, returns false and sets *at to NULL.
 static bool next_attribute(const char **at, const char *end, Attribute *attribute)
 {
     attribute->name = attribute->start = *at;
@@ -172,7 +172,7 @@ size_t exr_tile_bytes(const ExrFile *file, uint32_t width, uint32_t height)
     return (size_t)width * height * file->head.channel_count * sizeof(uint32_t);
 }
 
-// Undoes ZIP's rearrangement.
+// Undoes ZIP's differences and its reordering of bytes.
 static void join_halves(const unsigned char *packed, unsigned char *bytes, size_t size)
 {
     const size_t half = (size + 1) / 2;
@@ -212,7 +212,8 @@ static bool write_attribute(const Attribute *attribute, const char *value, uint3
            fwrite(&size, sizeof size, 1, stream) == 1 && fwrite(value, 1, size, stream) == size;
 }
 
-// A whole picture has its tiles in order, and an empty date without SOURCE_DATE_EPOCH.
+// Copies an attribute to the merged file. Sets the line order to increasing, because its tiles are
+// in order. Clears the date unless SOURCE_DATE_EPOCH is set.
 static bool copy_attribute(const Attribute *attribute, const Provenance *provenance, FILE *stream)
 {
     const char *name = attribute->name;

@@ -27,8 +27,8 @@ typedef struct {
     uint64_t bytes; // the file's size
 } ExrFile;
 
-// Returns whether path is an EXR file with tiles. If not, the error message names path. The caller
-// closes the file in both cases.
+// Opens a tiled EXR file. Returns false if path is not one, with an error message that names path.
+// The caller closes the file in both cases.
 bool exr_file_open(ExrFile *file, const char *path, Error *error);
 void exr_file_close(ExrFile *file);
 
@@ -39,7 +39,7 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, uint64_t 
 // Reads bytes at a position. Returns false if the file ends before.
 bool exr_file_read(const ExrFile *file, uint64_t start, void *bytes, size_t size);
 
-// Returns the bytes of an uncompressed tile of this many pixels.
+// Returns the size in bytes of an uncompressed tile of width x height pixels.
 size_t exr_tile_bytes(const ExrFile *file, uint32_t width, uint32_t height);
 
 // Reads the values of a tile, which must have size bytes: rows of the first channel's values, then
@@ -47,5 +47,6 @@ size_t exr_tile_bytes(const ExrFile *file, uint32_t width, uint32_t height);
 bool exr_file_unpack(const ExrFile *file, uint64_t start, const ExrTileHead *head,
                      unsigned char *packed, uint32_t *values, size_t size);
 
-// Writes the header of the picture whose part is `file`, with the texts of list and without others.
+// Writes the header of the whole picture. `file` is one of its parts. Replaces clrt's own texts by
+// those in provenance, and copies all other attributes.
 bool exr_file_copy_header(const ExrFile *file, const Provenance *provenance, FILE *stream);

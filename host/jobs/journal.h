@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file of checksummed records, to which a long job appends its results. A later run resumes from
-// them. Reading stops at the first damaged record, and journal_claim drops the rest.
+// A journal is a file of checksummed records. A long job appends its results to it. A later run
+// resumes from them. Reading stops at the first damaged record, and journal_claim drops the rest.
 #pragma once
 
 #include "base/error.h"
@@ -27,8 +27,8 @@ bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Err
 // record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Replaces the journal by a new file of the records read, to which records can be added. A process
-// that still writes to the old file, because its host lost the lock, cannot change the new one.
+// Replaces the journal by a new file with the records read. journal_add requires this call. If
+// another host has lost its lock and still writes to the old file, it cannot change the new one.
 bool journal_claim(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);

@@ -11,17 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Edges of more faces are sharp, so that the pairs of faces at an edge stay few.
+// Edges with more faces than this are sharp, which limits the pairs of faces per edge.
 #define EDGE_FACES_MOST 8
 
 // Keeps rounding from separating coplanar and opposite faces.
 #define COSINE_SLACK 0x1p-40
 
-// A face is a sliver if the sines of its angles have a smaller sum: rounded coordinates turn its
-// normal by any angle.
+// A face is a sliver if the sines of its angles add up to less. Rounded coordinates can turn the
+// normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
-// Smaller sums of faces are rounding errors of faces that cancel each other.
+// Shorter sums of normals are rounding errors: the normals cancel each other.
 #define SUM_LEAST 0x1p-40
 
 typedef struct {
@@ -103,8 +103,8 @@ static bool make_fans(Smoothing *smoothing, Error *error)
     return ok;
 }
 
-// Makes one vertex per fan. Sums in the order of the corners, so that the result depends on nothing
-// else.
+// Makes one vertex per fan. Adds the normals in the order of the corners, so that the result is
+// reproducible.
 static bool make_vertices(Smoothing *smoothing, Error *error)
 {
     const size_t count = fans_number(&smoothing->fans);
@@ -124,8 +124,8 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     return vertices != NULL;
 }
 
-// Gives corners with a normal a vertex of their own, and corners whose fan bends by more than the
-// crease angle, as at the tip of a cone, so that the mean does not suit their face.
+// Gives a corner its own vertex if the file has a normal for it, or if the fan's mean normal
+// differs from the face's by more than the crease angle, as at the tip of a cone.
 static bool part_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {

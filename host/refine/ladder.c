@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A round lists the chosen pixels in picture order, traces their samples, and records their changes
-// in the same order. Floating-point sums therefore do not depend on threads.
+// Each call of ladder_advance lists the selected pixels in picture order, traces their samples, and
+// records their changes in the same order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
 #include <math.h>
@@ -140,8 +140,8 @@ static double mean_square_change(const float before[3], const float after[3])
     return sum / 3;
 }
 
-// Returns the sums of a pixel, or NULL if memory is exhausted. Allocates the sums of a pixel on
-// rung 0.
+// Returns the sums of a pixel, or NULL if memory is exhausted. If the pixel is on rung 0, allocates
+// its sums.
 static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
 {
     if (ladder->sum_places[pixel] == 0) {
@@ -212,8 +212,8 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
 typedef struct {
     const Ladder *ladder;
     double fractions[STRATA_COUNT]; // 0 if no further pixel is to be selected
-    uint32_t *pixels;               // each chunk's selection, from its first pixel's index on
-    uint32_t *counts;               // the number of selected pixels of each chunk
+    uint32_t *pixels; // the selected pixels; those of a chunk start at the index of its first pixel
+    uint32_t *counts; // the number of selected pixels of each chunk
 } Choosing;
 
 // Returns a number in [0, 1) that is constant while the pixel stays on its rung.
@@ -222,7 +222,7 @@ static double chance_of(const Ladder *ladder, uint32_t pixel)
     return (double)(hash_of(pixel, RUNG_SEED + rung_of(ladder, pixel)) >> 11) * 0x1p-53;
 }
 
-// Copies the fractions of the strata whose requests have that many samples. If a stratum's fraction
+// Copies the fractions of the strata whose requests have `samples` samples. If a stratum's fraction
 // and pixels have not changed, it has no new pixel to select. Skipping it avoids most hashes.
 static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
 {
@@ -263,7 +263,7 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
     return count;
 }
 
-// Advances the selected pixels whose requests have that many samples. Adds their number to
+// Advances the selected pixels whose requests have `samples` samples. Adds their number to
 // *advanced.
 static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {

@@ -10,7 +10,8 @@
 
 #define LAUNCH_ITEMS 4096
 
-// Returns the requests per work-item, ITEM_SAMPLES or ITEM_REQUESTS of the kernels.
+// Returns the number of requests per work-item. It equals ITEM_SAMPLES or ITEM_REQUESTS in the
+// kernels.
 static uint32_t item_requests(const Renderer *renderer)
 {
     return renderer->nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
@@ -29,7 +30,7 @@ typedef struct {
     cl_event done[2]; // launch i signals done[i % 2]
 } Sampling;
 
-// Host memory that the device uses in place.
+// Host memory, used in place by the device.
 typedef struct {
     cl_mem_flags access;
     const void *data;

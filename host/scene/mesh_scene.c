@@ -10,7 +10,7 @@
 #include <string.h>
 
 // The eye is at a fixed distance. The edges of the picture are planes through the eye. For each
-// axis of the picture, two planes of the same slope are found that touch the meshes.
+// axis of the picture, touch() finds two planes of equal slope that touch the meshes.
 
 #define VIEWS         6
 #define DISTANCE      4.0 // of the eye from the center, in radii
@@ -20,8 +20,8 @@
 
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// A short run of a mesh's triangles with its bounding box, by which a search skips most runs.
-// Neighbors in a file are usually neighbors in space.
+// A short run of a mesh's triangles. Its bounding box lets farthest() skip most runs. Neighbors in
+// a file are usually neighbors in space.
 typedef struct {
     Mesh mesh; // borrowed
     Vec3 low, high;
@@ -88,7 +88,7 @@ static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
     return next;
 }
 
-// Returns the field of view in which planes of this slope enclose the filled part. Newton's method
+// Returns the field of view of which planes of this slope enclose the part FILLED. Newton's method
 // starts above the result, where the tangent is convex, and stays above.
 static double field_of_view(double slope)
 {
@@ -146,8 +146,8 @@ static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}}};
 
-// In radii. The floor is the top of a sphere that is too large to look round. Lights are so far
-// that they light all of it alike, and its color is the background's: no horizon is seen.
+// In radii. The floor is the top of a sphere that is too large to look curved. The lights are so
+// far away that they light it evenly, in the color of the background, so no horizon is visible.
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 
@@ -179,7 +179,7 @@ static bool add_studio(Scene *scene, Error *error)
     return ok;
 }
 
-// Turns from y and -y, and from x and -x, undo each other.
+// The turns for y and -y are inverse, and so are those for x and -x.
 static UpAxis inverse_of(UpAxis up)
 {
     return up == UP_AUTO || up == UP_Z || up == UP_MINUS_Z ? up : (up + 2) % UP_MINUS_Z + 1;
@@ -199,7 +199,8 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 }
 
 // Returns the up axis of the formats that have one, and UP_AUTO for the others. 3MF and AMF define
-// z, and glTF y. Modeling programs write OBJ with y up, and Assimp turns other formats so.
+// z as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns other
+// formats to y up.
 static UpAxis up_axis_of_format(const char *path)
 {
     if (file_has_ending(path, ".stl") || file_has_ending(path, ".off"))

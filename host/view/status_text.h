@@ -2,7 +2,7 @@
 // State and figures -> the window's texts: its title, its line, its panel and the output of key c.
 #pragma once
 
-#include "view/state.h"
+#include "view/controls.h"
 
 #include <stdio.h>
 

@@ -2,9 +2,9 @@
 // The OpenGL objects that draw a model, and the drawing order of a frame.
 #pragma once
 
+#include "view/controls.h"
 #include "view/draw/canvas.h"
 #include "view/draw/draw.h"
-#include "view/state.h"
 
 typedef struct {
     Target target;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/error.h"
-#include "view/state.h"
+#include "view/controls.h"
 
 #define GLFW_INCLUDE_NONE // epoxy declares OpenGL
 #include <GLFW/glfw3.h>

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A Slurm cluster on one machine: a controller and four hosts, each in its own network, PID, mount
-and UTS namespaces. They share the file system and are joined by a bridge. Only root can make it."""
+and UTS namespaces. They share the file system, and a bridge connects them. Only root can create the cluster."""
 
 import os
 import pathlib
@@ -44,7 +44,7 @@ NodeName=n[1-{hosts}] CPUs=1 RealMemory=1000 State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
-# The first process of a host; its end is the end of all processes there.
+# The first process of a host. When it ends, all processes of the host end.
 BOOT = """\
 set -e
 mount -t proc proc /proc
@@ -131,12 +131,12 @@ class Cluster:
         return ["nsenter", "-t", self.inits[host], "-n", "-p", "-m", "-u", f"--wd={os.getcwd()}"]
 
     def unplug(self, host):
-        """The host loses its power."""
+        """Kills all processes of a host, as a power loss does."""
         subprocess.run(["kill", "-KILL", self.inits[host]], check=True)
         self.boots[host].wait()
 
     def cut_off(self, host, is_cut=True):
-        """The host's processes live on without a network."""
+        """Disconnects a host's network while its processes keep running, or reconnects it."""
         self.on_bridge(f"ip link set v{host} {'down' if is_cut else 'up'}")
 
     def states(self):

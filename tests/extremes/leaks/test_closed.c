@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Rays from inside closed shapes far from the origin must all hit the shape, also at its edges and
-// vertices, where triangle tests fail first. They start in the cube of half side 1 around the
-// shape's center.
+// Every ray that starts inside a closed shape must hit the shape, even at its edges and vertices.
+// The shapes are centered at a distance of about 2^exponent from the origin. The rays start in a
+// cube of side 2 around the center.
 #include "support/rig.h"
 #include "support/shapes.h"
 
 static const char *const aim_names[AIM_KINDS] = {"random", "edges", "vertices", "vertices_exactly"};
 
-// Bits of a set of aims. AIMS contains random rays, edges and rounded vertices.
+// A set of aims is a bit mask. AIMS selects random rays, rays at edges, and rays at rounded
+// vertices.
 #define AIM(aim) (1u << (aim))
 #define AIMS     (AIM(AIM_RANDOM) | AIM(AIM_EDGES) | AIM(AIM_VERTICES))
 
@@ -43,7 +44,7 @@ static Scene closed_sphere(int exponent)
     return shape_scene(shape_sphere(exponent < 20 ? 200 : 20, shape_center(exponent)));
 }
 
-// Judges spheres of exponents 0, 10 and 18 at tier 0, else of 0 to 23.
+// At tier 0, judges spheres of exponents 0, 10 and 18. At higher tiers, judges exponents 0 to 23.
 static void judge_spheres(RayBatch *batch, const ClosedTest *test)
 {
     for (int exponent = 0; exponent < 24; exponent++)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the effect of keys and mouse on the view's state, and the state's text.
 #include "unit/parsed.h"
-#include "view/state.h"
+#include "view/controls.h"
 #include "view/status_text.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The effect of each key; view/status_text.c lists the keys.
-#include "view/state.h"
+#include "view/controls.h"
 
 // The constants are from the course's viewer.
 

@@ -10,10 +10,12 @@ typedef struct {
     Vec3 pivot;       // the center of the orbit
     Vec3 look_at, up; // of the camera that orbits
     Vec3 axes[3];     // unit length; the last is up
-    double azimuth;   // degrees below the plane perpendicular to up; negative if the eye is above
-    double rotation;  // degrees around up
-    double distance;  // from the eye to the pivot
-    double unit;      // length unit of steps and limits; 1 for the course's cameras
+    // In degrees below the plane perpendicular to up; negative if the eye is above. The course
+    // calls this elevation azimuth.
+    double azimuth;
+    double rotation; // degrees around up
+    double distance; // from the eye to the pivot
+    double unit;     // length unit of steps and limits; 1 for the course's cameras
     double fov_degrees, width_degrees;
 } Orbit;
 
@@ -29,9 +31,9 @@ enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_FULL_SC
 
 typedef enum {
     EVENT_KEY,
-    EVENT_TURN, // a drag that turns the scene
+    EVENT_TURN, // a drag that turns the camera
     EVENT_ZOOM, // a drag that changes the distance
-    EVENT_PAN,  // a drag that moves the scene sideways
+    EVENT_PAN,  // a drag that moves the camera sideways
     EVENT_WHEEL,
     EVENT_CLICK // a click on a pixel
 } EventKind;
@@ -39,8 +41,8 @@ typedef enum {
 typedef struct {
     EventKind kind;
     int key;
-    // In pixels. For EVENT_WHEEL, down is in notches away from the user. For EVENT_CLICK, both are
-    // the pixel's position, counted from the upper left corner.
+    // In pixels. For EVENT_WHEEL, `down` counts notches, positive away from the user. For
+    // EVENT_CLICK, both are the pixel's position, counted from the upper left corner.
     double right, down;
 } Event;
 
@@ -78,13 +80,13 @@ typedef struct {
     Viewpoint camera;
 } State;
 
-// Returns the initial state, which has state's switches and shows the camera state.view.
+// Returns the initial state: the switches of `state`, and the scene's camera number state.view.
 State state_begin(const StateScene *scene, State state);
 
 // Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 
-// Turns the camera by the motion of this many seconds if the camera turns automatically.
+// If the camera turns automatically, turns it as far as in `seconds` seconds.
 void state_advance(State *state, double seconds);
 
 // Switches to a scene that was read again. A camera that has not moved takes the new file's
