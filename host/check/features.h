@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Mesh -> its finest details, in units of float spacing, as written and as traced. Scene -> an
+// error message about triangles without area.
+#pragma once
+
+#include "scene/normalize.h"
+
+// The smallest length of one kind over all triangles. A step is the spacing of floats at the
+// triangle's largest coordinate.
+typedef struct {
+    double steps; // the length in steps; INFINITY without triangles
+    double size;  // the length in the scene's units
+    size_t triangle;
+} Feature;
+
+typedef struct {
+    Feature edge;         // shortest edge, in the traced frame
+    Feature height;       // lowest height in that frame; triangles without area do not count
+    Feature written_edge; // shortest edge, in the file's coordinates
+    bool holds_floats;    // floats represent every coordinate exactly
+    MeshFault flat;       // triangles without area: three corners on a line
+    double extent;        // largest side of the mesh's bounds
+    double offset;        // largest coordinate of the bounds' center
+} Features;
+
+Features features_of(const Mesh *mesh, const Normalization *normalization);
+
+// Both report the first object with an offender, as the path of its file, the first offending
+// triangle and the count.
+
+// Fails if the reader dropped a triangle.
+bool bad_geometry_none_dropped(const Scene *scene, Error *error);
+
+// Fails if any triangle has no area, dropped or not.
+bool bad_geometry_none(const Scene *scene, Error *error);
