@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #define ROWS_OF_TASK 16
 #define RADIUS       2
@@ -51,35 +52,38 @@ static void measure_rows(void *context, uint32_t first, uint32_t end)
             measuring->results[(size_t)y * width + x] = bend_at(measuring->picture, x, y);
 }
 
-static uint32_t range_begin(uint32_t middle)
+static float larger(float one, float other)
 {
-    return middle < RADIUS ? 0 : middle - RADIUS;
+    return one > other ? one : other;
 }
 
-static uint32_t range_end(uint32_t middle, uint32_t count)
+// Replaces each value of a row by the largest of the values up to two columns away. Values are
+// at least 0.
+static void spread_row(float *row, uint32_t width)
 {
-    return count - middle <= RADIUS ? count : middle + RADIUS + 1;
-}
-
-static float largest_around(const Measuring *measuring, uint32_t x, uint32_t y)
-{
-    const uint32_t width = measuring->picture->width, height = measuring->picture->height;
-    float largest = 0;
-    for (uint32_t row = range_begin(y); row < range_end(y, height); row++)
-        for (uint32_t column = range_begin(x); column < range_end(x, width); column++) {
-            const float bend = measuring->bends[(size_t)row * width + column];
-            largest = bend > largest ? bend : largest;
-        }
-    return largest;
+    float before = 0, earlier = 0; // the values of the two columns before x
+    for (uint32_t x = 0; x < width; x++) {
+        const float own = row[x];
+        const float next = x + 1 < width ? row[x + 1] : 0, later = x + 2 < width ? row[x + 2] : 0;
+        row[x] = larger(larger(larger(earlier, before), own), larger(next, later));
+        earlier = before;
+        before = own;
+    }
 }
 
 static void spread_rows(void *context, uint32_t first, uint32_t end)
 {
     const Measuring *measuring = context;
-    const uint32_t width = measuring->picture->width;
-    for (uint32_t y = first; y < end; y++)
-        for (uint32_t x = 0; x < width; x++)
-            measuring->results[(size_t)y * width + x] = largest_around(measuring, x, y);
+    const uint32_t width = measuring->picture->width, height = measuring->picture->height;
+    for (uint32_t y = first; y < end; y++) {
+        float *results = measuring->results + (size_t)y * width;
+        const uint32_t last = height - y <= RADIUS ? height - 1 : y + RADIUS;
+        memset(results, 0, width * sizeof *results);
+        for (uint32_t row = y < RADIUS ? 0 : y - RADIUS; row <= last; row++)
+            for (uint32_t x = 0; x < width; x++)
+                results[x] = larger(results[x], measuring->bends[(size_t)row * width + x]);
+        spread_row(results, width);
+    }
 }
 
 void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends)

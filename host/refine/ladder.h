@@ -46,7 +46,7 @@ bool pixel_requests_trace(PixelRequests *requests, Error *error);
 // Renders a picture of the frame's size with one sample at each pixel's center.
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
 
-// Computes the mean color of that many samples.
+// Computes the mean color of that many samples, which are a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
 
 // Returns the variance of that many samples, averaged over the channels.

@@ -97,9 +97,10 @@ bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, 
 
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
 {
+    const double part = 1.0 / samples;
     for (int channel = 0; channel < 3; channel++) {
-        const uint64_t mean = (sums->colors[channel] + samples / 2) / samples;
-        color[channel] = (float)((double)mean * 0x1p-32);
+        const double mean = floor((double)(sums->colors[channel] + samples / 2) * part);
+        color[channel] = (float)(mean * 0x1p-32);
     }
 }
 
