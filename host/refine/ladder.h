@@ -8,7 +8,7 @@
 #include "base/array.h"
 #include "base/thread_pool.h"
 #include "image/framebuffer.h"
-#include "refine/strata.h"
+#include "refine/ladder_strata.h"
 #include "render/renderer.h"
 
 // Traces requests for samples of pixels, in lists of bounded size, and returns the sums of the
