@@ -47,8 +47,8 @@ static bool enter_all(Ladder *ladder, Error *error)
     float *nearby = memory_raw(pixels, sizeof *nearby, error);
     if (nearby == NULL)
         return false;
-    bends_measure(ladder->picture, ladder->pool, ladder->features);
-    bends_spread(ladder->picture, ladder->pool, ladder->features, nearby);
+    bends_measure(ladder->picture, ladder->requests.pool, ladder->features);
+    bends_spread(ladder->picture, ladder->requests.pool, ladder->features, nearby);
     for (size_t pixel = 0; pixel < pixels; pixel++) {
         const double bend = (double)ladder->features[pixel];
         enter(ladder, pixel, strata_of_bend(bend, (double)nearby[pixel]), bend * bend);
@@ -73,11 +73,12 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
     Renderer *renderer = setup->renderer;
     Framebuffer *picture = setup->picture;
     PixelRequests *requests = &ladder->requests;
-    *ladder = (Ladder){
-        .requests = {.renderer = renderer, .frame = renderer->frame, .observer = setup->observer},
-        .pool = setup->pool,
-        .picture = picture,
-        .statistics.pixels = (size_t)picture->width * picture->height};
+    *ladder = (Ladder){.requests = {.renderer = renderer,
+                                    .frame = renderer->frame,
+                                    .observer = setup->observer,
+                                    .pool = setup->pool},
+                       .picture = picture,
+                       .statistics.pixels = (size_t)picture->width * picture->height};
     requests->frame.camera = *setup->camera;
     requests->frame.samples = LADDER_GRID;
     renderer->progress = (RenderProgress){0};
@@ -294,7 +295,7 @@ static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, 
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
         take_fractions(&choosing, ladder, samples);
-        thread_pool_share(ladder->pool, rows, 1, choose_rows, &choosing);
+        thread_pool_share(ladder->requests.pool, rows, 1, choose_rows, &choosing);
         const uint64_t count = join_rows(&choosing, rows);
         ok = climb_chosen(ladder, choosing.pixels, count, error);
         *advanced += count;

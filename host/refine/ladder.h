@@ -21,6 +21,7 @@ typedef struct {
     Renderer *renderer;             // of KERNEL_LADDER; borrowed
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
+    ThreadPool *pool;               // borrowed; NULL for none
     PixelRequest *requests;         // REQUESTS_MOST entries, of which count are in use; all
                                     // have the same number of samples
     PixelSums *sums;                // of the requests traced last
@@ -60,7 +61,6 @@ void pixel_sums_add(PixelSums *sums, const PixelSums *more);
 
 typedef struct {
     PixelRequests requests;
-    ThreadPool *pool;      // borrowed; NULL for none
     Framebuffer *picture;  // borrowed; means of the pixels' samples
     float *features;       // of each pixel, for its stratum
     uint8_t *strata;       // of each pixel

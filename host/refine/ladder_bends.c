@@ -8,6 +8,7 @@
 
 #define ROWS_OF_TASK 16
 #define RADIUS       2
+#define RUN          64
 
 typedef struct {
     const Framebuffer *picture;
@@ -15,46 +16,48 @@ typedef struct {
     float *results;
 } Measuring;
 
-static float bend_between(const float color[3], const float one[3], const float other[3])
+static float larger(float one, float other)
 {
-    float largest = 0;
-    for (int channel = 0; channel < 3; channel++) {
-        const float bend = fabsf(2 * color[channel] - one[channel] - other[channel]);
-        largest = bend > largest ? bend : largest;
-    }
-    return largest;
+    return one > other ? one : other;
 }
 
-static float bend_at(const Framebuffer *picture, uint32_t x, uint32_t y)
+// Raises `most` to the second differences along a direction of pixels first to end - 1 of a row,
+// for each channel. The values of pixel 0 of `colors` and `most` belong together.
+static void raise_bends(float *most, const float *colors, ptrdiff_t step, const uint32_t range[2])
+{
+    for (ptrdiff_t i = 3 * (ptrdiff_t)range[0]; i < 3 * (ptrdiff_t)range[1]; i++)
+        most[i] =
+            larger(most[i], fabsf(2 * colors[i] - colors[i - 3 * step] - colors[i + 3 * step]));
+}
+
+// Measures the bends of up to RUN pixels of row y from x on. Pixels at the picture's border have
+// only the directions that stay inside.
+static void measure_run(const Measuring *measuring, uint32_t x, uint32_t y)
 {
     static const int directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    const bool has_columns = x > 0 && x + 1 < picture->width;
-    const bool has_rows = y > 0 && y + 1 < picture->height;
-    float(*pixel)[3] = &picture->pixels[(size_t)y * picture->width + x];
-    float largest = 0;
+    const uint32_t width = measuring->picture->width, height = measuring->picture->height;
+    const size_t first = (size_t)y * width + x;
+    const uint32_t count = width - x < RUN ? width - x : RUN;
+    const uint32_t whole[2] = {0, count},
+                   inner[2] = {x == 0, x + count == width ? count - 1 : count};
+    float most[3 * RUN] = {0};
     for (int i = 0; i < 4; i++) {
         const int right = directions[i][0], down = directions[i][1];
-        const ptrdiff_t step = right + (ptrdiff_t)down * picture->width;
-        if ((right != 0 && !has_columns) || (down != 0 && !has_rows))
-            continue;
-        const float bend = bend_between(pixel[0], pixel[-step], pixel[step]);
-        largest = bend > largest ? bend : largest;
+        if (down == 0 || (y > 0 && y + 1 < height))
+            raise_bends(most, measuring->picture->pixels[first], right + (ptrdiff_t)down * width,
+                        right != 0 ? inner : whole);
     }
-    return largest;
+    for (uint32_t i = 0; i < count; i++)
+        measuring->results[first + i] =
+            larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
 }
 
 static void measure_rows(void *context, uint32_t first, uint32_t end)
 {
     const Measuring *measuring = context;
-    const uint32_t width = measuring->picture->width;
     for (uint32_t y = first; y < end; y++)
-        for (uint32_t x = 0; x < width; x++)
-            measuring->results[(size_t)y * width + x] = bend_at(measuring->picture, x, y);
-}
-
-static float larger(float one, float other)
-{
-    return one > other ? one : other;
+        for (uint32_t x = 0; x < measuring->picture->width; x += RUN)
+            measure_run(measuring, x, y);
 }
 
 // Replaces each value of a row by the largest of the values up to two columns away. Values are
