@@ -15,7 +15,8 @@ RUN tools/setup meshes \
 FROM debian:bookworm-slim
 RUN apt-get update \
     && apt-get install -y --no-install-recommends \
-        pocl-opencl-icd ocl-icd-libopencl1 libpng16-16 libjansson4 libxxhash0 libassimp5 \
+        pocl-opencl-icd ocl-icd-libopencl1 libpng16-16 libjansson4 libxxhash0 libopenexr-3-1-30 \
+        libassimp5 \
     && apt-get clean && rm -rf /var/lib/apt/lists/*
 COPY --from=build /out /
 # Compiled kernels, which any user may add to.

@@ -94,9 +94,23 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
         return error_set(error, "%s: has channels that clrt does not draw", path);
     merging->joins = can_join(merging->options, file);
     if (merging->joins)
-        return exr_join_begin(&merging->join, file, &tiles->settings, error);
+        return exr_join_begin(&merging->join, &tiles->settings, error);
     return framebuffer_make(&merging->framebuffer, image->width, image->height, error) &&
            layers_make(&merging->layers, image->width, image->height, error);
+}
+
+static ExitCode cannot_use(const StoredTiles *tiles, const char *path, const Error *cause,
+                           Error *error)
+{
+    error_set(error, "%s: part %u of %u cannot be used: %s", path, tiles->settings.part + 1,
+              tiles->settings.parts, cause->text);
+    return EXIT_SCENE;
+}
+
+static ExitCode cannot_write(const Merging *merging, const char *cause, Error *error)
+{
+    error_set(error, "%s: cannot be written: %s", merging->options->output_path, cause);
+    return EXIT_OUTPUT;
 }
 
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
@@ -109,8 +123,7 @@ static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile
     return (merging->joins
                 ? exr_join_measure(&merging->join, file, settings, &cause)
                 : stored_tiles_copy(settings, tile_count(settings), file, &target, &cause)) ||
-           error_set(error, "%s: part %u of %u cannot be used: %s", path, settings->part + 1,
-                     settings->parts, cause.text);
+           cannot_use(tiles, path, &cause, error) == EXIT_DONE;
 }
 
 static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,
@@ -185,49 +198,58 @@ static bool read_parts(Merging *merging, Error *error)
     return check_missing(merging, error);
 }
 
-static bool join_part(const Merging *merging, const char *path, FILE *stream, Error *cause)
+// The exit status depends on whether the part or the output is at fault.
+static ExitCode join_part(const Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
     StoredTiles tiles = {0};
-    bool ok = exr_file_open(&file, path, cause) && read_settings(&tiles, &file, path, cause);
-    if (ok)
-        ok = exr_join_copy(&merging->join, &file, &tiles.settings, stream) ||
-             error_set(cause, "%s", errno != 0 ? strerror(errno) : "a part changes meanwhile");
+    Error cause = {0};
+    ExitCode outcome = EXIT_DONE;
+    if (!exr_file_open(&file, path, error) || !read_settings(&tiles, &file, path, error))
+        outcome = EXIT_SCENE;
+    else if (!exr_join_copy(&merging->join, &file, &tiles.settings, stream, &cause))
+        outcome = errno != 0 ? cannot_write(merging, strerror(errno), error)
+                             : cannot_use(&tiles, path, &cause, error);
     stored_tiles_free(&tiles);
     exr_file_close(&file);
-    return ok;
+    return outcome;
 }
 
-static bool join_parts(Merging *merging, const char *path, Error *cause)
+// Copies the parts' tiles into an EXR file that OpenImageIO has written without tiles.
+static ExitCode join_parts(Merging *merging, const char *path, Error *error)
 {
-    ExrFile first = {0};
-    const Options *options = merging->options;
-    FILE *stream = fopen(path, "wbe");
-    bool ok = stream != NULL || error_set(cause, "%s", strerror(errno));
-    if (ok && exr_file_open(&first, options->part_paths[0], cause))
-        ok = exr_join_write_head(&merging->join, &first, &merging->provenance, stream) ||
-             error_set(cause, "%s", strerror(errno));
-    exr_file_close(&first);
-    for (int i = 0; ok && i < options->part_count; i++)
-        ok = join_part(merging, options->part_paths[i], stream, cause);
+    FILE *stream = fopen(path, "r+be");
+    ExitCode outcome = EXIT_DONE;
+    if (stream == NULL || !exr_join_write_table(&merging->join, stream))
+        outcome = cannot_write(merging, strerror(errno), error);
+    for (int i = 0; outcome == EXIT_DONE && i < merging->options->part_count; i++)
+        outcome = join_part(merging, merging->options->part_paths[i], stream, error);
     if (stream != NULL && fclose(stream) != 0)
-        ok = error_set(cause, "%s", strerror(errno));
-    return ok;
+        outcome = cannot_write(merging, strerror(errno), error);
+    return outcome;
 }
 
-static bool write_joined(Merging *merging, Error *error)
+static ExitCode write_joined(Merging *merging, ImageSettings *settings, Error *error)
 {
     OutputFile file;
     Error cause = {0};
-    const char *path = merging->options->output_path;
-    if (!output_file_begin(&file, path, error))
-        return false;
-    const bool ok = join_parts(merging, file.temporary, &cause);
-    return output_file_end(&file, ok, &cause) ||
-           error_set(error, "%s: cannot be written: %s", path, cause.text);
+    const RenderSettings *place = &merging->first.settings;
+    const ImagePart empty = {.width = place->width,
+                             .height = place->height,
+                             .tile_width = EXR_TILE,
+                             .tile_height = EXR_TILE};
+    settings->part = &empty;
+    if (!output_file_begin(&file, merging->options->output_path, error))
+        return EXIT_OUTPUT;
+    ExitCode outcome = image_write_file(&merging->framebuffer, file.temporary, settings, &cause)
+                           ? join_parts(merging, file.temporary, error)
+                           : cannot_write(merging, cause.text, error);
+    if (!output_file_end(&file, outcome == EXIT_DONE, &cause) && outcome == EXIT_DONE)
+        outcome = cannot_write(merging, cause.text, error);
+    return outcome;
 }
 
-static bool write_whole(Merging *merging, Error *error)
+static ExitCode write_whole(Merging *merging, Error *error)
 {
     const Options *options = merging->options;
     const RenderSettings *place = &merging->first.settings;
@@ -236,22 +258,21 @@ static bool write_whole(Merging *merging, Error *error)
     if (!merging->joins)
         framebuffer_hash(&merging->framebuffer, provenance->texts[STORED_PIXEL_HASH]);
     provenance_list(provenance);
-    if (options->no_metadata)
-        provenance->count = 0;
-    if (merging->joins)
-        return write_joined(merging, error);
-    const ImageSettings settings = {
+    ImageSettings settings = {
         .format = options->format,
         .encoding = merging->first.encoding,
         .texts = provenance->list,
-        .text_count = provenance->count,
+        .text_count = options->no_metadata ? 0 : provenance->count,
         .left = place->left,
         .top = place->top,
         .whole_width = place->whole_width,
         .whole_height = place->whole_height,
         .layers = merging->layers.count > 0 ? &merging->layers : NULL,
     };
-    return image_write(&merging->framebuffer, options->output_path, &settings, error);
+    if (merging->joins)
+        return write_joined(merging, &settings, error);
+    return image_write(&merging->framebuffer, options->output_path, &settings, error) ? EXIT_DONE
+                                                                                      : EXIT_OUTPUT;
 }
 
 static ExitCode run(Merging *merging, Error *error)
@@ -268,8 +289,9 @@ static ExitCode run(Merging *merging, Error *error)
                   options->format);
         return EXIT_USAGE;
     }
-    if (!write_whole(merging, error))
-        return EXIT_OUTPUT;
+    const ExitCode written = write_whole(merging, error);
+    if (written != EXIT_DONE)
+        return written;
     const char *hash = merging->provenance.texts[STORED_PIXEL_HASH];
     return report_print_hash(options, hash, error) ? EXIT_DONE : EXIT_FAULTS;
 }

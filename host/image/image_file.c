@@ -119,7 +119,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .tile_width = (int)(part != NULL ? part->tile_width : EXR_TILE),
         .tile_height = (int)(part != NULL ? part->tile_height : EXR_TILE),
         .is_part = part != NULL,
-        .tiles = part != NULL ? part->tiles[0] : NULL,
+        .tiles = part != NULL ? (const uint32_t *)part->tiles : NULL,
         .tile_count = part != NULL ? part->tile_count : 0,
         .frames = (int)settings->frames,
         .left = (int)settings->left,
@@ -150,8 +150,8 @@ static bool write_here(const Framebuffer *framebuffer, const char *path, const F
     return (written && closed) || error_set(cause, "%s", strerror(errno));
 }
 
-static bool write_format(const Framebuffer *framebuffer, const char *path,
-                         const ImageSettings *settings, Error *cause)
+bool image_write_file(const Framebuffer *framebuffer, const char *path,
+                      const ImageSettings *settings, Error *cause)
 {
     const Format *format = find_format(settings->format);
     if (format->module == NULL)
@@ -166,7 +166,7 @@ bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSe
     Error cause = {0};
     if (!output_file_begin(&file, path, error))
         return false;
-    const bool ok = write_format(framebuffer, file.temporary, settings, &cause);
+    const bool ok = image_write_file(framebuffer, file.temporary, settings, &cause);
     return output_file_end(&file, ok, &cause) ||
            error_set(error, "%s: cannot be written: %s",
                      strcmp(path, "-") == 0 ? "standard output" : path, cause.text);

@@ -13,7 +13,8 @@ typedef struct {
     const char *name, *value;
 } ImageText;
 
-// A part of a picture: the tiles that the framebuffer contains, below each other.
+// A part of a picture: the tiles that the framebuffer contains, below each other. Without any, the
+// file ends with its table of tiles, and other code adds them.
 typedef struct {
     uint32_t width, height;           // of the whole picture
     uint32_t tile_width, tile_height; // of unclipped tiles
@@ -63,6 +64,11 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 // Writes the picture to path, or to standard output if path is "-" (base/output_file.h).
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);
+
+// Like image_write, but into the file at path itself. On failure, cause has the reason without the
+// path.
+bool image_write_file(const Framebuffer *framebuffer, const char *path,
+                      const ImageSettings *settings, Error *cause);
 
 // Multiplies count values by gain, limits them to 1 and rounds them to the nearest of 256 steps.
 // ENCODE_SRGB applies the sRGB curve (IEC 61966-2-1) before rounding.

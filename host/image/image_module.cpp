@@ -212,7 +212,7 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
         spec.tile_height = picture.tile_height;
     }
     // In other orders, OpenEXR waits for missing tiles before it writes the following ones.
-    if (picture.is_part)
+    if (picture.tile_count > 0)
         spec.attribute("openexr:lineOrder", "randomY");
     errno = 0;
     const bool ok = is_exr ? write_to_file(*output, spec, picture)

@@ -2,86 +2,115 @@
 // Each tile has a fixed place, because OpenEXR writes the tiles of a whole picture row by row.
 #include "jobs/exr_join.h"
 
+#include "jobs/stored_tiles.h"
+
 #include <errno.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
-bool exr_join_begin(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                    Error *error)
+// A tile's position, as it precedes the tile's bytes: column, row, two zeros for the level of
+// detail, and the number of bytes.
+typedef uint32_t TileHead[5];
+
+bool exr_join_begin(ExrJoin *join, const RenderSettings *settings, Error *error)
 {
-    *join = (ExrJoin){.whole = *settings};
-    join->whole.part = join->whole.parts = 0;
-    join->count = tile_count(&join->whole);
+    RenderSettings whole = *settings;
+    whole.part = whole.parts = 0;
+    join->count = tile_count(&whole);
     join->starts = memory_zeroed(join->count, sizeof *join->starts, error);
-    join->tile = memory_raw(
-        sizeof(ExrTileHead) + exr_tile_bytes(file, file->tile_width, file->tile_height), 1, error);
-    return join->starts != NULL && join->tile != NULL;
+    return join->starts != NULL;
 }
 
 void exr_join_free(ExrJoin *join)
 {
     free(join->starts);
-    free(join->tile);
     *join = (ExrJoin){0};
-}
-
-static uint64_t place_of(const ExrFile *file, const Tile *tile)
-{
-    const uint64_t columns = ((uint64_t)file->head.width + file->tile_width - 1) / file->tile_width;
-    return tile->y / file->tile_height * columns + tile->x / file->tile_width;
-}
-
-static bool find(const ExrFile *file, const Tile *tile, uint64_t *start, uint64_t *size)
-{
-    ExrTileHead head;
-    const bool ok =
-        exr_file_find(file, tile->x / file->tile_width, tile->y / file->tile_height, start, &head);
-    *size = sizeof head + head.size;
-    return ok && *start <= file->bytes && *size <= file->bytes - *start;
 }
 
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error)
 {
-    uint64_t start;
+    exr_chunk_info_t found;
     const uint64_t count = tile_count(settings);
     for (uint64_t number = 0; number < count; number++) {
         const Tile tile = tile_at(settings, number);
-        if (!find(file, &tile, &start, &join->starts[place_of(file, &tile)]))
-            return error_set(error, "it is damaged at pixel %u,%u", tile.x, tile.y);
+        if (!stored_tiles_find(file, &tile, &found, error))
+            return false;
+        join->starts[found.idx] = sizeof(TileHead) + found.packed_size;
     }
     return true;
 }
 
-bool exr_join_write_head(ExrJoin *join, const ExrFile *file, const Provenance *provenance,
-                         FILE *stream)
+bool exr_join_write_table(ExrJoin *join, FILE *stream)
 {
-    if (!exr_file_copy_header(file, provenance, stream))
+    const off_t size = (off_t)(join->count * sizeof *join->starts);
+    if (fseeko(stream, -size, SEEK_END) != 0)
         return false;
-    uint64_t next = (uint64_t)ftello(stream) + join->count * sizeof next;
+    uint64_t next = (uint64_t)(ftello(stream) + size);
     for (uint64_t place = 0; place < join->count; place++) {
-        const uint64_t size = join->starts[place];
+        const uint64_t tile_size = join->starts[place];
         join->starts[place] = next;
-        next += size;
+        next += tile_size;
     }
     return fwrite(join->starts, sizeof *join->starts, join->count, stream) == join->count &&
            fflush(stream) == 0;
 }
 
-bool exr_join_copy(const ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                   FILE *stream)
+typedef struct {
+    const ExrJoin *join;
+    const ExrFile *file;
+    int output;
+    atomic_int *cause; // why writing failed; 0 otherwise
+} TileJoin;
+
+static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
-    const uint64_t count = tile_count(settings);
-    for (uint64_t number = 0; number < count; number++) {
-        const Tile tile = tile_at(settings, number);
-        const uint64_t place = place_of(file, &tile), to = join->starts[place];
-        uint64_t start, size;
-        errno = 0;
-        if (!find(file, &tile, &start, &size) ||
-            (place + 1 < join->count && join->starts[place + 1] != to + size) ||
-            !exr_file_read(file, start, join->tile, size) ||
-            pwrite(fileno(stream), join->tile, size, (off_t)to) != (ssize_t)size)
-            return false;
-    }
-    return true;
+    const size_t size = sizeof(TileHead) + tile->packed_size;
+    const TileHead head = {(uint32_t)tile->start_x, (uint32_t)tile->start_y, 0, 0,
+                           (uint32_t)tile->packed_size};
+    memcpy(bytes, head, sizeof head);
+    errno = 0;
+    if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
+        return true;
+    *work->cause = errno != 0 ? errno : ENOSPC;
+    return false;
+}
+
+// Returns whether the tile is as long as in the first pass.
+static bool fits(const ExrJoin *join, const exr_chunk_info_t *tile)
+{
+    const uint64_t next = (uint64_t)tile->idx + 1;
+    return next == join->count ||
+           join->starts[next] - join->starts[tile->idx] == sizeof(TileHead) + tile->packed_size;
+}
+
+static bool join_tile(const void *context, const Tile *tile, Error *error)
+{
+    const TileJoin *work = context;
+    exr_chunk_info_t found;
+    if (!stored_tiles_find(work->file, tile, &found, error))
+        return false;
+    unsigned char *bytes =
+        memory_raw(sizeof(TileHead) + found.packed_size + found.unpacked_size, 1, error);
+    if (bytes == NULL)
+        return false;
+    unsigned char *packed = bytes + sizeof(TileHead);
+    bool ok = (fits(work->join, &found) &&
+               exr_file_read(work->file, &found, packed, packed + found.packed_size)) ||
+              error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y);
+    ok = ok && write_tile(work, &found, bytes);
+    free(bytes);
+    return ok;
+}
+
+bool exr_join_copy(const ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
+                   FILE *stream, Error *error)
+{
+    atomic_int cause = 0;
+    const TileJoin work = {join, file, fileno(stream), &cause};
+    const bool ok = stored_tiles_run(settings, tile_count(settings), join_tile, &work, error);
+    errno = cause;
+    return ok;
 }
