@@ -24,7 +24,8 @@ typedef struct {
     // owned
     bool joins; // the result is an EXR file, whose tiles are copied; otherwise decoded
     ExrJoin join;
-    Error unopened; // the reason why a part cannot be opened
+    Error unopened;  // the reason why a part cannot be opened
+    bool is_damaged; // a part cannot be used
 } Merging;
 
 static bool is_picture(const Merging *merging, const StoredTiles *tiles)
@@ -94,40 +95,26 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
         return error_set(error, "%s: has channels that clrt does not draw", path);
     merging->joins = can_join(merging->options, file);
     if (merging->joins)
-        return exr_join_begin(&merging->join, &tiles->settings, error);
+        return exr_join_begin(&merging->join, file, error);
     return framebuffer_make(&merging->framebuffer, image->width, image->height, error) &&
            layers_make(&merging->layers, image->width, image->height, error);
 }
 
-static ExitCode cannot_use(const StoredTiles *tiles, const char *path, const Error *cause,
-                           Error *error)
-{
-    error_set(error, "%s: part %u of %u cannot be used: %s", path, tiles->settings.part + 1,
-              tiles->settings.parts, cause->text);
-    return EXIT_SCENE;
-}
-
-static ExitCode cannot_write(const Merging *merging, const char *cause, Error *error)
-{
-    error_set(error, "%s: cannot be written: %s", merging->options->output_path, cause);
-    return EXIT_OUTPUT;
-}
-
+// Records the part's tiles or decodes them. With a stream, copies them to it.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
-                       const char *path, Error *error)
+                       FILE *stream, Error *error)
 {
     const TileTarget target = {
         .framebuffer = &merging->framebuffer, .layers = &merging->layers, .is_whole = true};
     const RenderSettings *settings = &tiles->settings;
-    Error cause = {0};
-    return (merging->joins
-                ? exr_join_measure(&merging->join, file, settings, &cause)
-                : stored_tiles_copy(settings, tile_count(settings), file, &target, &cause)) ||
-           cannot_use(tiles, path, &cause, error) == EXIT_DONE;
+    if (stream != NULL)
+        return exr_join_copy(&merging->join, file, settings, stream, error);
+    return merging->joins ? exr_join_measure(&merging->join, file, settings, error)
+                          : stored_tiles_copy(settings, tile_count(settings), file, &target, error);
 }
 
-static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,
-                 Error *error)
+static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
+                       const char *path, Error *error)
 {
     const StoredImage *image = &file->head;
     if (strcmp(image->texts[STORED_COMPLETE], "yes") != 0)
@@ -142,7 +129,7 @@ static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file
     if (!note_part(merging, tiles, path, error))
         return false;
     note_device(merging, image);
-    return take_tiles(merging, tiles, file, path, error);
+    return true;
 }
 
 // Reads the settings of a part, which an ExrFile's header contains.
@@ -154,16 +141,23 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is no part of a picture that --part drew", path);
 }
 
-// A part that cannot be opened is missing, and the other parts show its number.
-static bool read_part(Merging *merging, const char *path, Error *error)
+// Without a stream, reads the part. A part that cannot be opened is missing, and the other parts
+// show its number. With a stream, copies the part's tiles to it.
+static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
     StoredTiles tiles = {0};
-    bool ok = exr_file_open(&file, path, &merging->unopened);
-    if (ok)
-        ok = read_settings(&tiles, &file, path, error) && take(merging, &tiles, &file, path, error);
-    else
-        ok = true;
+    Error cause = {0};
+    const bool opened = exr_file_open(&file, path, stream == NULL ? &merging->unopened : error);
+    bool ok = opened ? read_settings(&tiles, &file, path, error) : stream == NULL;
+    if (ok && opened) {
+        ok = (stream != NULL || check_part(merging, &tiles, &file, path, error)) &&
+             take_tiles(merging, &tiles, &file, stream, &cause);
+        merging->is_damaged = !ok && merging->join.write_error == 0;
+        if (merging->is_damaged)
+            error_set(error, "%s: part %u of %u cannot be used: %s", path, tiles.settings.part + 1,
+                      tiles.settings.parts, cause.text);
+    }
     stored_tiles_free(&tiles);
     exr_file_close(&file);
     return ok;
@@ -189,67 +183,37 @@ static bool check_missing(const Merging *merging, Error *error)
                                   list, parts, missing > 1 ? "are" : "is", colon, cause);
 }
 
-static bool read_parts(Merging *merging, Error *error)
+static bool visit_parts(Merging *merging, FILE *stream, Error *error)
 {
     const Options *options = merging->options;
     for (int i = 0; i < options->part_count; i++)
-        if (!read_part(merging, options->part_paths[i], error))
+        if (!visit_part(merging, options->part_paths[i], stream, error))
             return false;
-    return check_missing(merging, error);
+    return true;
 }
 
-// The exit status depends on whether the part or the output is at fault.
-static ExitCode join_part(const Merging *merging, const char *path, FILE *stream, Error *error)
-{
-    ExrFile file;
-    StoredTiles tiles = {0};
-    Error cause = {0};
-    ExitCode outcome = EXIT_DONE;
-    if (!exr_file_open(&file, path, error) || !read_settings(&tiles, &file, path, error))
-        outcome = EXIT_SCENE;
-    else if (!exr_join_copy(&merging->join, &file, &tiles.settings, stream, &cause))
-        outcome = errno != 0 ? cannot_write(merging, strerror(errno), error)
-                             : cannot_use(&tiles, path, &cause, error);
-    stored_tiles_free(&tiles);
-    exr_file_close(&file);
-    return outcome;
-}
-
-// Copies the parts' tiles into an EXR file that OpenImageIO has written without tiles.
-static ExitCode join_parts(Merging *merging, const char *path, Error *error)
-{
-    FILE *stream = fopen(path, "r+be");
-    ExitCode outcome = EXIT_DONE;
-    if (stream == NULL || !exr_join_write_table(&merging->join, stream))
-        outcome = cannot_write(merging, strerror(errno), error);
-    for (int i = 0; outcome == EXIT_DONE && i < merging->options->part_count; i++)
-        outcome = join_part(merging, merging->options->part_paths[i], stream, error);
-    if (stream != NULL && fclose(stream) != 0)
-        outcome = cannot_write(merging, strerror(errno), error);
-    return outcome;
-}
-
-static ExitCode write_joined(Merging *merging, ImageSettings *settings, Error *error)
+static bool write_joined(Merging *merging, const ImageSettings *settings, Error *error)
 {
     OutputFile file;
     Error cause = {0};
-    const RenderSettings *place = &merging->first.settings;
-    const ImagePart empty = {.width = place->width,
-                             .height = place->height,
-                             .tile_width = EXR_TILE,
-                             .tile_height = EXR_TILE};
-    settings->part = &empty;
-    if (!output_file_begin(&file, merging->options->output_path, error))
-        return EXIT_OUTPUT;
-    ExitCode outcome = image_write_file(&merging->framebuffer, file.temporary, settings, &cause)
-                           ? join_parts(merging, file.temporary, error)
-                           : cannot_write(merging, cause.text, error);
-    if (!output_file_end(&file, outcome == EXIT_DONE, &cause) && outcome == EXIT_DONE)
-        outcome = cannot_write(merging, cause.text, error);
-    return outcome;
+    const char *path = merging->options->output_path;
+    if (!output_file_begin(&file, path, error))
+        return false;
+    FILE *stream = fopen(file.temporary, "wbe");
+    bool ok = stream != NULL &&
+              exr_join_write_head(&merging->join, settings, &merging->first.settings, stream);
+    if (ok && !visit_parts(merging, stream, error)) {
+        ok = false;
+        errno = merging->join.write_error;
+    }
+    ok = (stream == NULL || fclose(stream) == 0) && ok;
+    if (!ok)
+        error_set(&cause, "%s", strerror(errno));
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
 }
 
-static ExitCode write_whole(Merging *merging, Error *error)
+static bool write_whole(Merging *merging, Error *error)
 {
     const Options *options = merging->options;
     const RenderSettings *place = &merging->first.settings;
@@ -258,7 +222,7 @@ static ExitCode write_whole(Merging *merging, Error *error)
     if (!merging->joins)
         framebuffer_hash(&merging->framebuffer, provenance->texts[STORED_PIXEL_HASH]);
     provenance_list(provenance);
-    ImageSettings settings = {
+    const ImageSettings settings = {
         .format = options->format,
         .encoding = merging->first.encoding,
         .texts = provenance->list,
@@ -271,8 +235,7 @@ static ExitCode write_whole(Merging *merging, Error *error)
     };
     if (merging->joins)
         return write_joined(merging, &settings, error);
-    return image_write(&merging->framebuffer, options->output_path, &settings, error) ? EXIT_DONE
-                                                                                      : EXIT_OUTPUT;
+    return image_write(&merging->framebuffer, options->output_path, &settings, error);
 }
 
 static ExitCode run(Merging *merging, Error *error)
@@ -282,16 +245,15 @@ static ExitCode run(Merging *merging, Error *error)
         return EXIT_USAGE;
     if (!output_file_check(options->output_path, error))
         return EXIT_OUTPUT;
-    if (!read_parts(merging, error))
+    if (!visit_parts(merging, NULL, error) || !check_missing(merging, error))
         return EXIT_SCENE;
     if (merging->layers.count > 0 && !image_format_takes_layers(options->format)) {
         error_set(error, "the parts have channels, which %s does not hold: give -o FILE.exr",
                   options->format);
         return EXIT_USAGE;
     }
-    const ExitCode written = write_whole(merging, error);
-    if (written != EXIT_DONE)
-        return written;
+    if (!write_whole(merging, error))
+        return merging->is_damaged ? EXIT_SCENE : EXIT_OUTPUT;
     const char *hash = merging->provenance.texts[STORED_PIXEL_HASH];
     return report_print_hash(options, hash, error) ? EXIT_DONE : EXIT_FAULTS;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // OpenEXRCore parses the file. A tile of ZIP compression ends with the Adler-32 checksum of its
-// values.
+// values. libdeflate checks it in half the time of zlib.
 #include "image/exr_file.h"
 
 #include <errno.h>
+#include <libdeflate.h>
 #include <stdio.h>
 #include <string.h>
-#include <zlib.h>
 
-static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
+void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context;
     (void)code;
@@ -20,11 +20,9 @@ static bool read_size(ExrFile *file)
     exr_attr_box2i_t window;
     if (exr_get_data_window(file->context, 0, &window) != EXR_ERR_SUCCESS)
         return false;
-    const int64_t width = (int64_t)window.max.x - window.min.x + 1,
-                  height = (int64_t)window.max.y - window.min.y + 1;
-    file->head.width = (uint32_t)width;
-    file->head.height = (uint32_t)height;
-    return width >= 1 && width <= EXR_SIDE_MAX && height >= 1 && height <= EXR_SIDE_MAX;
+    file->head.width = (uint32_t)(window.max.x - window.min.x + 1);
+    file->head.height = (uint32_t)(window.max.y - window.min.y + 1);
+    return true;
 }
 
 static bool read_channels(ExrFile *file)
@@ -49,14 +47,14 @@ static bool read_tiling(ExrFile *file)
     exr_compression_t compression;
     exr_tile_level_mode_t levels;
     exr_tile_round_mode_t rounding;
-    int32_t count;
-    return exr_get_chunk_count(file->context, 0, &count) == EXR_ERR_SUCCESS && count > 0 &&
-           exr_get_compression(file->context, 0, &compression) == EXR_ERR_SUCCESS &&
+    int32_t count = 0;
+    exr_get_chunk_count(file->context, 0, &count);
+    file->tile_count = (uint32_t)count;
+    return count > 0 && exr_get_compression(file->context, 0, &compression) == EXR_ERR_SUCCESS &&
            compression == EXR_COMPRESSION_ZIP &&
            exr_get_tile_descriptor(file->context, 0, &file->tile_width, &file->tile_height, &levels,
                                    &rounding) == EXR_ERR_SUCCESS &&
-           levels == EXR_TILE_ONE_LEVEL && file->tile_width <= EXR_SIDE_MAX &&
-           file->tile_height <= EXR_SIDE_MAX;
+           levels == EXR_TILE_ONE_LEVEL;
 }
 
 static void read_texts(ExrFile *file)
@@ -73,7 +71,7 @@ bool exr_file_open(ExrFile *file, const char *path, Error *error)
 {
     const exr_context_initializer_t settings = {
         .size = sizeof settings,
-        .error_handler_fn = ignore_message,
+        .error_handler_fn = exr_file_ignore,
         .flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION, // tiles may be missing
     };
     *file = (ExrFile){0};
@@ -103,25 +101,54 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch)
 {
-    uLongf length = tile->unpacked_size;
-    uLong taken = tile->packed_size;
+    size_t taken;
     if (exr_read_chunk(file->context, 0, tile, bytes) != EXR_ERR_SUCCESS)
         return false;
-    return tile->packed_size == tile->unpacked_size ||
-           (uncompress2(scratch, &length, bytes, &taken) == Z_OK && length == tile->unpacked_size &&
-            taken == tile->packed_size);
+    if (tile->packed_size == tile->unpacked_size)
+        return true;
+    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
+    const bool ok =
+        decompressor != NULL &&
+        libdeflate_zlib_decompress_ex(decompressor, bytes, tile->packed_size, scratch,
+                                      tile->unpacked_size, &taken, NULL) == LIBDEFLATE_SUCCESS &&
+        taken == tile->packed_size;
+    libdeflate_free_decompressor(decompressor);
+    return ok;
 }
 
-bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile, const ExrTarget *targets)
+void exr_place_channels(exr_coding_channel_info_t *channels, int count,
+                        const Framebuffer *framebuffer, const Layers *layers,
+                        const size_t position[2])
+{
+    static const char *const colors[] = {"R", "G", "B"};
+    const size_t pixel = position[1] * framebuffer->width + position[0];
+    const uint32_t layer_count = layers != NULL ? layers->count : 0;
+    for (exr_coding_channel_info_t *channel = channels; channel < channels + count; channel++) {
+        for (uint32_t i = 0; i < 3 + layer_count; i++) {
+            if (strcmp(channel->channel_name, i < 3 ? colors[i] : layers->list[i - 3].name) != 0)
+                continue;
+            const size_t size = (i < 3 ? 3 : layer_count) * sizeof(uint32_t);
+            channel->decode_to_ptr = i < 3
+                                         ? (uint8_t *)&framebuffer->pixels[pixel][i]
+                                         : (uint8_t *)&layers->values[pixel * layer_count + i - 3];
+            channel->user_pixel_stride = (int32_t)size;
+            channel->user_line_stride = (int32_t)(framebuffer->width * size);
+        }
+    }
+}
+
+ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size)
+{
+    return (ExrTileHead){
+        .column = (uint32_t)tile->start_x, .row = (uint32_t)tile->start_y, .size = (uint32_t)size};
+}
+
+bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
+                     const Framebuffer *framebuffer, const Layers *layers, const size_t position[2])
 {
     exr_decode_pipeline_t decoder = {0};
     bool ok = exr_decoding_initialize(file->context, 0, tile, &decoder) == EXR_ERR_SUCCESS;
-    for (int i = 0; i < decoder.channel_count; i++) {
-        decoder.channels[i].decode_to_ptr = targets[i].start;
-        decoder.channels[i].user_pixel_stride = (int32_t)targets[i].pixel_size;
-        decoder.channels[i].user_line_stride = (int32_t)targets[i].line_size;
-        decoder.channels[i].user_bytes_per_element = sizeof(uint32_t);
-    }
+    exr_place_channels(decoder.channels, decoder.channel_count, framebuffer, layers, position);
     ok = ok &&
          exr_decoding_choose_default_routines(file->context, 0, &decoder) == EXR_ERR_SUCCESS &&
          exr_decoding_run(file->context, 0, &decoder) == EXR_ERR_SUCCESS;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A tiled OpenEXR file that clrt wrote -> its texts, and each tile, compressed or as values. Tiles
-// may be missing. A file may be larger than the memory. Threads may share an open file.
+// A tiled OpenEXR file that clrt wrote -> its texts, and each tile, compressed or as values; and
+// the beginning of such a file. Tiles may be missing. A file may be larger than the memory. Threads
+// may share an open file.
 #pragma once
 
+#include "image/image_file.h"
 #include "image/stored_image.h"
 
 #include <openexr.h>
+#include <stdio.h>
 
 // The side of the tiles of a whole picture in pixels. The tiles of a part have the size of --tile.
 #define EXR_TILE 64
 
-#define EXR_SIDE_MAX 131072 // pixels
-
 typedef struct {
     exr_context_t context; // NULL if closed
     StoredImage head;      // size, channels in the file's order and texts; no values
-    uint32_t tile_width, tile_height;
+    uint32_t tile_width, tile_height, tile_count;
 } ExrFile;
 
 // Opens a tiled EXR file. Returns false if path is not one, with an error message that names path.
@@ -32,12 +33,31 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// The memory for one channel of a tile.
-typedef struct {
-    void *start;                  // of the tile's first pixel; NULL skips the channel
-    size_t pixel_size, line_size; // bytes from a pixel to the next one, and to the one below
-} ExrTarget;
+// Copies the values of a tile into framebuffer and layers, where position is that of its first
+// pixel. Skips channels that both lack. Returns false if the tile is damaged.
+bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
+                     const Framebuffer *framebuffer, const Layers *layers,
+                     const size_t position[2]);
 
-// Stores the values of a tile, of 32 bits each. targets has head.channel_count entries. Returns
-// false if the tile is damaged.
-bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile, const ExrTarget *targets);
+// Points the channels of a tile to their values in framebuffer and layers, from the pixel at
+// position on. layers may be NULL. Channels that both lack point to NULL.
+void exr_place_channels(exr_coding_channel_info_t *channels, int count,
+                        const Framebuffer *framebuffer, const Layers *layers,
+                        const size_t position[2]);
+
+// The bytes in front of a compressed tile: column, row, two zeros for the level of detail, and
+// size.
+typedef struct {
+    uint32_t column, row, levels[2], size;
+} ExrTileHead;
+
+ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
+
+// Writes the header of a picture of this size, or of settings->part. The table of the tiles'
+// positions follows it, and then the tiles. Returns false if writing fails. The caller ends the
+// context with exr_finish in both cases.
+bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
+                    uint32_t height, FILE *stream);
+
+// A handler for messages of OpenEXRCore, whose functions also return the failure.
+void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message);

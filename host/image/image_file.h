@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenImageIO writes other
-// formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB, so a separate
-// process loads it on demand while clrt traces.
+// Writes a Framebuffer to a file. libpng writes PNG, pfm.c PFM, OpenEXRCore EXR, and OpenImageIO
+// other formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB, so a
+// separate process loads it on demand while clrt traces.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -13,12 +13,11 @@ typedef struct {
     const char *name, *value;
 } ImageText;
 
-// A part of a picture: the tiles that the framebuffer contains, below each other. Without any, the
-// file ends with its table of tiles, and other code adds them.
+// A part of a picture: the tiles that the framebuffer contains, below each other.
 typedef struct {
     uint32_t width, height;           // of the whole picture
     uint32_t tile_width, tile_height; // of unclipped tiles
-    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned
+    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned; NULL: all
     size_t tile_count;
 } ImagePart;
 
@@ -64,11 +63,6 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 // Writes the picture to path, or to standard output if path is "-" (base/output_file.h).
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);
-
-// Like image_write, but into the file at path itself. On failure, cause has the reason without the
-// path.
-bool image_write_file(const Framebuffer *framebuffer, const char *path,
-                      const ImageSettings *settings, Error *cause);
 
 // Multiplies count values by gain, limits them to 1 and rounds them to the nearest of 256 steps.
 // ENCODE_SRGB applies the sRGB curve (IEC 61966-2-1) before rounding.

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Each tile has a fixed place, because OpenEXR writes the tiles of a whole picture row by row.
+// Each tile has a fixed place, because clrt writes the tiles of a whole picture row by row.
 #include "jobs/exr_join.h"
 
 #include "jobs/stored_tiles.h"
 
 #include <errno.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-// A tile's position, as it precedes the tile's bytes: column, row, two zeros for the level of
-// detail, and the number of bytes.
-typedef uint32_t TileHead[5];
-
-bool exr_join_begin(ExrJoin *join, const RenderSettings *settings, Error *error)
+bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error)
 {
-    RenderSettings whole = *settings;
-    whole.part = whole.parts = 0;
-    join->count = tile_count(&whole);
+    join->count = file->tile_count;
     join->starts = memory_zeroed(join->count, sizeof *join->starts, error);
     return join->starts != NULL;
 }
@@ -38,52 +31,54 @@ bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *
         const Tile tile = tile_at(settings, number);
         if (!stored_tiles_find(file, &tile, &found, error))
             return false;
-        join->starts[found.idx] = sizeof(TileHead) + found.packed_size;
+        join->starts[found.idx] = sizeof(ExrTileHead) + found.packed_size;
     }
     return true;
 }
 
-bool exr_join_write_table(ExrJoin *join, FILE *stream)
+bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
+                         FILE *stream)
 {
-    const off_t size = (off_t)(join->count * sizeof *join->starts);
-    if (fseeko(stream, -size, SEEK_END) != 0)
-        return false;
-    uint64_t next = (uint64_t)(ftello(stream) + size);
-    for (uint64_t place = 0; place < join->count; place++) {
-        const uint64_t tile_size = join->starts[place];
-        join->starts[place] = next;
-        next += tile_size;
+    exr_context_t context = NULL;
+    const bool ok = exr_file_begin(&context, settings, place->width, place->height, stream);
+    exr_finish(&context);
+    uint64_t next = (uint64_t)ftello(stream) + join->count * sizeof next;
+    for (uint64_t tile = 0; tile < join->count; tile++) {
+        const uint64_t size = join->starts[tile];
+        join->starts[tile] = next;
+        next += size;
     }
-    return fwrite(join->starts, sizeof *join->starts, join->count, stream) == join->count &&
+    return ok && fwrite(join->starts, sizeof *join->starts, join->count, stream) == join->count &&
            fflush(stream) == 0;
 }
 
 typedef struct {
-    const ExrJoin *join;
+    ExrJoin *join;
     const ExrFile *file;
     int output;
-    atomic_int *cause; // why writing failed; 0 otherwise
 } TileJoin;
 
-static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
+// Reads a tile behind its head. Returns false if the tile is damaged or longer than in the first
+// pass.
+static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
-    const size_t size = sizeof(TileHead) + tile->packed_size;
-    const TileHead head = {(uint32_t)tile->start_x, (uint32_t)tile->start_y, 0, 0,
-                           (uint32_t)tile->packed_size};
-    memcpy(bytes, head, sizeof head);
-    errno = 0;
-    if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
-        return true;
-    *work->cause = errno != 0 ? errno : ENOSPC;
-    return false;
+    const ExrJoin *join = work->join;
+    const uint64_t next = (uint64_t)tile->idx + 1, size = sizeof(ExrTileHead) + tile->packed_size;
+    const ExrTileHead head = exr_tile_head(tile, tile->packed_size);
+    memcpy(bytes, &head, sizeof head);
+    return (next == join->count || join->starts[next] - join->starts[tile->idx] == size) &&
+           exr_file_read(work->file, tile, bytes + sizeof head, bytes + size);
 }
 
-// Returns whether the tile is as long as in the first pass.
-static bool fits(const ExrJoin *join, const exr_chunk_info_t *tile)
+static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile,
+                       const unsigned char *bytes)
 {
-    const uint64_t next = (uint64_t)tile->idx + 1;
-    return next == join->count ||
-           join->starts[next] - join->starts[tile->idx] == sizeof(TileHead) + tile->packed_size;
+    const size_t size = sizeof(ExrTileHead) + tile->packed_size;
+    errno = ENOSPC;
+    if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
+        return true;
+    work->join->write_error = errno;
+    return false;
 }
 
 static bool join_tile(const void *context, const Tile *tile, Error *error)
@@ -93,24 +88,18 @@ static bool join_tile(const void *context, const Tile *tile, Error *error)
     if (!stored_tiles_find(work->file, tile, &found, error))
         return false;
     unsigned char *bytes =
-        memory_raw(sizeof(TileHead) + found.packed_size + found.unpacked_size, 1, error);
-    if (bytes == NULL)
-        return false;
-    unsigned char *packed = bytes + sizeof(TileHead);
-    bool ok = (fits(work->join, &found) &&
-               exr_file_read(work->file, &found, packed, packed + found.packed_size)) ||
-              error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y);
-    ok = ok && write_tile(work, &found, bytes);
+        memory_raw(sizeof(ExrTileHead) + found.packed_size + found.unpacked_size, 1, error);
+    const bool ok = bytes != NULL &&
+                    (read_tile(work, &found, bytes) ||
+                     error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y)) &&
+                    write_tile(work, &found, bytes);
     free(bytes);
     return ok;
 }
 
-bool exr_join_copy(const ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                   FILE *stream, Error *error)
+bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
+                   Error *error)
 {
-    atomic_int cause = 0;
-    const TileJoin work = {join, file, fileno(stream), &cause};
-    const bool ok = stored_tiles_run(settings, tile_count(settings), join_tile, &work, error);
-    errno = cause;
-    return ok;
+    const TileJoin work = {join, file, fileno(stream)};
+    return stored_tiles_run(settings, tile_count(settings), join_tile, &work, error);
 }

@@ -7,26 +7,29 @@
 #include "image/exr_file.h"
 #include "render/renderer.h"
 
-#include <stdio.h>
+#include <stdatomic.h>
 
 typedef struct {
-    uint64_t count;   // tiles of the whole picture
-    uint64_t *starts; // the tiles' sizes during the first pass, then their positions; owned
+    uint64_t count;         // tiles of the whole picture
+    uint64_t *starts;       // the tiles' sizes during the first pass, then their positions; owned
+    atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates the memory for the whole picture. `settings` are those of one of its parts.
-bool exr_join_begin(ExrJoin *join, const RenderSettings *settings, Error *error);
-void exr_join_free(ExrJoin *join);
+// Allocates the memory for the whole picture, of which file is a part.
+bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error);
 
-// Fills the table of tiles of an EXR file without tiles. Call it after the first pass. On failure,
-// errno has the reason.
-bool exr_join_write_table(ExrJoin *join, FILE *stream);
+// Writes the header of the picture, which has the size in place, and the table of tiles. Call it
+// after the first pass. On failure, errno has the reason.
+bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
+                         FILE *stream);
 
-// Second pass: copies the part's tiles. If writing fails, errno has the reason. It is 0 if the part
-// is damaged, or has changed since the first pass.
-bool exr_join_copy(const ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                   FILE *stream, Error *error);
+// Second pass: copies the part's tiles. Fails if writing fails, if the part is damaged, or if it
+// has changed since the first pass.
+bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
+                   Error *error);
+
+void exr_join_free(ExrJoin *join);

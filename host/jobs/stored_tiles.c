@@ -222,48 +222,23 @@ bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *
 typedef struct {
     const ExrFile *file;
     const TileTarget *target;
-    ExrTarget channels[STORED_CHANNELS_MAX]; // of the target's first pixel
 } TileCopy;
-
-// Channels that the target lacks are skipped.
-static void find_channels(TileCopy *copy)
-{
-    const Framebuffer *framebuffer = copy->target->framebuffer;
-    const Layers *layers = copy->target->layers;
-    const StoredImage *image = &copy->file->head;
-    const size_t size = layers->count * sizeof *layers->values;
-    for (uint32_t color = 0; color < 3; color++)
-        copy->channels[stored_image_channel(image, color_names[color])] =
-            (ExrTarget){&framebuffer->pixels[0][color], sizeof *framebuffer->pixels,
-                        framebuffer->width * sizeof *framebuffer->pixels};
-    for (uint32_t layer = 0; layer < layers->count; layer++)
-        copy->channels[stored_image_channel(image, layers->list[layer].name)] =
-            (ExrTarget){&layers->values[layer], size, layers->width * size};
-}
 
 static bool copy_tile(const void *context, const Tile *tile, Error *error)
 {
     const TileCopy *copy = context;
-    const bool is_whole = copy->target->is_whole;
-    const size_t left = is_whole ? tile->x : tile->left, top = is_whole ? tile->y : tile->top;
+    const TileTarget *target = copy->target;
+    size_t position[2] = {target->is_whole ? tile->x : tile->left,
+                          target->is_whole ? tile->y : tile->top};
     exr_chunk_info_t found;
-    ExrTarget channels[STORED_CHANNELS_MAX];
-    for (uint32_t i = 0; i < copy->file->head.channel_count; i++) {
-        channels[i] = copy->channels[i];
-        if (channels[i].start != NULL)
-            channels[i].start = (char *)channels[i].start + top * channels[i].line_size +
-                                left * channels[i].pixel_size;
-    }
     return stored_tiles_find(copy->file, tile, &found, error) &&
-           (exr_file_decode(copy->file, &found, channels) ||
+           (exr_file_decode(copy->file, &found, target->framebuffer, target->layers, position) ||
             error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y));
 }
 
 bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
                        const TileTarget *target, Error *error)
 {
-    assert(stored_tiles_has_colors(&file->head));
-    TileCopy copy = {.file = file, .target = target};
-    find_channels(&copy);
+    const TileCopy copy = {file, target};
     return stored_tiles_run(settings, count, copy_tile, &copy, error);
 }

@@ -5,6 +5,7 @@
 # Usage: test_parts.py CLRT
 import os
 import random
+import zlib
 
 from pictures import read_exr, read_exr_tiles, read_header
 from work import ROOT, SCENE, SharedWork, main
@@ -21,6 +22,15 @@ def part_of(column, row, parts):
 def flipped(data, place):
     """One bit differs."""
     return data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :]
+
+
+def damaged(data, start, end):
+    """One bit of the tile between start and end differs, and with it the tile's values."""
+    for place in random.Random(start).sample(range(start + 20, end), end - start - 20):
+        try:
+            zlib.decompress(flipped(data, place)[start + 20 : end])
+        except zlib.error:
+            return flipped(data, place)
 
 
 class Parts(SharedWork):
@@ -191,9 +201,8 @@ class Parts(SharedWork):
         tiles = [place for place in range(table, table + 8 * 20, 8) if honest[place : place + 8] != bytes(8)]
         starts = sorted(int.from_bytes(honest[place : place + 8], "little") for place in tiles)
         last = starts[-1]
-        places = [start + 20 + random.Random(start).randrange(end - start - 20)
-                  for start, end in zip(starts, starts[1:] + [len(honest)])]
-        for bad in (*(flipped(honest, place) for place in places), honest[:-1], honest[: last + 10],
+        for bad in (*(damaged(honest, *ends) for ends in zip(starts, starts[1:] + [len(honest)])),
+                    honest[:-1], honest[: last + 10],
                     honest[: tiles[0]] + bytes(8) + honest[tiles[0] + 8 :],
                     honest[: tiles[0]] + b"\xff" * 8 + honest[tiles[0] + 8 :],
                     honest[: last + 16] + b"\xff\xff\xff\x7f" + honest[last + 20 :]):
