@@ -53,16 +53,6 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     return stored_tiles_has(image, &merging->layers) ? NULL : "set of channels";
 }
 
-static bool note_part(Merging *merging, const StoredTiles *tiles, const char *path, Error *error)
-{
-    const char **place = &merging->paths[tiles->settings.part];
-    if (*place != NULL)
-        return error_set(error, "%s: is part %u of %u, which %s is already", path,
-                         tiles->settings.part + 1, tiles->settings.parts, *place);
-    *place = path;
-    return true;
-}
-
 // Adds the part's device and driver unless another part has the same.
 static void note_device(Merging *merging, const StoredImage *image)
 {
@@ -126,8 +116,11 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
     if (mismatch != NULL)
         return error_set(error, "%s: is of another %s than %s", path, mismatch,
                          merging->options->part_paths[0]);
-    if (!note_part(merging, tiles, path, error))
-        return false;
+    const char **place = &merging->paths[tiles->settings.part];
+    if (*place != NULL)
+        return error_set(error, "%s: is part %u of %u, which %s is already", path,
+                         tiles->settings.part + 1, tiles->settings.parts, *place);
+    *place = path;
     note_device(merging, image);
     return true;
 }
@@ -265,7 +258,7 @@ ExitCode merge_parts(const Options *options, Error *error)
     framebuffer_free(&merging.framebuffer);
     layers_free(&merging.layers);
     stored_tiles_free(&merging.first);
-    exr_join_free(&merging.join);
+    free(merging.join.starts);
     free(merging.paths);
     return outcome;
 }

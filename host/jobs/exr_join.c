@@ -16,12 +16,6 @@ bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error)
     return join->starts != NULL;
 }
 
-void exr_join_free(ExrJoin *join)
-{
-    free(join->starts);
-    *join = (ExrJoin){0};
-}
-
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error)
 {

@@ -15,7 +15,7 @@ typedef struct {
     atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates the memory for the whole picture, of which file is a part.
+// Allocates the memory for the whole picture, of which file is a part. The caller frees starts.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.
@@ -31,5 +31,3 @@ bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const Ren
 // has changed since the first pass.
 bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
                    Error *error);
-
-void exr_join_free(ExrJoin *join);
