@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The data that the tracer's steps share: a ray, its hit, its cost and the scene.
+// The data that the tracer's steps share: a ray, its cost and the scene.
 #ifndef CLRT_RAY_CL
 #define CLRT_RAY_CL
-#include "numeric.cl"
+#include "hit.cl"
 
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
@@ -25,13 +25,6 @@ static inline float length_of_ray(const Ray *ray)
 {
     return ray->kind == RAY_SHADOW ? 1.0f : INFINITY;
 }
-
-// index counts within the array of the primitive's kind; with wide nodes, triangles count block
-// slots. Spheres have the ids below sphere_count.
-typedef struct {
-    Real t; // along the ray; INFINITY without a hit
-    UInt id, index;
-} Hit;
 
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
@@ -88,12 +81,6 @@ typedef struct {
 static inline uint lane_count(Mask mask)
 {
     return popcount(lane_bits(mask));
-}
-
-// Equal distances go to the lowest id, regardless of the order of the tests.
-static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
-{
-    return t < best->t || (t == best->t && id < best->id && t < INFINITY);
 }
 
 #endif

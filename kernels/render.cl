@@ -70,8 +70,8 @@ static inline void add_colors(ColorSum *sum, Real3 color)
     sum->blue += to_long(color.z);
 }
 
-// Computes the mean colors of pixels. A single sample needs no sum, whose division costs more than
-// tracing a simple scene.
+// Computes the mean colors of pixels. A single sample needs no sum: the division of a sum costs
+// more than tracing a simple scene.
 static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKETS],
                                 Real3 colors[PACKETS])
 {
@@ -169,7 +169,7 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
     }
 }
 
-// Returns a beam's pixels; those outside the tile are inactive.
+// Returns a packet's pixels; pixels outside the tile are inactive.
 static inline Places places_at(const FrameData *frame, uint2 corner)
 {
     const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;

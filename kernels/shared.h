@@ -24,10 +24,10 @@ typedef uint64_t ulong;
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding
-// (2^-24). A triangle that triangle.inc.cl accepts lies within 22 units of the ray, with 16 more if
-// t is only within its error of zero. The slab arithmetic adds 4. If division is only accurate to
-// 2.5 ulp, these become 34, 25 and 8. In measurements, doubling the slack costs nothing.
+// Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding (2^-24).
+// A triangle that triangle.inc.cl accepts lies within 22 units of the ray, plus 16 if t may be zero
+// within its error. The slab arithmetic adds 4. If division is only accurate to 2.5 ulp, these
+// become 34, 25 and 8. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-17f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
@@ -105,7 +105,7 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // A work-item of the families with wide nodes renders BLOCK_SIDE x BLOCK_SIDE pixels.
 #define BLOCK_SIDE 8
 
-// Refined pictures list their samples in squares of this many pixels, which form packets.
+// Refined pictures list their samples in squares of this side, which form packets.
 #define PACKET_SIDE 4
 
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.
@@ -138,8 +138,8 @@ typedef struct {
 } TriangleLook;
 CLRT_SAME_SIZE(TriangleLook, 8)
 
-// A camera ray's direction is forward + x * right_step + y * down_step. x and y are the odd
-// numbers 2 * sample + 1 - samples across the picture, exact in float and mirror symmetric.
+// A camera ray's direction is forward + x * right_step + y * down_step. For sample i of n across
+// the picture, x is 2 * i + 1 - n; y likewise. These integers are exact in float and symmetric.
 typedef struct {
     float eye[4];
     float forward[4];
@@ -170,7 +170,7 @@ typedef struct {
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
 
-// Sub-pixels along a side of a pixel whose samples are summed. Because this is a power of two, the
+// Sub-pixels along a side of a pixel in ladder.cl's pictures. Because this is a power of two, the
 // sample at the center has the bits of a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
@@ -202,8 +202,8 @@ typedef enum {
     CERTAINTY_KINDS
 } Certainty;
 
-// The result of certify.cl for a pixel, from its last sample. Uncertain decisions must not be
-// read.
+// The result of certify.cl for a pixel: its certainty and, unless it is open, the decisions of its
+// last sample.
 typedef struct {
     uint certainty; // a Certainty
     uint first_id;  // of the camera ray's hit, or NOTHING

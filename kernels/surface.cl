@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Turns a hit into a surface: the point and its normals. Points are interpolated on the primitive
-// rather than stepped along the ray, so their error does not grow with the distance traveled
-// (pbrt, section 6.8). New rays start exactly at the point. The side on which the point lies
-// decides which triangles they may stop on (triangle.inc.cl), so no offset moves contacts and
-// shadows. The start only moves if rounding has put the point outside its own triangle, as the new
-// ray sees it.
+// rather than stepped along the ray, so their error does not grow with the distance traveled (pbrt,
+// section 6.8). New rays start at the point. The side on which the point lies decides which
+// triangles they may stop on (triangle.inc.cl), so no offset moves contacts and shadows. The start
+// moves only if, seen along the new ray, rounding has put the point outside its triangle.
 //
 // The shading normal and the true face can face opposite sides. Two rules then decide which light
-// and which rays leave or reach the surface. The face always counts as seen from the ray's side.
+// reaches the surface and which rays leave it. The face's normal always points to the ray's side.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
 //    course's renderers have the same effect by starting shadow rays slightly off the surface: the
 //    face then blocks a light behind it. A sphere seen from inside keeps its outward normal, as in
@@ -201,10 +200,10 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
     return heading->is_place ? difference(heading->to, point) : heading->to;
 }
 
-// Returns the start of a ray whose surface point rounding may have put outside its triangle,
-// beyond the neighbor that should stop the ray. While the ray's line misses the triangle, the
-// point moves toward the triangle's middle, within its plane. Sharper corners move it farther, up
-// to 256 times the line's shift along the plane by a unit of rounding.
+// Returns the start of a ray near an edge. Rounding may have put the surface point outside its
+// triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
+// the point moves within the plane toward the triangle's middle: by UNIT_ROUNDOFF / sine, then
+// twice that, up to 256 times.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
                                      const Heading *heading, Real sine, Mask near_edge)
 {
@@ -224,9 +223,9 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
     return point;
 }
 
-// Returns the start of a ray that leaves the surface, such that its line passes through its own
-// triangle. Rounding can prevent that only near edges. A point is off by some units of rounding,
-// with coordinates up to 1. A line that rises at a given sine is off by this error over the sine.
+// Returns the start of a ray that leaves the surface. The ray's line passes through the surface's
+// triangle, which rounding can prevent only near edges. A point with coordinates up to 1 is off by
+// some units of rounding. Along the plane, the ray's line is off by this error over its sine.
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, const Heading *heading,
                                Real sine, Mask active)
 {
@@ -238,7 +237,7 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, con
 }
 
 // An interpolated normal can send the reflected ray into the surface it leaves. That ray is
-// mirrored out again at the true surface, which is continuous at its horizon.
+// mirrored out at the true surface, and changes continuously with the normal.
 static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);

@@ -17,7 +17,7 @@ static inline Real3 in_steps3(Real3 color)
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
-// Where a camera ray's path through its reflections has got to.
+// The state of a camera ray's path through its reflections.
 typedef struct {
     Real3 color;   // so far
     Real weight;   // of the next ray's color in the sample's color
@@ -65,15 +65,15 @@ static inline void count_rays(const Paths *paths, uint number, Tally *tally)
     tally->shaded_points += met;
 }
 
-// Returns the surface's word for signatures. Each sphere is its own surface; all triangles of one
-// material are one surface.
+// Returns the number of the surface in signatures. Each sphere is its own surface; all triangles of
+// one material are one surface.
 static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 {
     const UInt of_mesh = frame->sphere_count + surface->material;
     return surface->id < frame->sphere_count ? surface->id : of_mesh;
 }
 
-// Aims the next rays of the lanes that have one, and returns whether any has.
+// Sets the next ray of each lane that has one. Returns whether any lane has one.
 static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
     bool any = false;
@@ -107,8 +107,8 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     sign_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
 }
 
-// Follows the next ray of each lane that has one, up to its surface. Returns false if no lane has
-// one.
+// Follows the next ray of each lane that has one, up to its surface. Returns false if all paths
+// have ended.
 static inline bool paths_step(const Tracer *tracer, Paths *paths)
 {
     if (paths->level == tracer->frame->max_level || !aim_rays(tracer, paths))

@@ -61,7 +61,7 @@ static Binning binning_of(const Bounds *centers, uint32_t count)
         const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
-    binning.origin[3] = 1; // outweighs the items' integers there, which are denormals
+    binning.origin[3] = 1; // BuildItem keeps integers there: denormals, which 1 outweighs
     return binning;
 }
 

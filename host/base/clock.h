@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wall time for statistics. No picture depends on it.
+// Wall time. Only pictures with --time depend on it.
 #pragma once
 
 #include <time.h>

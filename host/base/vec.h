@@ -56,7 +56,8 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Return the minimum or maximum per component, without NaN. fmin and fmax would be function calls.
+// Return the minimum or maximum per component of vectors without NaN. fmin and fmax would be
+// function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};

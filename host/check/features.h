@@ -25,8 +25,8 @@ typedef struct {
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
-// Both report the first object with an offender, as the path of its file, the first offending
-// triangle and the count.
+// Both functions below report the first object that fails: its file, its first bad triangle and the
+// count.
 
 // Fails if the reader dropped a triangle.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);

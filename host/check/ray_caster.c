@@ -72,15 +72,15 @@ static bool make_kernel(RayCaster *caster, Error *error)
 static bool build(RayCaster *caster, const RendererSetup *setup, Error *error)
 {
     char key[PROGRAM_KEY_SIZE];
-    CacheBuild build;
+    CacheCheck build;
     const SceneTraits traits = traits_general(false);
     ProgramSource source = setup->source;
     source.appended = rays_source;
     program_key(caster->device, &source, &traits, key);
-    cache_build_begin(&build, setup->cache, key);
+    cache_check_begin(&build, setup->cache, key);
     const bool ok = program_build(&caster->program, caster->device, &source, &traits, error) &&
                     make_kernel(caster, error);
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     return ok;
 }
 

@@ -32,7 +32,7 @@ typedef struct {
 const char *program_entry_name(KernelEntry entry);
 
 // Builds the program. The error message contains the compiler's log. Build between
-// cache_build_begin and cache_build_end. Run each kernel once there, because drivers then finish
+// cache_check_begin and cache_check_end. Run each kernel once there, because drivers then finish
 // compiling.
 bool program_build(Program *program, const Device *device, const ProgramSource *source,
                    const SceneTraits *traits, Error *error);
@@ -40,6 +40,6 @@ void program_free(Program *program);
 
 #define PROGRAM_KEY_SIZE 33
 
-// Writes the program's key for cache_build_begin: a hash of everything that determines the program.
+// Writes the program's key for cache_check_begin: a hash of everything that determines the program.
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE]);

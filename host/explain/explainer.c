@@ -87,15 +87,15 @@ static bool make_kernel(Explainer *explainer, const Device *device, Error *error
 static bool build(Explainer *explainer, const RendererSetup *setup, Error *error)
 {
     char key[PROGRAM_KEY_SIZE];
-    CacheBuild build;
+    CacheCheck build;
     const SceneTraits traits = traits_general(false);
     ProgramSource source = setup->source;
     source.appended = explain_source;
     program_key(setup->device, &source, &traits, key);
-    cache_build_begin(&build, setup->cache, key);
+    cache_check_begin(&build, setup->cache, key);
     const bool ok = program_build(&explainer->program, setup->device, &source, &traits, error) &&
                     make_kernel(explainer, setup->device, error);
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     return ok;
 }
 

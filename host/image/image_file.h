@@ -46,7 +46,7 @@ bool image_format_is_float(const char *format);
 // Returns whether a format stores layers. Only EXR does.
 bool image_format_takes_layers(const char *name);
 
-// Returns the names of all formats that this build writes, for messages.
+// Returns the names of this build's formats except GIF, for messages.
 const char *image_format_names(void);
 
 // Returns half of the smallest step of 8-bit values, in linear color. For floats, returns half of

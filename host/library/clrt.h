@@ -152,10 +152,10 @@ typedef struct ClrtRenderer ClrtRenderer;
 // limit PoCL's threads, the program sets POCL_MAX_PTHREAD_COUNT (later versions:
 // POCL_CPU_MAX_CU_COUNT) before PoCL's first call.
 //
-// The folder clrt/library in $XDG_CACHE_HOME or ~/.cache holds a lock and checksums. The lock keeps
-// processes that compile concurrently from losing PoCL's kernels. The checksums detect damaged
-// kernels, which are then compiled again. PoCL finds no device unless it can write its own cache,
-// in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
+// A folder holds a lock and checksums: clrt/library in $POCL_CACHE_DIR, $XDG_CACHE_HOME or
+// ~/.cache. The lock keeps processes that compile concurrently from losing PoCL's kernels. The
+// checksums detect damaged kernels, which are then compiled again. PoCL finds no device unless it
+// can write its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // Frees the renderer. Accepts NULL.

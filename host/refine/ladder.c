@@ -47,8 +47,8 @@ static bool enter_all(Ladder *ladder, Error *error)
     float *nearby = memory_raw(pixels, sizeof *nearby, error);
     if (nearby == NULL)
         return false;
-    bends_measure(ladder->picture, ladder->pool, ladder->features);
-    bends_spread(ladder->picture, ladder->pool, ladder->features, nearby);
+    bends_measure(ladder->picture, ladder->requests.pool, ladder->features);
+    bends_spread(ladder->picture, ladder->requests.pool, ladder->features, nearby);
     for (size_t pixel = 0; pixel < pixels; pixel++) {
         const double bend = (double)ladder->features[pixel];
         enter(ladder, pixel, strata_of_bend(bend, (double)nearby[pixel]), bend * bend);
@@ -73,11 +73,12 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
     Renderer *renderer = setup->renderer;
     Framebuffer *picture = setup->picture;
     PixelRequests *requests = &ladder->requests;
-    *ladder = (Ladder){
-        .requests = {.renderer = renderer, .frame = renderer->frame, .observer = setup->observer},
-        .pool = setup->pool,
-        .picture = picture,
-        .statistics.pixels = (size_t)picture->width * picture->height};
+    *ladder = (Ladder){.requests = {.renderer = renderer,
+                                    .frame = renderer->frame,
+                                    .observer = setup->observer,
+                                    .pool = setup->pool},
+                       .picture = picture,
+                       .statistics.pixels = (size_t)picture->width * picture->height};
     requests->frame.camera = *setup->camera;
     requests->frame.samples = LADDER_GRID;
     renderer->progress = (RenderProgress){0};
@@ -208,12 +209,16 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Selects the pixels that advance, in chunks.
+// The side of a block of pixels. Selected pixels are listed block by block, because rays of nearby
+// pixels traverse the tree together. Listed row by row, pictures took 3 to 10 % longer.
+#define CHOICE_SIDE 8
+
+// Selects the pixels that advance, in rows of blocks.
 typedef struct {
     const Ladder *ladder;
     double fractions[STRATA_COUNT]; // 0 if no further pixel is to be selected
-    uint32_t *pixels; // the selected pixels; those of a chunk start at the index of its first pixel
-    uint32_t *counts; // the number of selected pixels of each chunk
+    uint32_t *pixels; // the selected pixels; those of a row start at the index of its first pixel
+    uint32_t *counts; // the number of selected pixels of each row of blocks
 } Choosing;
 
 // Returns a number in [0, 1) that is constant while the pixel stays on its rung.
@@ -238,27 +243,42 @@ static void take_fractions(Choosing *choosing, Ladder *ladder, uint32_t samples)
     }
 }
 
-static void choose_chunk(void *context, uint32_t first, uint32_t end)
+static uint32_t *choose_block(const Choosing *choosing, uint32_t left, uint32_t top,
+                              uint32_t *chosen)
 {
-    const Choosing *choosing = context;
     const Ladder *ladder = choosing->ladder;
-    uint32_t *chosen = choosing->pixels + first;
-    for (uint32_t pixel = first; pixel < end; pixel++) {
-        const double fraction = choosing->fractions[ladder->strata[pixel]];
-        if (fraction > 0 && chance_of(ladder, pixel) < fraction)
-            *chosen++ = pixel;
-    }
-    choosing->counts[first / CHUNK_ELEMENTS] = (uint32_t)(chosen - (choosing->pixels + first));
+    const uint32_t width = ladder->picture->width, height = ladder->picture->height;
+    for (uint32_t y = top; y < top + CHOICE_SIDE && y < height; y++)
+        for (uint32_t x = left; x < left + CHOICE_SIDE && x < width; x++) {
+            const uint32_t pixel = y * width + x;
+            const double fraction = choosing->fractions[ladder->strata[pixel]];
+            if (fraction > 0 && chance_of(ladder, pixel) < fraction)
+                *chosen++ = pixel;
+        }
+    return chosen;
 }
 
-// Moves the selected pixels of all chunks to the start of the array, and returns their number.
-static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
+static void choose_rows(void *context, uint32_t first, uint32_t end)
 {
+    const Choosing *choosing = context;
+    const uint32_t width = choosing->ladder->picture->width;
+    for (uint32_t row = first; row < end; row++) {
+        uint32_t *start = choosing->pixels + (size_t)row * CHOICE_SIDE * width, *chosen = start;
+        for (uint32_t left = 0; left < width; left += CHOICE_SIDE)
+            chosen = choose_block(choosing, left, row * CHOICE_SIDE, chosen);
+        choosing->counts[row] = (uint32_t)(chosen - start);
+    }
+}
+
+// Moves the selected pixels of all rows to the start of the array, and returns their number.
+static uint64_t join_rows(const Choosing *choosing, uint32_t rows)
+{
+    const size_t row_pixels = (size_t)CHOICE_SIDE * choosing->ladder->picture->width;
     uint64_t count = 0;
-    for (uint32_t chunk = 0; chunk < chunks; chunk++) {
-        memmove(choosing->pixels + count, choosing->pixels + (size_t)chunk * CHUNK_ELEMENTS,
-                choosing->counts[chunk] * sizeof *choosing->pixels);
-        count += choosing->counts[chunk];
+    for (uint32_t row = 0; row < rows; row++) {
+        memmove(choosing->pixels + count, choosing->pixels + row * row_pixels,
+                choosing->counts[row] * sizeof *choosing->pixels);
+        count += choosing->counts[row];
     }
     return count;
 }
@@ -267,16 +287,16 @@ static uint64_t join_chunks(const Choosing *choosing, uint32_t chunks)
 // *advanced.
 static bool advance_alike(Ladder *ladder, uint32_t samples, uint64_t *advanced, Error *error)
 {
-    const uint32_t pixels = (uint32_t)ladder->statistics.pixels;
-    const uint32_t chunks = range_count(pixels, CHUNK_ELEMENTS);
+    const size_t pixels = ladder->statistics.pixels;
+    const uint32_t rows = range_count(ladder->picture->height, CHOICE_SIDE);
     Choosing choosing = {.ladder = ladder,
                          .pixels = memory_raw(pixels, sizeof *choosing.pixels, error),
-                         .counts = memory_raw(chunks, sizeof *choosing.counts, error)};
+                         .counts = memory_raw(rows, sizeof *choosing.counts, error)};
     bool ok = choosing.pixels != NULL && choosing.counts != NULL;
     if (ok) {
         take_fractions(&choosing, ladder, samples);
-        thread_pool_share(ladder->pool, pixels, CHUNK_ELEMENTS, choose_chunk, &choosing);
-        const uint64_t count = join_chunks(&choosing, chunks);
+        thread_pool_share(ladder->requests.pool, rows, 1, choose_rows, &choosing);
+        const uint64_t count = join_rows(&choosing, rows);
         ok = climb_chosen(ladder, choosing.pixels, count, error);
         *advanced += count;
     }

@@ -8,7 +8,7 @@
 #include "base/array.h"
 #include "base/thread_pool.h"
 #include "image/framebuffer.h"
-#include "refine/strata.h"
+#include "refine/ladder_strata.h"
 #include "render/renderer.h"
 
 // Traces requests for samples of pixels, in lists of bounded size, and returns the sums of the
@@ -21,6 +21,7 @@ typedef struct {
     Renderer *renderer;             // of KERNEL_LADDER; borrowed
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
+    ThreadPool *pool;               // borrowed; NULL for none
     PixelRequest *requests;         // REQUESTS_MOST entries, of which count are in use; all
                                     // have the same number of samples
     PixelSums *sums;                // of the requests traced last
@@ -46,7 +47,7 @@ bool pixel_requests_trace(PixelRequests *requests, Error *error);
 // Renders a picture of the frame's size with one sample at each pixel's center.
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
 
-// Computes the mean color of that many samples.
+// Computes the mean color of that many samples, which are a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
 
 // Returns the variance of that many samples, averaged over the channels.
@@ -60,7 +61,6 @@ void pixel_sums_add(PixelSums *sums, const PixelSums *more);
 
 typedef struct {
     PixelRequests requests;
-    ThreadPool *pool;      // borrowed; NULL for none
     Framebuffer *picture;  // borrowed; means of the pixels' samples
     float *features;       // of each pixel, for its stratum
     uint8_t *strata;       // of each pixel

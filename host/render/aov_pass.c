@@ -35,19 +35,19 @@ static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name
 static bool build(AovPass *pass, Error *error)
 {
     char key[PROGRAM_KEY_SIZE];
-    CacheBuild build;
+    CacheCheck build;
     const RendererSetup *setup = pass->source->setup;
     const SceneTraits traits = traits_general(pass->counts_tests);
     ProgramSource source = setup->source;
     source.entry = KERNEL_TILE;
     source.appended = aov_source;
     program_key(setup->device, &source, &traits, key);
-    cache_build_begin(&build, setup->cache, key);
+    cache_check_begin(&build, setup->cache, key);
     const bool ok = program_build(&pass->program, setup->device, &source, &traits, error) &&
                     make_kernel(pass, &pass->trace_paths, "trace_paths", pass->paths, error) &&
                     (!pass->counts_tests ||
                      make_kernel(pass, &pass->count_tests, "count_tests", pass->tests, error));
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     return ok;
 }
 

@@ -54,17 +54,17 @@ static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error 
 {
     cl_int status;
     char key[PROGRAM_KEY_SIZE];
-    CacheBuild build;
+    CacheCheck build;
     const SceneTraits traits = traits_general(false);
     const Renderer *reference = &certifier->reference;
     certifier->kernel = clCreateKernel(reference->program.handle, "certify_tile", &status);
     if (!cl_succeeded(status, "create the kernel certify_tile", error))
         return false;
     program_key(setup->device, &setup->source, &traits, key);
-    cache_build_begin(&build, setup->cache, key);
+    cache_check_begin(&build, setup->cache, key);
     const bool ok = run_kernel(certifier, &reference->frame, error) &&
                     cl_succeeded(clFinish(reference->device->queue), "finish the first run", error);
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     return ok;
 }
 

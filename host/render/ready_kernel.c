@@ -58,14 +58,14 @@ bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *tra
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
                        const uint32_t group[2], Error *error)
 {
-    CacheBuild build;
+    CacheCheck build;
     const double start = clock_seconds();
     *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
     program_key(setup->device, &setup->source, traits, ready->key);
     ready->was_compiled = ready_kernel_is_compiled(setup, traits);
-    cache_build_begin(&build, setup->cache, ready->key);
+    cache_check_begin(&build, setup->cache, ready->key);
     const bool ok = make(ready, setup, traits, error);
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     ready->seconds = clock_seconds() - start;
     if (!ok)
         ready_kernel_free(ready);

@@ -4,7 +4,7 @@
 // another thread can read the scene meanwhile.
 #pragma once
 
-#include "device/cache_build.h"
+#include "device/cache_check.h"
 #include "device/program.h"
 
 typedef struct {

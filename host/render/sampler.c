@@ -10,21 +10,10 @@
 
 #define LAUNCH_ITEMS 4096
 
-// Returns the number of requests per work-item. It equals ITEM_SAMPLES or ITEM_REQUESTS in the
-// kernels.
-static uint32_t item_requests(const Renderer *renderer)
-{
-    return renderer->nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
-}
-
-static uint32_t launch_requests(const Renderer *renderer)
-{
-    return LAUNCH_ITEMS * item_requests(renderer);
-}
-
 typedef struct {
     Renderer *renderer;
     const SampleList *list;
+    uint32_t item_requests; // per work-item
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
     cl_event done[2]; // launch i signals done[i % 2]
@@ -45,6 +34,20 @@ static size_t request_size(const Renderer *renderer)
 static size_t result_size(const Renderer *renderer)
 {
     return renderer->entry == KERNEL_LADDER ? sizeof(PixelSums) : sizeof(SampleData);
+}
+
+// Returns the number of requests per work-item, as the kernels compute it.
+static uint32_t item_requests(const Renderer *renderer, const SampleList *list)
+{
+    const PixelRequest *requests = list->requests;
+    const uint32_t item_samples = renderer->nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
+    const uint32_t samples = renderer->entry == KERNEL_LADDER ? requests[0].samples : 1;
+    return samples < item_samples ? item_samples / samples : 1;
+}
+
+static uint32_t launch_requests(const Sampling *sampling)
+{
+    return LAUNCH_ITEMS * sampling->item_requests;
 }
 
 static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer, Error *error)
@@ -110,11 +113,11 @@ static const char *sampling_attempt(const Renderer *renderer)
 static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
-    const uint32_t most = launch_requests(renderer);
+    const uint32_t most = launch_requests(sampling);
     const cl_uint first = number * most, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
     const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
-    const size_t requests = item_requests(renderer);
+    const size_t requests = sampling->item_requests;
     const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
     cl_int status = clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 2, sizeof first, &first);
     status |= clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 3, sizeof end, &end);
@@ -139,7 +142,7 @@ static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
 static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
 {
     RenderProgress *progress = &sampling->renderer->progress;
-    const uint32_t most = launch_requests(sampling->renderer), count = sampling->list->count;
+    const uint32_t most = launch_requests(sampling), count = sampling->list->count;
     const uint32_t launches = count / most + (count % most > 0);
     uint32_t started = 0, finished = 0;
     bool wanted = true;
@@ -185,9 +188,9 @@ static bool read_tallies(Sampling *sampling, Error *error)
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error)
 {
-    Sampling sampling = {.renderer = renderer, .list = list};
     if (list->count == 0)
         return true;
+    Sampling sampling = {renderer, list, .item_requests = item_requests(renderer, list)};
     bool ok = open_buffers(&sampling, error) && set_arguments(&sampling, frame, error) &&
               run_launches(&sampling, observer, error) && read_tallies(&sampling, error) &&
               read_back(&sampling, sampling.results, list->count * result_size(renderer), error);

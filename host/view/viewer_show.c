@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Sorts the times to find the median and the slowest frames.
+// Frame times of a moving camera.
 
 // Records a displayed frame of a moving camera. moment is in seconds.
 static bool frame_times_add(FrameTimes *times, double moment, Error *error)
@@ -141,8 +141,8 @@ static void update_title(Viewer *viewer, const Figures *figures)
         glfwSetWindowTitle(viewer->window.handle, text);
 }
 
-// Prints a new failure once, and with -v a changed state once nothing moves. The window continues
-// to display both.
+// Prints each new failure. With -v, also prints a changed state when nothing moves. The window
+// continues to display both.
 static void print_news(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE] = "";

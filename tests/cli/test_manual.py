@@ -123,7 +123,7 @@ class Pages(Work):
         self.assertEqual((done.stderr, done.returncode), ("", 0))
 
 
-# Each shell runs in its own terminal, whose completions are read after the tab key.
+# bash and zsh run in terminals. The tests press the tab key and read the completions.
 SETUP = {
     "bash": (
         ["bash", "--norc", "--noprofile", "-i"],
@@ -182,7 +182,7 @@ def ask_terminal(shell, folder, line, work):
         terminal.type(setup.format(folder=folder) + "; echo ready to' 'go\n")
         terminal.read(lambda text: READY in text)
         terminal.type(line + "\t")
-        # If the shell echoes the next line, the list is complete.
+        # If the output has not grown for 0.5 s, the list is complete.
         quiet = [time.monotonic(), 0]
 
         def is_quiet(text):

@@ -2,7 +2,7 @@
 // Tests strata with populations of pixels whose errors are known, and the positions and sums of a
 // pixel's samples.
 #include "refine/ladder.h"
-#include "refine/strata.h"
+#include "refine/ladder_strata.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a list of options for _arguments for rendering, and one for each command.
+// Writes lists of options for _arguments: one for rendering, one for each command.
 #include "zsh.h"
 
 #include "cli/options/option.h"

@@ -107,7 +107,7 @@ static bool touches_across_the_cube(unsigned mask)
     return false;
 }
 
-// Moves inside the outside corner of the cell that is nearest to the surface.
+// Turns the cell's outside corner nearest to the surface into an inside corner.
 static void repair_cell(Grid *grid, size_t cell)
 {
     float *nearest = NULL;

@@ -112,7 +112,7 @@ static void sum_facings(const Surface *surface, Vec3 *facings)
 }
 
 // Returns whether the triangle of that corner and the next two is a needle or folded over. Its area
-// along its vertices' normals is then small compared with its edges.
+// along the vertex normals is then small compared with its edges.
 static bool triangle_is_bad(const Surface *surface, const uint32_t quad[4], int corner)
 {
     const uint32_t first = quad[corner], second = quad[(corner + 1) % 4];
@@ -135,8 +135,8 @@ static bool quad_is_bad(const Surface *surface, const uint32_t quad[4])
 }
 
 // At creases that the cells cannot resolve, vertices slide over each other. Moves the vertices of
-// bad quads to their neighbors' mean, which is off the surface by a fraction of a cell. They get
-// the normals of the triangles there.
+// bad quads to their neighbors' mean, which is off the surface by a fraction of a cell. Each vertex
+// gets the mean normal of its quads.
 static void untangle_step(Surface *surface, Vec3 *sums, double *counts, Vec3 *facings)
 {
     sum_neighbors(surface, sums, counts);

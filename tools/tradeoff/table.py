@@ -23,7 +23,7 @@ def show(scene):
     """Yields a line per setting, the fastest first, with a star for settings on the front."""
     reference = scene["reference"]
     yield (f"{scene['scene']}: reference of {reference['samples']} samples, "
-           f"RMSE {reference['own_error']:.2g} by itself")
+           f"own RMSE {reference['own_error']:.2g}")
     for row in sorted(scene["rows"], key=lambda row: row["milliseconds"]):
         yield (f"{'*' if row['front'] else ' '} {row['setting']:24} {row['milliseconds']:9.2f} ms "
                f"RMSE {row['rmse']:.2e}  largest {row['maximum']:.3f}  "
@@ -32,7 +32,7 @@ def show(scene):
 
 def rival_text(rival):
     if rival is None:
-        return f"{'none holds':29}"
+        return f"{'no setting holds':29}"
     return (f"{rival['times']:6.2f} x time, {rival['samples_ratio']:5.2f} x samples of "
             f"{rival['setting']:22}")
 
@@ -47,7 +47,7 @@ def show_goals(scenes):
                    f"{rival_text(goal['uniform'])}")
         for goal in scene["goals"]["times"]:
             best = goal["fixed"]
-            beside = f"{best['errors']:.2f} x that of {best['setting']}" if best else "alone"
+            beside = f"{best['errors']:.2f} x the error of {best['setting']}" if best else "alone"
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} {goal['goal']:g} s: "
                    f"{goal['seconds_ratio']:.2f} of it taken, RMSE {goal['rmse']:.2e}, {beside}")
     if goals.summary(scenes):

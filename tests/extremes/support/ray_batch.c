@@ -81,13 +81,13 @@ static void build_locked(RayBatch *batch, const ProgramSource *source)
 {
     Error error = {0};
     char key[PROGRAM_KEY_SIZE];
-    CacheBuild build;
+    CacheCheck build;
     const SceneTraits traits = traits_general(false);
     program_key(&batch->device, source, &traits, key);
-    cache_build_begin(&build, &batch->cache, key);
+    cache_check_begin(&build, &batch->cache, key);
     const bool ok = program_build(&batch->program, &batch->device, source, &traits, &error) &&
                     make_kernels(batch, &error);
-    cache_build_end(&build, ok);
+    cache_check_end(&build, ok);
     require(ok, &error);
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/flat.h"
-#include "device/cache_build.h"
+#include "device/cache_check.h"
 #include "device/program.h"
 
 // Equals the RayKind of kernels/ray.cl.

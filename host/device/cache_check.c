@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernels that the process loads during a build show which of PoCL's files belong to the
 // program. Files of other drivers stay unknown and unchecked, so their manifests are empty.
-#include "device/cache_build.h"
+#include "device/cache_check.h"
 
 #include "device/manifest.h"
 
@@ -111,7 +111,7 @@ static LoadedKernels find_loaded(const Cache *cache)
     return kernels;
 }
 
-static void drop_manifest(CacheBuild *build, const char *path)
+static void drop_manifest(CacheCheck *build, const char *path)
 {
     remove_program(build->cache, build->manifest);
     remove(path);
@@ -119,10 +119,10 @@ static void drop_manifest(CacheBuild *build, const char *path)
     build->manifest = NULL;
 }
 
-void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key)
+void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key)
 {
     char path[MANIFEST_PATH_SIZE];
-    *build = (CacheBuild){.cache = cache, .key = key};
+    *build = (CacheCheck){.cache = cache, .key = key};
     build->is_announced = cache->announce != NULL && !cache_has_program(cache, key);
     if (build->is_announced)
         cache->announce(true);
@@ -140,7 +140,7 @@ void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key)
 
 // Writes the program's manifest. It is empty if the process had loaded the program before, because
 // the program's files are then unknown.
-static void write_manifest(const CacheBuild *build, LoadedKernels *kernels)
+static void write_manifest(const CacheCheck *build, LoadedKernels *kernels)
 {
     char path[MANIFEST_PATH_SIZE];
     Lines lines = {0};
@@ -154,7 +154,7 @@ static void write_manifest(const CacheBuild *build, LoadedKernels *kernels)
     free(lines.data);
 }
 
-void cache_build_end(CacheBuild *build, bool works)
+void cache_check_end(CacheCheck *build, bool works)
 {
     if (works && build->cache->folder[0] != '\0') {
         LoadedKernels kernels = find_loaded(build->cache);
@@ -167,5 +167,5 @@ void cache_build_end(CacheBuild *build, bool works)
     if (build->is_announced)
         build->cache->announce(false);
     free(build->manifest);
-    *build = (CacheBuild){.lock = -1};
+    *build = (CacheCheck){.lock = -1};
 }

@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define BLOCK_PIXELS (PACKET_SIDE * PACKET_SIDE)
+#define BLOCK_PIXELS   (PACKET_SIDE * PACKET_SIDE)
+#define BLOCKS_OF_TASK 256
 
 bool pixel_requests_make(PixelRequests *requests, Error *error)
 {
@@ -51,55 +52,65 @@ bool pixel_requests_trace(PixelRequests *requests, Error *error)
     return sampler_trace(requests->renderer, &requests->frame, &list, requests->observer, error);
 }
 
-static void store_centers(const PixelRequests *requests, Framebuffer *picture)
+// Blocks of pixels whose centers are requested, from block number `first` of the picture on.
+typedef struct {
+    const PixelRequests *requests;
+    Framebuffer *picture;
+    uint32_t first;
+} CenterBlocks;
+
+static void list_blocks(void *context, uint32_t first, uint32_t end)
 {
-    for (uint32_t i = 0; i < requests->count; i++) {
-        const PixelRequest *request = &requests->requests[i];
+    const CenterBlocks *blocks = context;
+    const FrameData *frame = &blocks->requests->frame;
+    const uint32_t columns = range_count(frame->width, PACKET_SIDE);
+    PixelRequest *request = blocks->requests->requests + (size_t)first * BLOCK_PIXELS;
+    for (uint32_t block = blocks->first + first; block < blocks->first + end; block++)
+        for (uint32_t i = 0; i < BLOCK_PIXELS; i++) {
+            const uint32_t x = block % columns * PACKET_SIDE + i % PACKET_SIDE;
+            const uint32_t y = block / columns * PACKET_SIDE + i / PACKET_SIDE;
+            const bool is_inside = x < frame->width && y < frame->height;
+            *request++ = (PixelRequest){.x = is_inside ? x : NOTHING, .y = y, .samples = 1};
+        }
+}
+
+static void store_blocks(void *context, uint32_t first, uint32_t end)
+{
+    const CenterBlocks *blocks = context;
+    Framebuffer *picture = blocks->picture;
+    for (uint32_t i = first * BLOCK_PIXELS; i < end * BLOCK_PIXELS; i++) {
+        const PixelRequest *request = &blocks->requests->requests[i];
         if (request->x != NOTHING)
-            pixel_sums_mean(&requests->sums[i], 1,
+            pixel_sums_mean(&blocks->requests->sums[i], 1,
                             picture->pixels[(size_t)request->y * picture->width + request->x]);
     }
 }
 
-static void list_block(PixelRequests *requests, uint32_t left, uint32_t top)
-{
-    const FrameData *frame = &requests->frame;
-    for (uint32_t i = 0; i < BLOCK_PIXELS; i++) {
-        const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
-        const bool is_inside = x < frame->width && y < frame->height;
-        requests->requests[requests->count++] =
-            (PixelRequest){.x = is_inside ? x : NOTHING, .y = y, .samples = 1};
-    }
-}
-
-static bool trace_centers(PixelRequests *requests, Framebuffer *picture, Error *error)
-{
-    const bool ok = pixel_requests_trace(requests, error);
-    if (ok && pixel_requests_are_whole(requests))
-        store_centers(requests, picture);
-    requests->count = 0;
-    return ok;
-}
-
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error)
 {
-    for (uint32_t top = 0; top < picture->height; top += PACKET_SIDE)
-        for (uint32_t left = 0; left < picture->width; left += PACKET_SIDE) {
-            list_block(requests, left, top);
-            if (requests->count + BLOCK_PIXELS > REQUESTS_MOST &&
-                !trace_centers(requests, picture, error))
-                return false;
-            if (!pixel_requests_are_whole(requests))
-                return true;
-        }
-    return trace_centers(requests, picture, error);
+    CenterBlocks blocks = {requests, picture, 0};
+    const uint32_t most = REQUESTS_MOST / BLOCK_PIXELS;
+    const uint32_t all =
+        range_count(picture->width, PACKET_SIDE) * range_count(picture->height, PACKET_SIDE);
+    for (; blocks.first < all; blocks.first += most) {
+        const uint32_t count = all - blocks.first < most ? all - blocks.first : most;
+        thread_pool_share(requests->pool, count, BLOCKS_OF_TASK, list_blocks, &blocks);
+        requests->count = count * BLOCK_PIXELS;
+        const bool ok = pixel_requests_trace(requests, error);
+        requests->count = 0;
+        if (!ok || !pixel_requests_are_whole(requests))
+            return ok;
+        thread_pool_share(requests->pool, count, BLOCKS_OF_TASK, store_blocks, &blocks);
+    }
+    return true;
 }
 
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
 {
+    const double part = 1.0 / samples;
     for (int channel = 0; channel < 3; channel++) {
-        const uint64_t mean = (sums->colors[channel] + samples / 2) / samples;
-        color[channel] = (float)((double)mean * 0x1p-32);
+        const double mean = floor((double)(sums->colors[channel] + samples / 2) * part);
+        color[channel] = (float)(mean * 0x1p-32);
     }
 }
 

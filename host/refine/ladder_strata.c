@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Pixels that have advanced are the controls of their stratum (strata.h defines the other terms). A
-// stratum with few controls uses a prior error: its mean feature times the rung's change per unit
-// of feature. Pixels that look flat may hide detail that no sample hit. The feature in a prior
-// therefore has a minimum, which is larger near contrast, where most hidden detail was found. With
-// one minimum for all strata, errors reached 1.3 times the goal on tiled floors.
-#include "refine/strata.h"
+// Pixels that have advanced are the controls of their stratum (ladder_strata.h defines the other
+// terms). A stratum with few controls uses a prior error: its mean feature times the rung's change
+// per unit of feature. Pixels that look flat may hide detail that no sample hit. The feature in a
+// prior therefore has a minimum, which is larger near contrast, where most hidden detail was found.
+// With one minimum for all strata, errors reached 1.3 times the goal on tiled floors.
+#include "refine/ladder_strata.h"
 
 #include <math.h>
 

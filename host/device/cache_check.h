@@ -13,13 +13,13 @@ typedef struct {
     unsigned loaded_count; // kernels that the process had loaded before the build
     int lock;
     bool is_announced; // cache->announce waits for the end of the build
-} CacheBuild;
+} CacheCheck;
 
 // Waits for the lock, and removes the program's files if some are damaged. Borrows cache and key.
-void cache_build_begin(CacheBuild *build, const Cache *cache, const char *key);
+void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key);
 
 // Unlocks the cache. If the program and a first run of its kernels worked, writes its manifest.
-void cache_build_end(CacheBuild *build, bool works);
+void cache_check_end(CacheCheck *build, bool works);
 
 // Returns whether the program with this key has an intact manifest, which means that it was built.
 bool cache_has_program(const Cache *cache, const char *key);

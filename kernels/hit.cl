@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// A ray's hit, and how ties between hits are decided.
+#ifndef CLRT_HIT_CL
+#define CLRT_HIT_CL
+#include "numeric.cl"
+
+// index counts within the array of the primitive's kind; with wide nodes, triangles count block
+// slots. Spheres have the ids below sphere_count.
+typedef struct {
+    Real t; // along the ray; INFINITY without a hit
+    UInt id, index;
+} Hit;
+
+// Equal distances go to the lowest id, regardless of the order of the tests. update_lane_hit in
+// wide.cl does the same for one lane.
+static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
+{
+    return t < best->t || (t == best->t && id < best->id && t < INFINITY);
+}
+
+#endif
