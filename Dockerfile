@@ -3,7 +3,7 @@
 #   docker build -t clrt .
 #   docker run --rm -v "$PWD:/work" -u "$(id -u)" clrt scenes/simple.scn -o simple.png
 # The folder with the scenes is /work. The image has neither a window nor OpenImageIO, so it writes
-# PNG and PFM; Assimp reads meshes in other formats than PLY.
+# PNG, EXR and PFM; Assimp reads meshes in other formats than PLY.
 FROM debian:bookworm-slim AS build
 COPY . /src
 WORKDIR /src
@@ -15,7 +15,8 @@ RUN tools/setup meshes \
 FROM debian:bookworm-slim
 RUN apt-get update \
     && apt-get install -y --no-install-recommends \
-        pocl-opencl-icd ocl-icd-libopencl1 libpng16-16 libjansson4 libxxhash0 libassimp5 \
+        pocl-opencl-icd ocl-icd-libopencl1 libpng16-16 libjansson4 libxxhash0 libopenexr-3-1-30 libdeflate0 \
+        libassimp5 \
     && apt-get clean && rm -rf /var/lib/apt/lists/*
 COPY --from=build /out /
 # Compiled kernels, which any user may add to.

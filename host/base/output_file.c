@@ -118,7 +118,7 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error)
     return file->temporary != NULL;
 }
 
-static bool copy_stream(FILE *from, FILE *to)
+bool stream_copy(FILE *from, FILE *to)
 {
     char block[65536];
     size_t count;
@@ -135,7 +135,7 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     FILE *target = standard ? stdout : fopen(path, "wb");
     // Removes the name before copying, so that nothing remains if the process ends here.
     unlink(from);
-    const bool ok = source != NULL && target != NULL && copy_stream(source, target);
+    const bool ok = source != NULL && target != NULL && stream_copy(source, target);
     if (!ok)
         error_set(cause, "%s", strerror(errno));
     if (source != NULL)

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 
+#include <stdio.h>
+
 typedef struct {
     const char *path; // the final name, "-" for standard output; borrowed
     char *temporary;  // path of the file to write; owned
@@ -21,3 +23,6 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Returns whether path seems writable. Callers check this before long work.
 bool output_file_check(const char *path, Error *error);
+
+// Copies the rest of a stream. On failure, errno has the reason.
+bool stream_copy(FILE *from, FILE *to);

@@ -24,7 +24,8 @@ typedef struct {
     // owned
     bool joins; // the result is an EXR file, whose tiles are copied; otherwise decoded
     ExrJoin join;
-    Error unopened; // the reason why a part cannot be opened
+    Error unopened;  // the reason why a part cannot be opened
+    bool is_damaged; // a part cannot be used
 } Merging;
 
 static bool is_picture(const Merging *merging, const StoredTiles *tiles)
@@ -50,16 +51,6 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     if (!is_picture(merging, tiles))
         return "set of settings";
     return stored_tiles_has(image, &merging->layers) ? NULL : "set of channels";
-}
-
-static bool note_part(Merging *merging, const StoredTiles *tiles, const char *path, Error *error)
-{
-    const char **place = &merging->paths[tiles->settings.part];
-    if (*place != NULL)
-        return error_set(error, "%s: is part %u of %u, which %s is already", path,
-                         tiles->settings.part + 1, tiles->settings.parts, *place);
-    *place = path;
-    return true;
 }
 
 // Adds the part's device and driver unless another part has the same.
@@ -94,27 +85,26 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
         return error_set(error, "%s: has channels that clrt does not draw", path);
     merging->joins = can_join(merging->options, file);
     if (merging->joins)
-        return exr_join_begin(&merging->join, file, &tiles->settings, error);
+        return exr_join_begin(&merging->join, file, error);
     return framebuffer_make(&merging->framebuffer, image->width, image->height, error) &&
            layers_make(&merging->layers, image->width, image->height, error);
 }
 
+// Records the part's tiles or decodes them. With a stream, copies them to it.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
-                       const char *path, Error *error)
+                       FILE *stream, Error *error)
 {
     const TileTarget target = {
         .framebuffer = &merging->framebuffer, .layers = &merging->layers, .is_whole = true};
     const RenderSettings *settings = &tiles->settings;
-    Error cause = {0};
-    return (merging->joins
-                ? exr_join_measure(&merging->join, file, settings, &cause)
-                : stored_tiles_copy(settings, tile_count(settings), file, &target, &cause)) ||
-           error_set(error, "%s: part %u of %u cannot be used: %s", path, settings->part + 1,
-                     settings->parts, cause.text);
+    if (stream != NULL)
+        return exr_join_copy(&merging->join, file, settings, stream, error);
+    return merging->joins ? exr_join_measure(&merging->join, file, settings, error)
+                          : stored_tiles_copy(settings, tile_count(settings), file, &target, error);
 }
 
-static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,
-                 Error *error)
+static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
+                       const char *path, Error *error)
 {
     const StoredImage *image = &file->head;
     if (strcmp(image->texts[STORED_COMPLETE], "yes") != 0)
@@ -126,10 +116,13 @@ static bool take(Merging *merging, const StoredTiles *tiles, const ExrFile *file
     if (mismatch != NULL)
         return error_set(error, "%s: is of another %s than %s", path, mismatch,
                          merging->options->part_paths[0]);
-    if (!note_part(merging, tiles, path, error))
-        return false;
+    const char **place = &merging->paths[tiles->settings.part];
+    if (*place != NULL)
+        return error_set(error, "%s: is part %u of %u, which %s is already", path,
+                         tiles->settings.part + 1, tiles->settings.parts, *place);
+    *place = path;
     note_device(merging, image);
-    return take_tiles(merging, tiles, file, path, error);
+    return true;
 }
 
 // Reads the settings of a part, which an ExrFile's header contains.
@@ -141,16 +134,23 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is no part of a picture that --part drew", path);
 }
 
-// A part that cannot be opened is missing, and the other parts show its number.
-static bool read_part(Merging *merging, const char *path, Error *error)
+// Without a stream, reads the part. A part that cannot be opened is missing, and the other parts
+// show its number. With a stream, copies the part's tiles to it.
+static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
     StoredTiles tiles = {0};
-    bool ok = exr_file_open(&file, path, &merging->unopened);
-    if (ok)
-        ok = read_settings(&tiles, &file, path, error) && take(merging, &tiles, &file, path, error);
-    else
-        ok = true;
+    Error cause = {0};
+    const bool opened = exr_file_open(&file, path, stream == NULL ? &merging->unopened : error);
+    bool ok = opened ? read_settings(&tiles, &file, path, error) : stream == NULL;
+    if (ok && opened) {
+        ok = (stream != NULL || check_part(merging, &tiles, &file, path, error)) &&
+             take_tiles(merging, &tiles, &file, stream, &cause);
+        merging->is_damaged = !ok && merging->join.write_error == 0;
+        if (merging->is_damaged)
+            error_set(error, "%s: part %u of %u cannot be used: %s", path, tiles.settings.part + 1,
+                      tiles.settings.parts, cause.text);
+    }
     stored_tiles_free(&tiles);
     exr_file_close(&file);
     return ok;
@@ -176,53 +176,32 @@ static bool check_missing(const Merging *merging, Error *error)
                                   list, parts, missing > 1 ? "are" : "is", colon, cause);
 }
 
-static bool read_parts(Merging *merging, Error *error)
+static bool visit_parts(Merging *merging, FILE *stream, Error *error)
 {
     const Options *options = merging->options;
     for (int i = 0; i < options->part_count; i++)
-        if (!read_part(merging, options->part_paths[i], error))
+        if (!visit_part(merging, options->part_paths[i], stream, error))
             return false;
-    return check_missing(merging, error);
+    return true;
 }
 
-static bool join_part(const Merging *merging, const char *path, FILE *stream, Error *cause)
-{
-    ExrFile file;
-    StoredTiles tiles = {0};
-    bool ok = exr_file_open(&file, path, cause) && read_settings(&tiles, &file, path, cause);
-    if (ok)
-        ok = exr_join_copy(&merging->join, &file, &tiles.settings, stream) ||
-             error_set(cause, "%s", errno != 0 ? strerror(errno) : "a part changes meanwhile");
-    stored_tiles_free(&tiles);
-    exr_file_close(&file);
-    return ok;
-}
-
-static bool join_parts(Merging *merging, const char *path, Error *cause)
-{
-    ExrFile first = {0};
-    const Options *options = merging->options;
-    FILE *stream = fopen(path, "wbe");
-    bool ok = stream != NULL || error_set(cause, "%s", strerror(errno));
-    if (ok && exr_file_open(&first, options->part_paths[0], cause))
-        ok = exr_join_write_head(&merging->join, &first, &merging->provenance, stream) ||
-             error_set(cause, "%s", strerror(errno));
-    exr_file_close(&first);
-    for (int i = 0; ok && i < options->part_count; i++)
-        ok = join_part(merging, options->part_paths[i], stream, cause);
-    if (stream != NULL && fclose(stream) != 0)
-        ok = error_set(cause, "%s", strerror(errno));
-    return ok;
-}
-
-static bool write_joined(Merging *merging, Error *error)
+static bool write_joined(Merging *merging, const ImageSettings *settings, Error *error)
 {
     OutputFile file;
     Error cause = {0};
     const char *path = merging->options->output_path;
     if (!output_file_begin(&file, path, error))
         return false;
-    const bool ok = join_parts(merging, file.temporary, &cause);
+    FILE *stream = fopen(file.temporary, "wbe");
+    bool ok = stream != NULL &&
+              exr_join_write_head(&merging->join, settings, &merging->first.settings, stream);
+    if (ok && !visit_parts(merging, stream, error)) {
+        ok = false;
+        errno = merging->join.write_error;
+    }
+    ok = (stream == NULL || fclose(stream) == 0) && ok;
+    if (!ok)
+        error_set(&cause, "%s", strerror(errno));
     return output_file_end(&file, ok, &cause) ||
            error_set(error, "%s: cannot be written: %s", path, cause.text);
 }
@@ -236,21 +215,19 @@ static bool write_whole(Merging *merging, Error *error)
     if (!merging->joins)
         framebuffer_hash(&merging->framebuffer, provenance->texts[STORED_PIXEL_HASH]);
     provenance_list(provenance);
-    if (options->no_metadata)
-        provenance->count = 0;
-    if (merging->joins)
-        return write_joined(merging, error);
     const ImageSettings settings = {
         .format = options->format,
         .encoding = merging->first.encoding,
         .texts = provenance->list,
-        .text_count = provenance->count,
+        .text_count = options->no_metadata ? 0 : provenance->count,
         .left = place->left,
         .top = place->top,
         .whole_width = place->whole_width,
         .whole_height = place->whole_height,
         .layers = merging->layers.count > 0 ? &merging->layers : NULL,
     };
+    if (merging->joins)
+        return write_joined(merging, &settings, error);
     return image_write(&merging->framebuffer, options->output_path, &settings, error);
 }
 
@@ -261,7 +238,7 @@ static ExitCode run(Merging *merging, Error *error)
         return EXIT_USAGE;
     if (!output_file_check(options->output_path, error))
         return EXIT_OUTPUT;
-    if (!read_parts(merging, error))
+    if (!visit_parts(merging, NULL, error) || !check_missing(merging, error))
         return EXIT_SCENE;
     if (merging->layers.count > 0 && !image_format_takes_layers(options->format)) {
         error_set(error, "the parts have channels, which %s does not hold: give -o FILE.exr",
@@ -269,7 +246,7 @@ static ExitCode run(Merging *merging, Error *error)
         return EXIT_USAGE;
     }
     if (!write_whole(merging, error))
-        return EXIT_OUTPUT;
+        return merging->is_damaged ? EXIT_SCENE : EXIT_OUTPUT;
     const char *hash = merging->provenance.texts[STORED_PIXEL_HASH];
     return report_print_hash(options, hash, error) ? EXIT_DONE : EXIT_FAULTS;
 }
@@ -281,7 +258,7 @@ ExitCode merge_parts(const Options *options, Error *error)
     framebuffer_free(&merging.framebuffer);
     layers_free(&merging.layers);
     stored_tiles_free(&merging.first);
-    exr_join_free(&merging.join);
+    free(merging.join.starts);
     free(merging.paths);
     return outcome;
 }

@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A tiled OpenEXR file that clrt wrote -> its texts, and each tile, compressed or as values. Tiles
-// may be missing. A file may be larger than the memory.
+// A tiled OpenEXR file that clrt wrote -> its texts, and each tile, compressed or as values; and
+// the beginning of such a file. Tiles may be missing. A file may be larger than the memory. Threads
+// may share an open file.
 #pragma once
 
-#include "base/file.h"
-#include "image/provenance.h"
+#include "image/image_file.h"
+#include "image/stored_image.h"
 
+#include <openexr.h>
 #include <stdio.h>
 
 // The side of the tiles of a whole picture in pixels. The tiles of a part have the size of --tile.
 #define EXR_TILE 64
 
-#define EXR_SIDE_MAX 131072 // pixels
-
-// The tile's position in its file, and its size there: two columns and rows of tiles, two zeros for
-// the level of detail, and the number of bytes that follow.
 typedef struct {
-    uint32_t column, row, levels[2], size;
-} ExrTileHead;
-
-typedef struct {
-    FILE *stream;     // NULL if closed
-    StoredImage head; // size, channels in the file's order and texts; no values
-    uint32_t tile_width, tile_height;
-    File header;    // the file's bytes before the table of tiles
-    uint64_t bytes; // the file's size
+    exr_context_t context; // NULL if closed
+    StoredImage head;      // size, channels in the file's order and texts; no values
+    uint32_t tile_width, tile_height, tile_count;
 } ExrFile;
 
 // Opens a tiled EXR file. Returns false if path is not one, with an error message that names path.
@@ -32,21 +24,40 @@ typedef struct {
 bool exr_file_open(ExrFile *file, const char *path, Error *error);
 void exr_file_close(ExrFile *file);
 
-// Finds a tile. Its head begins at *start. Returns false if the tile is missing or damaged.
-bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, uint64_t *start,
-                   ExrTileHead *head);
+// Finds a tile by its column and row. Returns false if the tile is missing or damaged, or extends
+// past the end of the file.
+bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile);
 
-// Reads bytes at a position. Returns false if the file ends before.
-bool exr_file_read(const ExrFile *file, uint64_t start, void *bytes, size_t size);
+// Reads tile->packed_size compressed bytes and checks them. scratch needs tile->unpacked_size
+// bytes. Returns false if the tile is damaged. Tiles stored without compression have no checksum.
+bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
+                   unsigned char *scratch);
 
-// Returns the size in bytes of an uncompressed tile of width x height pixels.
-size_t exr_tile_bytes(const ExrFile *file, uint32_t width, uint32_t height);
+// Copies the values of a tile into framebuffer and layers, where position is that of its first
+// pixel. Skips channels that both lack. Returns false if the tile is damaged.
+bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
+                     const Framebuffer *framebuffer, const Layers *layers,
+                     const size_t position[2]);
 
-// Reads the values of a tile, which must have size bytes: rows of the first channel's values, then
-// of the next channel's. packed must also have room for size bytes.
-bool exr_file_unpack(const ExrFile *file, uint64_t start, const ExrTileHead *head,
-                     unsigned char *packed, uint32_t *values, size_t size);
+// Points the channels of a tile to their values in framebuffer and layers, from the pixel at
+// position on. layers may be NULL. Channels that both lack point to NULL.
+void exr_place_channels(exr_coding_channel_info_t *channels, int count,
+                        const Framebuffer *framebuffer, const Layers *layers,
+                        const size_t position[2]);
 
-// Writes the header of the whole picture. `file` is one of its parts. Replaces clrt's own texts by
-// those in provenance, and copies all other attributes.
-bool exr_file_copy_header(const ExrFile *file, const Provenance *provenance, FILE *stream);
+// The bytes in front of a compressed tile: column, row, two zeros for the level of detail, and
+// size.
+typedef struct {
+    uint32_t column, row, levels[2], size;
+} ExrTileHead;
+
+ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
+
+// Writes the header of a picture of this size, or of settings->part. The table of the tiles'
+// positions follows it, and then the tiles. Returns false if writing fails. The caller ends the
+// context with exr_finish in both cases.
+bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
+                    uint32_t height, FILE *stream);
+
+// A handler for messages of OpenEXRCore, whose functions also return the failure.
+void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The formats that clrt reads and writes without OpenImageIO: PNG, and PFM, the portable float map,
-// which is a text header followed by raw floats.
+// The formats that clrt reads or writes without OpenImageIO: PNG, PFM, the portable float map,
+// which is a text header followed by raw floats, and EXR.
 #pragma once
 
 #include "image/image_file.h"
@@ -24,3 +24,8 @@ bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 // Reads PFM of three channels or one, in either byte order. On failure returns false and the
 // reason alone. The scale is not applied. The caller frees the image in both cases.
 bool pfm_read(StoredImage *image, FILE *stream, Error *cause);
+
+// Writes EXR in tiles: a whole picture, or the tiles of settings->part. The stream must be empty.
+// Returns false on a fault. The reason is in cause, or in errno.
+bool exr_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
+               Error *cause);

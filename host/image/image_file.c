@@ -3,7 +3,6 @@
 #include "image/image_file.h"
 
 #include "base/output_file.h"
-#include "image/exr_file.h"
 #include "image/formats.h"
 #include "image/image_process.h"
 
@@ -22,11 +21,11 @@ typedef struct {
 } Format;
 
 static const Format formats[] = {
-    {"png", NULL, false},    {"pfm", NULL, true},
+    {"png", NULL, false},    {"pfm", NULL, true},     {"exr", NULL, true},
 #ifdef CLRT_WITH_OPENIMAGEIO
     {"jpg", "jpeg", false},  {"jpeg", "jpeg", false}, {"tif", "tiff", false},
-    {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"exr", "openexr", true},
-    {"hdr", "hdr", true},    {"gif", "gif", false},
+    {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"hdr", "hdr", true},
+    {"gif", "gif", false},
 #endif
 };
 
@@ -65,7 +64,7 @@ const char *image_format_names(void)
 #ifdef CLRT_WITH_OPENIMAGEIO
     return "png, jpg, tif, ppm, exr, hdr, pfm";
 #else
-    return "png, pfm (more after tools/setup images && tools/render)";
+    return "png, exr, pfm (more after tools/setup images && tools/render)";
 #endif
 }
 
@@ -89,16 +88,6 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
            error_set(error, "a JPEG has at most %d pixels a side", JPEG_SIZE_MAX);
 }
 
-static void place_layers(ImageModulePicture *picture, const Layers *layers)
-{
-    picture->layers = layers->values;
-    picture->layer_count = layers->count;
-    for (uint32_t layer = 0; layer < layers->count; layer++) {
-        picture->layer_names[layer] = layers->list[layer].name;
-        picture->layer_is_integer[layer] = layers->list[layer].is_integer;
-    }
-}
-
 // On failure, the functions below store only the reason in cause. image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
@@ -109,54 +98,38 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         if (bytes == NULL)
             return false;
     }
-    const ImagePart *part = settings->part;
     ImageModulePicture picture = {
         .path = path,
         .format = format->module,
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
-        .width = (int)(part != NULL ? part->width : framebuffer->width),
-        .height = (int)(part != NULL ? part->height : framebuffer->height),
-        .tile_width = (int)(part != NULL ? part->tile_width : EXR_TILE),
-        .tile_height = (int)(part != NULL ? part->tile_height : EXR_TILE),
-        .is_part = part != NULL,
-        .tiles = part != NULL ? part->tiles[0] : NULL,
-        .tile_count = part != NULL ? part->tile_count : 0,
+        .width = (int)framebuffer->width,
+        .height = (int)framebuffer->height,
         .frames = (int)settings->frames,
-        .left = (int)settings->left,
-        .top = (int)settings->top,
-        .whole_width = (int)settings->whole_width,
-        .whole_height = (int)settings->whole_height,
         .is_float = format->is_float,
         .texts = (const char *const *)settings->texts,
         .text_count = settings->text_count,
     };
-    if (settings->layers != NULL)
-        place_layers(&picture, settings->layers);
     const bool ok = image_process_write(&picture, cause);
     free(bytes);
     return ok;
 }
 _Static_assert(sizeof(ImageText) == 2 * sizeof(char *), "texts are read as pairs of strings");
 
-static bool write_here(const Framebuffer *framebuffer, const char *path, const Format *format,
-                       const ImageSettings *settings, Error *cause)
-{
-    FILE *stream = fopen(path, "wb");
-    if (stream == NULL)
-        return error_set(cause, "%s", strerror(errno));
-    const bool written = format->is_float ? pfm_write(framebuffer, stream)
-                                          : png_file_write(framebuffer, settings, stream, cause);
-    const bool closed = fclose(stream) == 0;
-    return (written && closed) || error_set(cause, "%s", strerror(errno));
-}
-
 static bool write_format(const Framebuffer *framebuffer, const char *path,
                          const ImageSettings *settings, Error *cause)
 {
     const Format *format = find_format(settings->format);
-    if (format->module == NULL)
-        return write_here(framebuffer, path, format, settings, cause);
-    return write_by_module(framebuffer, path, format, settings, cause);
+    if (format->module != NULL)
+        return write_by_module(framebuffer, path, format, settings, cause);
+    FILE *stream = fopen(path, "wb");
+    if (stream == NULL)
+        return error_set(cause, "%s", strerror(errno));
+    const bool written = image_format_takes_layers(format->name)
+                             ? exr_write(framebuffer, settings, stream, cause)
+                         : format->is_float ? pfm_write(framebuffer, stream)
+                                            : png_file_write(framebuffer, settings, stream, cause);
+    const bool closed = fclose(stream) == 0;
+    return (written && closed) || error_set(cause, "%s", strerror(errno));
 }
 
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenImageIO writes other
-// formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB, so a separate
-// process loads it on demand while clrt traces.
+// Writes a Framebuffer to a file. libpng writes PNG, pfm.c PFM, OpenEXRCore EXR, and OpenImageIO
+// other formats if clrt is built with it. Loading OpenImageIO takes 0.17 s and 132 MB, so a
+// separate process loads it on demand while clrt traces.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     uint32_t width, height;           // of the whole picture
     uint32_t tile_width, tile_height; // of unclipped tiles
-    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned
+    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned; NULL: all
     size_t tile_count;
 } ImagePart;
 

@@ -5,7 +5,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -18,84 +17,6 @@
 namespace
 {
 
-void describe_layers(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
-{
-    spec.nchannels += static_cast<int>(picture.layer_count);
-    spec.channelformats.assign(3, OIIO::TypeDesc::FLOAT);
-    for (size_t i = 0; i < picture.layer_count; i++) {
-        spec.channelnames.push_back(picture.layer_names[i]);
-        spec.channelformats.push_back(picture.layer_is_integer[i] ? OIIO::TypeDesc::UINT32
-                                                                  : OIIO::TypeDesc::FLOAT);
-    }
-}
-
-// A rectangle of the picture, and its place in the arrays of colors and layers.
-struct Region {
-    int x, y, width, height;
-    size_t first, pitch; // in pixels
-};
-
-// Interleaves the arrays of colors and layers, one region at a time, to avoid a second copy of the
-// picture.
-bool write_region(OIIO::ImageOutput &output, const ImageModulePicture &picture,
-                  const Region &region, std::vector<char> &values)
-{
-    constexpr size_t color_size = 3 * sizeof(float);
-    const size_t layer_size = picture.layer_count * sizeof(uint32_t);
-    const auto width = static_cast<size_t>(region.width),
-               height = static_cast<size_t>(region.height);
-    values.resize(width * height * (color_size + layer_size));
-    char *next = values.data();
-    for (size_t row = 0; row < height; row++)
-        for (size_t column = 0; column < width; column++) {
-            const size_t pixel = region.first + row * region.pitch + column;
-            std::memcpy(next, static_cast<const char *>(picture.pixels) + pixel * color_size,
-                        color_size);
-            if (layer_size > 0)
-                std::memcpy(next + color_size,
-                            static_cast<const char *>(picture.layers) + pixel * layer_size,
-                            layer_size);
-            next += color_size + layer_size;
-        }
-    const int x = output.spec().x + region.x, y = output.spec().y + region.y;
-    return output.write_tiles(x, x + region.width, y, y + region.height, 0, 1,
-                              OIIO::TypeDesc::UNKNOWN, values.data());
-}
-
-// Writes the tiles of a part, or one row of tiles after the other.
-bool write_regions(OIIO::ImageOutput &output, const ImageModulePicture &picture)
-{
-    std::vector<char> values;
-    const int width = std::min(picture.tile_width, picture.width);
-    const int height = std::min(picture.tile_height, picture.height);
-    const auto pitch = static_cast<size_t>(picture.is_part ? width : picture.width);
-    bool ok = true;
-    for (size_t i = 0; ok && i < picture.tile_count; i++) {
-        const int x = int(picture.tiles[2 * i]), y = int(picture.tiles[2 * i + 1]);
-        ok = write_region(output, picture,
-                          {x, y, std::min(width, picture.width - x),
-                           std::min(height, picture.height - y), i * size_t(height) * pitch, pitch},
-                          values);
-    }
-    for (int y = 0; ok && !picture.is_part && y < picture.height; y += height)
-        ok = write_region(
-            output, picture,
-            {0, y, picture.width, std::min(height, picture.height - y), size_t(y) * pitch, pitch},
-            values);
-    return ok;
-}
-
-// Stores a crop's position in EXR, the only format from which other programs read it.
-void describe_place(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
-{
-    if (picture.whole_width == 0 || std::strcmp(picture.format, "openexr") != 0)
-        return;
-    spec.x = picture.left;
-    spec.y = picture.top;
-    spec.full_width = picture.whole_width;
-    spec.full_height = picture.whole_height;
-}
-
 // TIFF and JPEG have no fields with custom names, so their description has one line per text.
 void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
@@ -103,9 +24,6 @@ void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
     const std::string format = picture.format;
     for (size_t i = 0; i < picture.text_count; i++) {
         const std::string name = picture.texts[2 * i], value = picture.texts[2 * i + 1];
-        // clrt merge copies the tiles of EXR files without decoding them, so it knows no pixels.
-        if (name == "clrt:pixel_hash" && format == "openexr")
-            continue;
         spec.attribute(name, value);
         if (name.rfind("clrt:", 0) == 0)
             lines += name + "=" + value + "\n";
@@ -135,10 +53,9 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
-    const bool written = picture.frames > 0                 ? write_frames(output, spec, picture)
-                         : !output.open(picture.path, spec) ? false
-                         : picture.layer_count > 0 || picture.is_part
-                             ? write_regions(output, picture)
+    const bool written = picture.frames > 0 ? write_frames(output, spec, picture)
+                         : !output.open(picture.path, spec)
+                             ? false
                              : output.write_image(spec.format, picture.pixels);
     return output.close() && written;
 }
@@ -161,34 +78,6 @@ bool write_through_memory(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec
     return std::fclose(file) == 0 && written;
 }
 
-// A file that never reports a failed write, because OpenEXR then waits for its threads forever.
-class PatientFile : public OIIO::Filesystem::IOFile
-{
-  public:
-    explicit PatientFile(FILE *file) : IOFile(file, Write)
-    {
-    }
-    size_t write(const void *bytes, size_t size) override
-    {
-        IOFile::write(bytes, size);
-        return size;
-    }
-};
-
-// Writes directly, because EXR files may be as large as the picture. Checks the stream here,
-// because PatientFile reports no errors.
-bool write_to_file(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
-                   const ImageModulePicture &picture)
-{
-    FILE *file = std::fopen(picture.path, "wb");
-    if (file == nullptr)
-        return false;
-    PatientFile direct(file);
-    const bool ok = output.set_ioproxy(&direct) && write_all(output, spec, picture);
-    const bool written = std::ferror(file) == 0;
-    return std::fclose(file) == 0 && written && ok;
-}
-
 bool write_picture(const ImageModulePicture &picture, std::string &message)
 {
     auto output = OIIO::ImageOutput::create(picture.format);
@@ -198,25 +87,13 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     }
     const auto type = picture.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
-    if (picture.layer_count > 0)
-        describe_layers(spec, picture);
-    describe_place(spec, picture);
-    // Without this attribute, OpenEXR and TIFF store the current time, and equal pictures make
-    // different files.
+    // Without this attribute, TIFF stores the current time, and equal pictures make different
+    // files.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     describe_origin(spec, picture);
-    const bool is_exr = std::strcmp(picture.format, "openexr") == 0;
-    if (is_exr) {
-        spec.tile_width = picture.tile_width;
-        spec.tile_height = picture.tile_height;
-    }
-    // In other orders, OpenEXR waits for missing tiles before it writes the following ones.
-    if (picture.is_part)
-        spec.attribute("openexr:lineOrder", "randomY");
     errno = 0;
-    const bool ok = is_exr ? write_to_file(*output, spec, picture)
-                           : write_through_memory(*output, spec, picture);
+    const bool ok = write_through_memory(*output, spec, picture);
     if (!ok)
         message = errno != 0 ? std::strerror(errno) : output->geterror();
     return ok;

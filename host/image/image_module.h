@@ -9,26 +9,15 @@
 extern "C" {
 #endif
 
-#define IMAGE_MODULE_LAYERS 64
-
 typedef struct {
     const char *path;
     const char *format; /* OpenImageIO's name of the format */
     const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
     int width, height;
-    int tile_width, tile_height; /* of the tiles in an EXR file */
-    int is_part;                 /* pixels and layers contain only these tiles, below each other: */
-    const uint32_t *tiles;       /* tile_count positions in the picture, each X and Y */
-    size_t tile_count;
     int frames; /* of an animation, below each other; 0: one picture */
-    int left, top, whole_width, whole_height; /* of a crop; whole_width is 0 without one */
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */
     size_t text_count;
-    const void *layers; /* layer_count 32-bit values per pixel; float pictures only */
-    size_t layer_count;
-    const char *layer_names[IMAGE_MODULE_LAYERS];
-    int layer_is_integer[IMAGE_MODULE_LAYERS]; /* nonzero: unsigned integers; 0: floats */
 } ImageModulePicture;
 
 /* Writes the picture. Returns 0 on failure, with the reason in message. */

@@ -1,87 +1,99 @@
 // SPDX-License-Identifier: MIT
-// Each tile has a fixed place, because OpenEXR writes the tiles of a whole picture row by row.
+// Each tile has a fixed place, because clrt writes the tiles of a whole picture row by row.
 #include "jobs/exr_join.h"
+
+#include "jobs/stored_tiles.h"
 
 #include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
-bool exr_join_begin(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                    Error *error)
+bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error)
 {
-    *join = (ExrJoin){.whole = *settings};
-    join->whole.part = join->whole.parts = 0;
-    join->count = tile_count(&join->whole);
+    join->count = file->tile_count;
     join->starts = memory_zeroed(join->count, sizeof *join->starts, error);
-    join->tile = memory_raw(
-        sizeof(ExrTileHead) + exr_tile_bytes(file, file->tile_width, file->tile_height), 1, error);
-    return join->starts != NULL && join->tile != NULL;
-}
-
-void exr_join_free(ExrJoin *join)
-{
-    free(join->starts);
-    free(join->tile);
-    *join = (ExrJoin){0};
-}
-
-static uint64_t place_of(const ExrFile *file, const Tile *tile)
-{
-    const uint64_t columns = ((uint64_t)file->head.width + file->tile_width - 1) / file->tile_width;
-    return tile->y / file->tile_height * columns + tile->x / file->tile_width;
-}
-
-static bool find(const ExrFile *file, const Tile *tile, uint64_t *start, uint64_t *size)
-{
-    ExrTileHead head;
-    const bool ok =
-        exr_file_find(file, tile->x / file->tile_width, tile->y / file->tile_height, start, &head);
-    *size = sizeof head + head.size;
-    return ok && *start <= file->bytes && *size <= file->bytes - *start;
+    return join->starts != NULL;
 }
 
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error)
 {
-    uint64_t start;
+    exr_chunk_info_t found;
     const uint64_t count = tile_count(settings);
     for (uint64_t number = 0; number < count; number++) {
         const Tile tile = tile_at(settings, number);
-        if (!find(file, &tile, &start, &join->starts[place_of(file, &tile)]))
-            return error_set(error, "it is damaged at pixel %u,%u", tile.x, tile.y);
+        if (!stored_tiles_find(file, &tile, &found, error))
+            return false;
+        join->starts[found.idx] = sizeof(ExrTileHead) + found.packed_size;
     }
     return true;
 }
 
-bool exr_join_write_head(ExrJoin *join, const ExrFile *file, const Provenance *provenance,
+bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
                          FILE *stream)
 {
-    if (!exr_file_copy_header(file, provenance, stream))
-        return false;
+    exr_context_t context = NULL;
+    const bool ok = exr_file_begin(&context, settings, place->width, place->height, stream);
+    exr_finish(&context);
     uint64_t next = (uint64_t)ftello(stream) + join->count * sizeof next;
-    for (uint64_t place = 0; place < join->count; place++) {
-        const uint64_t size = join->starts[place];
-        join->starts[place] = next;
+    for (uint64_t tile = 0; tile < join->count; tile++) {
+        const uint64_t size = join->starts[tile];
+        join->starts[tile] = next;
         next += size;
     }
-    return fwrite(join->starts, sizeof *join->starts, join->count, stream) == join->count &&
+    return ok && fwrite(join->starts, sizeof *join->starts, join->count, stream) == join->count &&
            fflush(stream) == 0;
 }
 
-bool exr_join_copy(const ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
-                   FILE *stream)
+typedef struct {
+    ExrJoin *join;
+    const ExrFile *file;
+    int output;
+} TileJoin;
+
+// Reads a tile behind its head. Returns false if the tile is damaged or longer than in the first
+// pass.
+static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
-    const uint64_t count = tile_count(settings);
-    for (uint64_t number = 0; number < count; number++) {
-        const Tile tile = tile_at(settings, number);
-        const uint64_t place = place_of(file, &tile), to = join->starts[place];
-        uint64_t start, size;
-        errno = 0;
-        if (!find(file, &tile, &start, &size) ||
-            (place + 1 < join->count && join->starts[place + 1] != to + size) ||
-            !exr_file_read(file, start, join->tile, size) ||
-            pwrite(fileno(stream), join->tile, size, (off_t)to) != (ssize_t)size)
-            return false;
-    }
-    return true;
+    const ExrJoin *join = work->join;
+    const uint64_t next = (uint64_t)tile->idx + 1, size = sizeof(ExrTileHead) + tile->packed_size;
+    const ExrTileHead head = exr_tile_head(tile, tile->packed_size);
+    memcpy(bytes, &head, sizeof head);
+    return (next == join->count || join->starts[next] - join->starts[tile->idx] == size) &&
+           exr_file_read(work->file, tile, bytes + sizeof head, bytes + size);
+}
+
+static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile,
+                       const unsigned char *bytes)
+{
+    const size_t size = sizeof(ExrTileHead) + tile->packed_size;
+    errno = ENOSPC;
+    if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
+        return true;
+    work->join->write_error = errno;
+    return false;
+}
+
+static bool join_tile(const void *context, const Tile *tile, Error *error)
+{
+    const TileJoin *work = context;
+    exr_chunk_info_t found;
+    if (!stored_tiles_find(work->file, tile, &found, error))
+        return false;
+    unsigned char *bytes =
+        memory_raw(sizeof(ExrTileHead) + found.packed_size + found.unpacked_size, 1, error);
+    const bool ok = bytes != NULL &&
+                    (read_tile(work, &found, bytes) ||
+                     error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y)) &&
+                    write_tile(work, &found, bytes);
+    free(bytes);
+    return ok;
+}
+
+bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
+                   Error *error)
+{
+    const TileJoin work = {join, file, fileno(stream)};
+    return stored_tiles_run(settings, tile_count(settings), join_tile, &work, error);
 }

@@ -125,24 +125,13 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-static bool copy_bytes(FILE *from, FILE *to, long count)
-{
-    char block[65536];
-    rewind(from);
-    while (count > 0) {
-        const size_t size = count < (long)sizeof block ? (size_t)count : sizeof block;
-        if (fread(block, size, 1, from) != 1 || fwrite(block, size, 1, to) != 1)
-            return false;
-        count -= (long)size;
-    }
-    return fflush(to) == 0;
-}
-
 // Fills the new file and locks it before it gets the journal's name.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
-    if (stream == NULL || end < 0 || !copy_bytes(journal->stream, stream, end))
+    rewind(journal->stream);
+    if (stream == NULL || end < 0 || !stream_copy(journal->stream, stream) ||
+        ftruncate(fileno(stream), end) != 0)
         return cannot(journal, "written", error);
     journal->is_busy = !is_current(journal);
     if (journal->is_busy)

@@ -113,7 +113,7 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
 {
     uint64_t key[2];
     make_key(own, settings, key);
-    const bool is_stored = resume->stored.stream != NULL;
+    const bool is_stored = resume->stored.context != NULL;
     // If take_stored fails, no journal exists yet, and a later run can still resume from the stored
     // picture.
     if (is_stored && !take_stored(resume, own, settings, framebuffer, error))

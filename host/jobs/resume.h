@@ -5,6 +5,7 @@
 
 #include "cli/options/options.h"
 #include "image/exr_file.h"
+#include "image/provenance.h"
 #include "jobs/journal.h"
 
 typedef struct {

@@ -2,10 +2,13 @@
 // Without its entries on tiles, a picture file's settings text identifies the whole picture.
 #include "jobs/stored_tiles.h"
 
+#include "base/processors.h"
+#include "base/thread_pool.h"
 #include "cli/options/options.h"
 #include "render/renderer.h"
 
 #include <assert.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,8 +121,6 @@ void stored_tiles_free(StoredTiles *tiles)
     *tiles = (StoredTiles){0};
 }
 
-#define NOWHERE UINT32_MAX
-
 static const char *const color_names[3] = {"R", "G", "B"};
 
 static bool is_color(const char *name)
@@ -160,17 +161,6 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers)
     return has;
 }
 
-// Maps each channel to 0 to 2 for a color, 3 + i for layer i, or NOWHERE.
-static void find_places(const StoredImage *image, const Layers *layers, uint32_t *places)
-{
-    for (uint32_t channel = 0; channel < image->channel_count; channel++)
-        places[channel] = NOWHERE;
-    for (uint32_t color = 0; color < 3; color++)
-        places[stored_image_channel(image, color_names[color])] = color;
-    for (uint32_t layer = 0; layer < layers->count; layer++)
-        places[stored_image_channel(image, layers->list[layer].name)] = 3 + layer;
-}
-
 bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error)
 {
     *part = (ImagePart){.width = settings->width,
@@ -187,58 +177,68 @@ bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *e
     return part->tiles != NULL;
 }
 
-// Copies one channel of a tile into the colors or a layer.
-static void copy_channel(const uint32_t *values, const Tile *tile, uint32_t place,
-                         const TileTarget *target)
+typedef struct {
+    const RenderSettings *settings;
+    TileWork *work;
+    const void *context;
+    pthread_mutex_t lock; // protects failed and error
+    uint32_t failed;      // the lowest number of a failed tile
+    Error *error;
+} TileRun;
+
+static void run_tile(void *context, uint32_t number, uint32_t worker)
 {
-    Framebuffer *framebuffer = target->framebuffer;
-    const Layers *layers = target->layers;
-    const uint32_t left = target->is_whole ? tile->x : tile->left;
-    const uint32_t top = target->is_whole ? tile->y : tile->top;
-    for (uint32_t row = 0; row < tile->height; row++)
-        for (uint32_t column = 0; place != NOWHERE && column < tile->width; column++) {
-            const size_t pixel = (size_t)(top + row) * framebuffer->width + left + column;
-            const uint32_t *value = &values[(size_t)row * target->pitch + column];
-            if (place < 3)
-                memcpy(&framebuffer->pixels[pixel][place], value, sizeof *value);
-            else
-                layers->values[pixel * layers->count + place - 3] = *value;
-        }
+    TileRun *run = context;
+    Error error = {0};
+    const Tile tile = tile_at(run->settings, number);
+    (void)worker;
+    if (run->work(run->context, &tile, &error))
+        return;
+    pthread_mutex_lock(&run->lock);
+    if (number < run->failed) {
+        run->failed = number;
+        *run->error = error;
+    }
+    pthread_mutex_unlock(&run->lock);
 }
 
-static bool copy_tile(const ExrFile *file, const Tile *tile, uint32_t *const memory[2],
-                      const TileTarget *target)
+bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *work,
+                      const void *context, Error *error)
 {
-    uint64_t start;
-    ExrTileHead head;
-    TileTarget own = *target;
-    uint32_t places[STORED_CHANNELS_MAX];
-    const size_t size = exr_tile_bytes(file, tile->width, tile->height);
-    if (!exr_file_find(file, tile->x / file->tile_width, tile->y / file->tile_height, &start,
-                       &head) ||
-        !exr_file_unpack(file, start, &head, (unsigned char *)memory[0], memory[1], size))
-        return false;
-    find_places(&file->head, target->layers, places);
-    own.pitch = (size_t)tile->width * file->head.channel_count;
-    for (uint32_t channel = 0; channel < file->head.channel_count; channel++)
-        copy_channel(memory[1] + (size_t)channel * tile->width, tile, places[channel], &own);
-    return true;
+    assert(count < UINT32_MAX);
+    ThreadPool *pool = thread_pool_open(processors_usable());
+    TileRun run = {settings, work, context, PTHREAD_MUTEX_INITIALIZER, UINT32_MAX, error};
+    thread_pool_run(pool, (uint32_t)count, run_tile, &run);
+    thread_pool_close(pool);
+    return run.failed == UINT32_MAX;
+}
+
+bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *found, Error *error)
+{
+    return exr_file_find(file, tile->x / file->tile_width, tile->y / file->tile_height, found) ||
+           error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y);
+}
+
+typedef struct {
+    const ExrFile *file;
+    const TileTarget *target;
+} TileCopy;
+
+static bool copy_tile(const void *context, const Tile *tile, Error *error)
+{
+    const TileCopy *copy = context;
+    const TileTarget *target = copy->target;
+    size_t position[2] = {target->is_whole ? tile->x : tile->left,
+                          target->is_whole ? tile->y : tile->top};
+    exr_chunk_info_t found;
+    return stored_tiles_find(copy->file, tile, &found, error) &&
+           (exr_file_decode(copy->file, &found, target->framebuffer, target->layers, position) ||
+            error_set(error, "it is damaged at pixel %u,%u", tile->x, tile->y));
 }
 
 bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
                        const TileTarget *target, Error *error)
 {
-    assert(stored_tiles_has_colors(&file->head));
-    const Tile largest = tile_largest(settings);
-    const size_t size = exr_tile_bytes(file, largest.width, largest.height);
-    uint32_t *const memory[2] = {memory_raw(size, 1, error), memory_raw(size, 1, error)};
-    bool ok = memory[0] != NULL && memory[1] != NULL;
-    for (uint64_t number = 0; ok && number < count; number++) {
-        const Tile tile = tile_at(settings, number);
-        ok = copy_tile(file, &tile, memory, target) ||
-             error_set(error, "it is damaged at pixel %u,%u", tile.x, tile.y);
-    }
-    free(memory[0]);
-    free(memory[1]);
-    return ok;
+    const TileCopy copy = {file, target};
+    return stored_tiles_run(settings, count, copy_tile, &copy, error);
 }

@@ -39,12 +39,23 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 // Lists a part's tiles for its file. The caller frees part->tiles.
 bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error);
 
+// Works on one tile. Threads call it for several tiles at once.
+typedef bool TileWork(const void *context, const Tile *tile, Error *error);
+
+// Calls work for tiles 0 to count - 1 on all processors. If some fail, returns false and the error
+// of the first one.
+bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *work,
+                      const void *context, Error *error);
+
+// Finds a tile in its file, as exr_file_find does. On failure, the error names the tile's position.
+bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *found,
+                       Error *error);
+
 // Receives tiles: colors in framebuffer, and the channels that layers lists in layers->values.
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;
     bool is_whole; // of the size of the whole picture, even for a part (tile_frame_size)
-    size_t pitch;  // set by stored_tiles_copy
 } TileTarget;
 
 // Copies tiles 0 to count - 1 of the file, which must have the settings' tile size, and colors and

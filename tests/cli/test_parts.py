@@ -4,6 +4,8 @@
 # together is refused.
 # Usage: test_parts.py CLRT
 import os
+import random
+import zlib
 
 from pictures import read_exr, read_exr_tiles, read_header
 from work import ROOT, SCENE, SharedWork, main
@@ -15,6 +17,20 @@ CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 def part_of(column, row, parts):
     """The golden ratio shifts the tiles of each row, so no part gets the tiles of a column."""
     return (column - (row * 2654435769 % 2**32 * parts >> 32)) % parts
+
+
+def flipped(data, place):
+    """One bit differs."""
+    return data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :]
+
+
+def damaged(data, start, end):
+    """One bit of the tile between start and end differs, and with it the tile's values."""
+    for place in random.Random(start).sample(range(start + 20, end), end - start - 20):
+        try:
+            zlib.decompress(flipped(data, place)[start + 20 : end])
+        except zlib.error:
+            return flipped(data, place)
 
 
 class Parts(SharedWork):
@@ -183,8 +199,11 @@ class Parts(SharedWork):
         honest = self.bytes_of(names[1])
         table = read_header(honest)[1]
         tiles = [place for place in range(table, table + 8 * 20, 8) if honest[place : place + 8] != bytes(8)]
-        last = max(int.from_bytes(honest[place : place + 8], "little") for place in tiles)
-        for bad in (honest[:-1], honest[: last + 10], honest[: tiles[0]] + bytes(8) + honest[tiles[0] + 8 :],
+        starts = sorted(int.from_bytes(honest[place : place + 8], "little") for place in tiles)
+        last = starts[-1]
+        for bad in (*(damaged(honest, *ends) for ends in zip(starts, starts[1:] + [len(honest)])),
+                    honest[:-1], honest[: last + 10],
+                    honest[: tiles[0]] + bytes(8) + honest[tiles[0] + 8 :],
                     honest[: tiles[0]] + b"\xff" * 8 + honest[tiles[0] + 8 :],
                     honest[: last + 16] + b"\xff\xff\xff\x7f" + honest[last + 20 :]):
             self.write(bad_exr=bad)
@@ -192,8 +211,8 @@ class Parts(SharedWork):
                 done = self.run_clrt("merge", names[0], "bad.exr", "-o", name)
                 self.assertEqual(done.returncode, 3, done.stderr)
                 self.assertRegex(done.stderr, "clrt: bad.exr: part 2 of 2 cannot be used: it is damaged at pixel")
-        self.write(bad_exr=honest[: last + 30] + b"\xff" * 4 + honest[last + 34 :])
-        self.refuses_parts("bad.exr: part 2 of 2 cannot be used: it is damaged at pixel", names[0], "bad.exr", name="m.pfm")
+        self.write(bad_exr=flipped(honest, starts[0] + 16))  # the tile's size, which other formats can ignore
+        self.refuses_parts("bad.exr: part 2 of 2 cannot be used: it is damaged at pixel", names[0], "bad.exr")
         for end in range(0, table, 7):
             self.write(bad_exr=honest[:end])
             self.refuses_parts("bad.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "bad.exr")

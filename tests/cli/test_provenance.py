@@ -64,7 +64,7 @@ class Provenance(Work):
         # clrt merge copies compressed tiles into EXR files, so it cannot know the pixels.
         del expected["clrt:pixel_hash"]
         self.assertEqual({name: texts[name] for name in NAMES if name in texts}, expected)
-        self.assertEqual(texts["capDate"], "")
+        self.assertNotIn("capDate", texts)
 
     def test_the_description_of_tiff_and_jpeg_tells_the_same_as_png(self):
         expected = self.draw(*SMALL, "--aa=3")

@@ -123,7 +123,7 @@ class Package(unittest.TestCase):
         common = ["pocl-opencl-icd | opencl-icd", "libc6", "libxxhash0", "ocl-icd-libopencl1"]
         for package in ["clrt", *LIBRARY[:1]]:
             depends = run("dpkg-deb", "-f", self.packages[package], "Depends")
-            own = ["libjansson4", "libpng16-16"] if package == "clrt" else []
+            own = ["libdeflate0", "libjansson4", "libopenexr-3-1-30", "libpng16-16"] if package == "clrt" else []
             for name in common + own:
                 self.assertIn(name, depends)
 
@@ -141,8 +141,8 @@ class Package(unittest.TestCase):
         environment = {**os.environ, "HOME": "/proc", "XDG_CACHE_HOME": "/proc"}
         environment.pop("POCL_CACHE_DIR", None)
         with tempfile.TemporaryDirectory() as work:
-            for ending in {"png", "exr"}.intersection(formats):  # png is written by clrt, exr by
-                                                                 # its module
+            for ending in {"png", "exr", "tif"}.intersection(formats):  # clrt writes the first two,
+                                                                        # and its module tif
                 pictures = [f"{work}/{whose}.{ending}" for whose in ("package", "build")]
                 scene = [self.root / "usr" / SCENE, "-s", "24x16", "-q", "-o"]
                 run(self.clrt, *scene, pictures[0], env=environment)
