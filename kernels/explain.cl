@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --explain-pixel traces one sample with the functions that trace uses. A single
-// work-item traces it in its first lane and records the path (shared.h). The kernel is compiled
-// after render.cl, and only if requested.
+// The kernel of --explain-pixel traces one sample with the functions of trace(). A single work-item
+// traces it in its first lane and records the path (shared.h). The kernel is compiled after
+// render.cl, and only if requested.
 
 typedef struct {
     global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights
@@ -58,10 +58,10 @@ static inline Real size_of3(Real3 v)
 }
 
 // Bounds the error of t at a sphere hit from the residual of |origin + t * direction - center|^2 -
-// radius^2. The residual is 0 at both roots; elsewhere it is |direction|^2 times the product of
-// the distances to them. The nearer root is therefore within the square root of |residual| /
-// |direction|^2. Where the ray does not graze, it is also within twice a Newton step. Evaluating
-// the residual is allowed 64 units of two-float rounding.
+// radius^2. The residual is 0 at both roots; elsewhere it is |direction|^2 times the product of the
+// distances to them. The nearer root is therefore within the square root of |residual| /
+// |direction|^2. Where the ray does not graze, it is also within twice a Newton step. The bound
+// adds 64 units of two-float rounding for the residual.
 static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(tracer, index);

@@ -50,8 +50,7 @@ typedef struct {
     Mask inside;
 } PacketTest;
 
-// Returns which rays stop on a triangle so close to their starting triangle that rounding hides the
-// order.
+// Returns which rays stop on a triangle that they hit within rounding of their start.
 static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *packet,
                                         Mask from_back)
 {
@@ -61,7 +60,7 @@ static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *pa
     return known && hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
-// Returns the distances of those hits, and INFINITY for other rays. Distances of camera rays may be
+// Returns the distances of test's hits, and INFINITY elsewhere. Distances of camera rays may be
 // beyond `reach`.
 static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
                                     const PacketTest *test, Real reach)

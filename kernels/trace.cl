@@ -149,7 +149,7 @@ static inline void paths_shade(const Tracer *tracer, Paths *paths, Real3 shaded[
             path_add(&paths->paths[i], shaded[i]);
 }
 
-// Returns the color of a path that ends: rays without a surface see the background.
+// Returns the color of an ended path: its remaining weight sees the background.
 static inline Real3 path_color(const Tracer *tracer, const Path *path)
 {
     const Real3 background = load_private3(tracer->frame->background);

@@ -166,7 +166,7 @@ void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
     }
 }
 
-// The triangles and, for most callers, the tree are intermediate results.
+// Most callers need neither the triangles nor the tree afterwards.
 
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error)

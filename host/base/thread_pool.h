@@ -24,8 +24,8 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
 // Processes elements first to end - 1.
 typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
 
-// Calls `work` for ranges of `part` consecutive elements, of which the last may be shorter, like
-// thread_pool_run for tasks. The ranges cover elements 0 to count - 1.
+// Calls `work` for ranges of `part` elements, like thread_pool_run for tasks. The ranges cover
+// elements 0 to count - 1. The last may be shorter.
 void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
                        void *context);
 

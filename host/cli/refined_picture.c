@@ -14,8 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Returns the truncation error that counts toward --error. It is 0 if the scene or --max-level sets
-// the number of levels.
+// Returns the truncation error that counts toward --error. It is 0 if --max-level sets the number
+// of levels.
 static double truncation_of(const Run *run)
 {
     const Options *options = run->options;

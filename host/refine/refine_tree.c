@@ -82,7 +82,7 @@ static bool place_beyond(const RefineTree *tree, const CellGroup *group, CellSid
     return place[0] < tree->width * REFINE_GRID && place[1] < tree->height * REFINE_GRID;
 }
 
-// Finds the smallest cell at a place, down to that level, through groups with an index below end.
+// Finds the smallest cell at a place, down to `level`, through groups with an index below end.
 // Returns the group that subdivides this cell, or 0.
 static uint32_t descend(const RefineTree *tree, const uint32_t place[2], uint32_t level,
                         uint32_t end, CellName *name)
@@ -311,7 +311,7 @@ static void store_pixel(const RefineTree *tree, uint32_t x, uint32_t y, float co
         pixel_color(tree, x, y, color);
 }
 
-// Returns whether the pixels of a block's row have one sample each.
+// Returns whether each pixel of a packet's row has one sample.
 static bool is_plain(const RefineTree *tree, size_t first)
 {
     uint32_t more = 0;

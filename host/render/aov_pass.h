@@ -32,6 +32,6 @@ bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *er
 void aov_pass_close(AovPass *pass);
 
 // Computes the channels into layers, tile by tile, until the observer returns false. layers must
-// have the names of set (aov_name_layers) and the framebuffer's size.
+// have the names of set (aov_name_layers) and the picture's size.
 bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
                    Error *error);

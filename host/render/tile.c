@@ -58,7 +58,7 @@ uint64_t tile_count(const RenderSettings *settings)
 Tile tile_at(const RenderSettings *settings, uint64_t number)
 {
     const uint32_t stride = stride_of(settings);
-    // Whole pictures have many tiles, which need no search.
+    // For whole pictures, a division replaces the search.
     uint64_t row = stride == 1 ? number / columns_of(settings) : 0;
     uint64_t place = stride == 1 ? number % columns_of(settings) : number;
     for (uint64_t count; place >= (count = row_count(settings, row)); row++)

@@ -17,8 +17,7 @@
 // The times between displayed frames of a moving camera.
 typedef struct {
     ARRAY(double) seconds; // from each frame to the next
-    double
-        latest; // time of the latest frame in seconds; 0 without one or if the camera has stopped
+    double latest; // clock time of the latest frame; 0 without one or if the camera has stopped
 } FrameTimes;
 
 // Prints the statistics. frames is the number of pictures traced while the camera moved. coarse is
@@ -29,7 +28,7 @@ void frame_times_free(FrameTimes *times);
 #define STATE_SIZE 1024
 
 typedef struct {
-    // Copies, because the worker may outlive viewer_run. Played keys and frames are removed.
+    // Copies, because the worker may outlive viewer_run. keys and quit_after hold the rest.
     ViewerSettings settings;
     Cache cache;
     Window window;

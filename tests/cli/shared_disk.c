@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Preloaded into clrt, reports that every folder lies on NFS.
+// Preload this so that clrt finds every folder on NFS.
 #include <sys/vfs.h>
 
 int statfs(const char *path, struct statfs *disk)

@@ -15,7 +15,7 @@ static const char *const scenes[] = {
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
-// Neither side of the picture is a multiple of a tile's or work-group's side.
+// Both sides are prime, so few tiles or work-groups divide the picture.
 static PictureRequest small_request(size_t scene)
 {
     PictureRequest request = picture_request(scenes[scene], 1);
@@ -56,7 +56,7 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
     }
 }
 
-// Each size of work-groups is compiled, so one scene suffices.
+// PoCL compiles each work-group size, so one scene must do.
 TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
@@ -115,8 +115,8 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
     expect_special_same(63, choice);
 }
 
-// The families share the sources that the switches are in, so each switch is tested alone only with
-// rays, which compile soonest.
+// The families share the code of most switches. Only rays, which compile sooner, test every switch
+// alone.
 TEST(specialized_rays_draw_what_general_ones_do)
 {
     expect_extreme_specials_same(&form_all[0]);

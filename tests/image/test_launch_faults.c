@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The device refuses a launch while the previous launch runs. Here the previous launch waits until
-// somebody waits for it.
+// OpenCL refuses a launch while the previous one runs. The test holds the previous one until clrt
+// waits for it.
 #include "image/rendered.h"
 
 #include <dlfcn.h>

@@ -170,7 +170,7 @@ def u_turns_the_up_axis_of_a_mesh_without_a_scene(screen):
     for up in ("-x", "-y", "-z", "x", "y", "z"):
         window.press("u", f"BVH on, up {up}, help")
         shown.add(window.read())
-    assert len(shown) == 6 and first in shown, "six axes show other pictures"
+    assert len(shown) == 6 and first in shown, "axes show the wrong pictures"
     window.close()
     window = opened(screen, SCENE)
     window.press("u")
