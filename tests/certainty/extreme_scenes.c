@@ -120,6 +120,18 @@ static Scene soup(void)
     return scene;
 }
 
+// Two planes cross at an angle of a few roundings. The planes behind the light cast no shadow.
+static Scene crossing(void)
+{
+    Scene scene = parsed_format("size 384 384\n"
+                                "light 0.3 -0.2 1 0.6\n"
+                                "camera 0.3 -2 1.5 0 0 0 40\n");
+    shape_add(&scene, shape_plane(vec3(-1, -1, 0), vec3(2, 0, 0), vec3(0, 2, 0), 5), 1);
+    shape_add(&scene, shape_plane(vec3(-1, -1, -1e-6), vec3(2, 0, 2e-6), vec3(0, 2, 0), 4), 2);
+    shape_add(&scene, shape_plane(vec3(0, -0.5, 1.3), vec3(0.6, 0, 0), vec3(0, 0.6, 0), 1), 1);
+    return scene;
+}
+
 static void swap_corners(uint32_t corners[3], uint32_t one, uint32_t other)
 {
     const uint32_t kept = corners[one];
@@ -159,7 +171,7 @@ Scene extreme_coincident(void)
 const ExtremeScene extreme_scenes[] = {
     {"slivers", slivers},   {"far_away", far_away},       {"planets", planets},
     {"contacts", contacts}, {"mirror_room", mirror_room}, {"mixed_scales", mixed_scales},
-    {"soup", soup},
+    {"soup", soup},         {"crossing", crossing},
 };
 
 const size_t extreme_scene_count = sizeof extreme_scenes / sizeof extreme_scenes[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scenes at the edges of what float arithmetic bears: slivers, places far away, spheres as large as
-// planets, contacts, mirrors that face each other.
+// planets, contacts, crossing planes, mirrors that face each other.
 #pragma once
 
 #include "scene/scene.h"
