@@ -84,6 +84,15 @@ EXTREME(a_shadow_reaches_the_point_of_contact_t40)
                            "gap=%.0e ball=%s", gap, as_mesh ? "mesh" : "sphere");
 }
 
+// A corner of the wall and two of its edges. Points on this wall are rounded, unlike those on the
+// floor.
+static const Vec3 wall[] = {{-4.1, 3.5, 0}, {8.3, 1.05, 0}, {0.1, -0.84, 4}};
+
+static Vec3 wall_point(double across, double up)
+{
+    return vec3_add(wall[0], vec3_add(vec3_scale(wall[1], across), vec3_scale(wall[2], up)));
+}
+
 // Returns a floor, a wall and a ball.
 static Scene stand(Vec3 light)
 {
@@ -91,7 +100,7 @@ static Scene stand(Vec3 light)
                                 "camera 1 -9 5 0 0 1 40\nmaterial 1\nsphere 1.5 1 1.25 1\n",
                                 light.x, light.y, light.z);
     shape_add(&scene, shape_plane(vec3(-4, -4, 0), vec3(8, 0, 0), vec3(0, 8, 0), 8), 1);
-    shape_add(&scene, shape_plane(vec3(-4, 4, 0), vec3(8, 0, 0), vec3(0, 0, 4), 8), 2);
+    shape_add(&scene, shape_plane(wall[0], wall[1], wall[2], 8), 2);
     return scene;
 }
 
@@ -99,12 +108,17 @@ static Scene stand(Vec3 light)
 // slightly in front of the surface.
 EXTREME(lights_on_surfaces_and_in_the_eye_are_as_exact_as_others_t42)
 {
-    static const struct {
+    const Vec3 wall_normal = vec3_normalize(vec3_cross(wall[1], wall[2]));
+    const struct {
         const char *name;
         Vec3 place, normal;
-    } lights[] = {{"above", {0, 0, 3}, {0, 0, 0}},         {"on_floor", {-1.3, 0.4, 0}, {0, 0, 1}},
-                  {"on_vertex", {-1, 1, 0}, {0, 0, 1}},    {"on_edge", {-1.5, 1, 0}, {0, 0, 1}},
-                  {"on_wall", {0.3, 4, 1.7}, {0, -1, 0}},  {"at_eye", {1, -9, 5}, {0, 0, 0}},
+    } lights[] = {{"above", {0, 0, 3}, {0, 0, 0}},
+                  {"on_floor", {-1.3, 0.4, 0}, {0, 0, 1}},
+                  {"on_vertex", {-1, 1, 0}, {0, 0, 1}},
+                  {"on_edge", {-1.5, 1, 0}, {0, 0, 1}},
+                  {"on_wall", wall_point(0.53, 0.43), wall_normal},
+                  {"high_on_wall", wall_point(0.21, 0.93), wall_normal},
+                  {"at_eye", {1, -9, 5}, {0, 0, 0}},
                   {"on_sphere", {1.5, 1, 2.25}, {0, 0, 1}}};
     const PictureSettings settings = shadow_settings();
     for (size_t i = 0; i < COUNT(lights); i++) {
