@@ -136,7 +136,7 @@ static bool refine(Adaptive *adaptive, SeamSearch *search, float threshold,
                    const RenderObserver *observer, Error *error)
 {
     RefineTree *tree = &adaptive->tree;
-    const CutRule rule = {&adaptive->footprints, &adaptive->thin_parts, threshold};
+    const CutRule rule = {&adaptive->thin_parts, threshold};
     uint32_t first = (uint32_t)tree->groups.count;
     bool ok = contrast_cut_pixels(tree, &rule, adaptive->pool, error);
     while (ok && (first < tree->groups.count || search->asked.count > 0)) {
@@ -171,9 +171,9 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
     frame->camera = *setup->camera;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
-    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->pool};
+    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->flat->spheres,
+                             setup->pool};
     const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
-                    footprints_make(&adaptive->footprints, frame, setup->flat->spheres, error) &&
                     thin_parts_make(&adaptive->thin_parts, &thin, error) &&
                     trace_pixels(adaptive, observer, error);
     if (!ok)
@@ -202,7 +202,6 @@ void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 
 void adaptive_close(Adaptive *adaptive)
 {
-    footprints_free(&adaptive->footprints);
     thin_parts_free(&adaptive->thin_parts);
     refine_tree_free(&adaptive->tree);
     *adaptive = (Adaptive){0};

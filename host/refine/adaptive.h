@@ -12,9 +12,8 @@ typedef struct {
     ThreadPool *pool;   // borrowed
     FrameData frame;
     RefineTree tree;
-    Footprints footprints; // small spheres; their cells are always subdivided
-    ThinParts thin_parts;  // thin parts of meshes; their cells are always subdivided
-    uint64_t samples;      // the number of samples taken
+    ThinParts thin_parts; // their cells are always subdivided
+    uint64_t samples;     // the number of samples taken
 } Adaptive;
 
 // The inputs of adaptive anti-aliasing.

@@ -35,13 +35,13 @@ static void set_limits(Marking *marking)
 
 // Lists a cell if it is thin or its contrast exceeds the limit, and its larger neighbors.
 static bool mark_cell(const Marking *marking, const CellName *name, const uint32_t place[2],
-                      bool is_thin, CutList *list)
+                      CutList *list)
 {
     static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const RefineTree *tree = marking->tree;
     const SampleData *sample = refine_tree_sample(tree, name);
     const uint32_t side = refine_tree_cell_side(name->level);
-    bool is_cut = is_thin;
+    bool is_cut = thin_parts_cut(marking->rule->thin_parts, place, name->level);
     for (int i = 0; i < 4; i++) {
         const uint32_t beyond[2] = {place[0] + (uint32_t)steps[i][0] * side,
                                     place[1] + (uint32_t)steps[i][1] * side};
@@ -97,15 +97,11 @@ static void mark_rows(void *context, uint32_t first, uint32_t end)
 static bool mark_group(const Marking *marking, uint32_t number, CutList *list)
 {
     const CellGroup *group = &marking->tree->groups.data[number];
-    unsigned thin = 0;
-    if (group->level < REFINE_LEVELS)
-        thin = footprints_marks(marking->rule->footprints, group) |
-               thin_parts_marks(marking->rule->thin_parts, group);
     for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
         const CellName name = {number, cell, group->level};
         uint32_t place[2];
         refine_tree_cell_place(group, cell, place);
-        if (!mark_cell(marking, &name, place, thin >> cell & 1, list))
+        if (!mark_cell(marking, &name, place, list))
             return false;
     }
     return true;
@@ -152,22 +148,11 @@ static bool cut_marked(RefineTree *tree, Marking *marking, const Ranges *ranges,
     return ok;
 }
 
-static bool cut_footprints(RefineTree *tree, const Footprints *footprints, Error *error)
-{
-    for (size_t i = 0; i < footprints->list.count; i++) {
-        const CellName name = {.cell = footprints->list.data[i].pixel};
-        if (!refine_tree_cut(tree, &name, error))
-            return false;
-    }
-    return true;
-}
-
 bool contrast_cut_pixels(RefineTree *tree, const CutRule *rule, ThreadPool *pool, Error *error)
 {
     Marking marking = {.tree = tree, .rule = rule};
     const Ranges rows = {tree->height, PACKET_SIDE, mark_rows};
-    return cut_marked(tree, &marking, &rows, pool, error) &&
-           cut_footprints(tree, rule->footprints, error);
+    return cut_marked(tree, &marking, &rows, pool, error);
 }
 
 bool contrast_cut_groups(RefineTree *tree, const CutRule *rule, uint32_t first, ThreadPool *pool,

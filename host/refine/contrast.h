@@ -9,7 +9,6 @@
 // A cell's contrast is its largest color difference from a neighbor, weighted and multiplied by the
 // cell's fraction of the pixel.
 typedef struct {
-    const Footprints *footprints;
     const ThinParts *thin_parts;
     float threshold; // cells with more contrast are subdivided
 } CutRule;
