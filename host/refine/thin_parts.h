@@ -77,5 +77,5 @@ typedef struct {
     uint32_t count;
 } MeshPieces;
 
-bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, ThreadPool *pool, Error *error);
+bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, Error *error);
 void mesh_pieces_free(MeshPieces *pieces);

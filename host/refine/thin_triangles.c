@@ -329,7 +329,7 @@ static bool search_mesh(Search *search, const MeshObject *object, Error *error)
     search->pieces = (MeshPieces){0};
     search->first = 0;
     bool ok = projection_begin(&search->projection, object, source->pool, error) &&
-              mesh_pieces_make(&search->pieces, &object->mesh, source->pool, error);
+              mesh_pieces_make(&search->pieces, &object->mesh, error);
     for (uint32_t i = 0; ok && i < search->pieces.count; i++)
         ok = search_piece(search, search->pieces.ends[i], error);
     mesh_pieces_free(&search->pieces);
