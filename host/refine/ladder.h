@@ -59,10 +59,10 @@ void pixel_sums_add(PixelSums *sums, const PixelSums *more);
 #define LADDER_SIDE_MOST   (1u << 19)
 #define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
 
-// What is known about a pixel beside its stratum and color.
+// A pixel has a feature on rung 0 and sums above.
 typedef union {
-    float feature; // on rung 0, for its stratum
-    uint32_t sums; // above, its index in Ladder::sums
+    float feature; // for its stratum
+    uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
 typedef struct {
