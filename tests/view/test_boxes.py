@@ -5,9 +5,7 @@ window's text, its picture and the statistics. Usage: CLRT=path/to/clrt test_box
 
 import json
 import os
-import pathlib
 import subprocess
-import tempfile
 
 from screen import is_blue, is_red, opened, planes_of, run_tests
 from models import ply
@@ -58,25 +56,24 @@ def count_shapes(shown, size, wanted):
     return shapes
 
 
-def as_many_boxes_are_seen_as_are_told(screen):
+def as_many_boxes_are_seen_as_are_told(screen, folder):
     size = (600, 600)
-    with tempfile.TemporaryDirectory() as folder:
-        scene = write_clusters(pathlib.Path(folder))
-        for options in ([], ["--bvh", "midpoint"], ["--nodes", "pair"]):
-            tree = statistics(scene, *options)
-            inner = tree["inner_nodes"]
-            assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"
-            window = opened(screen, scene, *options, size=size)
-            window.press("B", f"boxes of leaves: {tree['leaves']},")
-            seen = count_shapes(window.read(), size, is_blue)
-            assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"
-            for level, count in enumerate(inner, start=1):
-                window.press("bracketright", f"boxes at level {level}: {count},")
-                seen = count_shapes(window.read(), size, is_red)
-                assert seen == count, f"level {level}: {seen} boxes are seen, {count} are there"
-            window.press("bracketright")
-            window.close()
-            print(f"         {options}: {tree['leaves']} leaves, inner {inner} seen")
+    scene = write_clusters(folder)
+    for options in ([], ["--bvh", "midpoint"], ["--nodes", "pair"]):
+        tree = statistics(scene, *options)
+        inner = tree["inner_nodes"]
+        assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"
+        window = opened(screen, scene, *options, size=size)
+        window.press("B", f"boxes of leaves: {tree['leaves']},")
+        seen = count_shapes(window.read(), size, is_blue)
+        assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"
+        for level, count in enumerate(inner, start=1):
+            window.press("bracketright", f"boxes at level {level}: {count},")
+            seen = count_shapes(window.read(), size, is_red)
+            assert seen == count, f"level {level}: {seen} boxes are seen, {count} are there"
+        window.press("bracketright")
+        window.close()
+        print(f"         {options}: {tree['leaves']} leaves, inner {inner} seen")
 
 
 if __name__ == "__main__":
