@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture whose pixels climb a ladder of samples: the center alone, then 4, 16, 64, 256 and 1024
+// A picture whose pixels climb a ladder of samples: the center alone, then 4, 8, 16 ... 1024
 // points of a per-pixel sequence. Strata decide how many pixels advance, and hashes of pixel
 // positions decide which. The picture therefore depends neither on the order of work nor on the
 // device.
@@ -59,15 +59,21 @@ void pixel_sums_add(PixelSums *sums, const PixelSums *more);
 #define LADDER_SIDE_MOST   (1u << 19)
 #define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
 
+// A pixel has a feature on rung 0 and sums above.
+typedef union {
+    float feature; // for its stratum
+    uint32_t sums; // index in Ladder::sums
+} LadderPlace;
+
 typedef struct {
     PixelRequests requests;
     Framebuffer *picture;  // borrowed; means of the pixels' samples
-    float *features;       // of each pixel, for its stratum
+    uint32_t *chosen;      // room for all pixels
+    LadderPlace *places;   // of each pixel
     uint8_t *strata;       // of each pixel
-    uint32_t *sum_places;  // index in sums of each pixel; 0 on rung 0
-    ARRAY(PixelSums) sums; // from index 1
+    ARRAY(PixelSums) sums; // of the pixels above rung 0
     Strata statistics;
-    Strata chosen;    // the statistics of the last choice of pixels
+    Strata chosen_by; // the statistics of the last choice of pixels
     uint64_t samples; // taken
 } Ladder;
 
@@ -89,6 +95,21 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
 // Returns the number of samples that a pixel has taken.
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);
+
+// Assigns all pixels to strata of rung 0, after their centers are drawn.
+bool ladder_enter(Ladder *ladder, Error *error);
+
+// Selects pixels.
+
+// Seeds of a pixel's hashes: SCRAMBLE_SEED for its samples, RUNG_SEED + rung for its selection on a
+// rung.
+#define SCRAMBLE_SEED 0
+#define RUNG_SEED     1
+
+uint64_t ladder_hash(uint32_t pixel, uint64_t seed);
+
+// Fills ladder->chosen with the pixels that their strata's fractions select. Stores their number.
+bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error);
 
 // Advances the pixels of a ladder until the picture meets an error goal, or until a time budget is
 // spent.

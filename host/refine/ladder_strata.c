@@ -26,12 +26,18 @@
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
-// Above rung 0, the new samples contain the old samples, so the change underestimates the error.
-#define NESTED_FACTOR 1.15
+// Above rung 0, the new samples contain the old samples, so the change underestimates the error. If
+// doubling the samples divides the squared error by D, the change is (1 - 1 / D) of the error. D is
+// 2.83 at edges and 2 for noise, for which the factors are 1.55 and 2. With 1.5, errors of thin
+// strips reached 1.14 times the goal.
+#define NESTED_FACTOR 1.75
 
 // The first step of a stratum advances at least this fraction and this many pixels as controls.
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
+
+// Doubled fractions take more rounds: pictures took 6 to 10 % longer.
+#define FRACTION_GROWTH 4
 
 // A stratum without controls must advance some pixels if it is on rung 0, or if its expected error
 // exceeds this fraction of the aim.
@@ -73,10 +79,10 @@ uint32_t strata_rung(uint32_t stratum)
 // Returns the octave of a value: 0 for values from 1/2 on, 1 from 1/4 on, up to classes - 1.
 static uint32_t octave(double value, uint32_t classes)
 {
-    uint32_t number = 0;
-    for (double least = 0.5; number + 1 < classes && value < least; least /= 2)
-        number++;
-    return number;
+    if (value < 1.0 / (1 << classes))
+        return classes - 1;
+    const int exponent = ilogb(value);
+    return exponent >= -1 ? 0 : (uint32_t)(-1 - exponent);
 }
 
 uint32_t strata_of_bend(double bend, double nearby)
@@ -97,10 +103,10 @@ bool strata_is_bent(uint32_t stratum, double bend)
                                   : (stratum - BEND_CLASSES) / DEVIATION_CLASSES % 2 == 1;
 }
 
-void strata_enter(Strata *strata, uint32_t stratum, double feature)
+void strata_enter(Strata *strata, uint32_t stratum, uint64_t pixels, double features)
 {
-    strata->strata[stratum].entered++;
-    strata->strata[stratum].feature += feature;
+    strata->strata[stratum].entered += pixels;
+    strata->strata[stratum].feature += features;
 }
 
 void strata_advance(Strata *strata, uint32_t stratum, double feature, double change)
@@ -227,7 +233,7 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
 }
 
 // Returns whether the stratum can advance more pixels. The step selects the stratum's first pixels,
-// or doubles its fraction.
+// or raises its fraction to FRACTION_GROWTH times the old.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
                       double aim)
 {
@@ -236,7 +242,8 @@ static bool next_step(Step *step, uint32_t number, const Strata *strata, const F
     const uint32_t rung = strata_rung(number);
     if (rung + 1 == LADDER_RUNGS || outlook->left < 1 || stratum->fraction >= 1)
         return false;
-    *step = (Step){.stratum = number, .fraction = fmax(FIRST_FRACTION, 2 * stratum->fraction)};
+    *step = (Step){.stratum = number,
+                   .fraction = fmax(FIRST_FRACTION, FRACTION_GROWTH * stratum->fraction)};
     step->is_forced =
         stratum->fraction == 0 && (rung == 0 || outlook->left * outlook->mean > FORCED_PART * aim);
     if (stratum->fraction == 0)

@@ -8,9 +8,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Samples of a pixel on each rung: the center, or that many points of the pixel's sequence.
-#define LADDER_RUNGS 6
-static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 16, 64, 256, 1024};
+// Samples of a pixel on each rung: the center, or that many points of the pixel's sequence. With
+// rungs of 4, 16, 64 and so on, pictures took 1.1 to 1.4 times the samples for the same error.
+#define LADDER_RUNGS 10
+static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Octaves from FLAT_CLASS on
 // have two strata; the stratum from NEAR_CLASS on is for pixels near contrast. On higher rungs,
@@ -57,8 +58,8 @@ uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
 // on rung 0.
 bool strata_is_bent(uint32_t stratum, double bend);
 
-// Records that a pixel enters a stratum.
-void strata_enter(Strata *strata, uint32_t stratum, double feature);
+// Records that pixels enter a stratum. features is the sum of their features.
+void strata_enter(Strata *strata, uint32_t stratum, uint64_t pixels, double features);
 
 // Records that a pixel advances from a stratum.
 void strata_advance(Strata *strata, uint32_t stratum, double feature, double change);
