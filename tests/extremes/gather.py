@@ -71,7 +71,7 @@ def row(test, title, cases):
     forms = [form for form, _ in cases]
     cells = [max(map(forms.count, forms)), max(total(form, "rays") for form in forms),
              *(total(form, field) for form, field in COLUMNS)]
-    texts = ["" if value is None else f"{value:,}" for value in cells]
+    texts = [f"{value:,}" if value is not None else "" for value in cells]
     return " | ".join([f"| {test} | {title}", "holds" if holds else "**fails**", *texts]) + " |"
 
 
