@@ -17,11 +17,14 @@
 #define RUNG_WEIGHT    4
 #define STRATUM_WEIGHT 2
 
-// The change per feature on rung 0 before any change is measured.
-#define FIRST_RATIO 0.03
+// The change per feature on rungs 0 and 1 before any change is measured.
+#define CENTER_RATIO 0.03
+#define FIRST_RATIO  0.5
 
 // The least feature in a prior, as a fraction of the rung's largest mean feature. On rung 0,
-// NEAR applies near contrast and FAR elsewhere. SAMPLED applies above rung 0.
+// NEAR applies near contrast and FAR elsewhere. SAMPLED applies to rung 1. Detail that n samples
+// missed covers about 1/n of a pixel, so the fraction falls from rung to rung. With a constant
+// fraction, the estimates rose again above 64 samples.
 #define LEAST_NEAR    0.3
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
@@ -45,7 +48,7 @@
 
 // A round plans to remove COVERED_PART of the bound's excess. It counts only GAIN_PART of the
 // expected decrease of the mean. It takes steps that score at least SCORE_PART of the best score.
-// It takes at least STEP_PART of each step.
+// It takes at least STEP_PART of each step, if the samples suffice.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -126,13 +129,18 @@ static double mean_feature(const Stratum *stratum)
 
 // Returns the prior change per feature. Features shrink like the squared error of independent
 // samples. The squared error of a sequence shrinks faster, so the ratio falls from rung to rung.
-static double first_ratio(uint32_t rung)
+static double first_ratio(const Rung rungs[], uint32_t rung)
 {
-    return rung == 0 ? FIRST_RATIO : 0.5 / sqrt(ladder_samples[rung] / 4.0);
+    if (rung < 2)
+        return rung == 0 ? CENTER_RATIO : FIRST_RATIO;
+    const double growth = (double)ladder_samples[rung] / ladder_samples[rung - 1];
+    return rungs[rung - 1].ratio / sqrt(growth);
 }
 
-static Rung rung_of(const Strata *strata, uint32_t rung)
+// Fills in a rung. The rungs below it must be filled in already.
+static void measure_rung(Rung rungs[], uint32_t rung, const Strata *strata)
 {
+    const double first = first_ratio(rungs, rung);
     double feature = 0, change = 0, largest = 0;
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
         const Stratum *stratum = &strata->strata[i];
@@ -142,15 +150,15 @@ static Rung rung_of(const Strata *strata, uint32_t rung)
         change += stratum->change;
         largest = fmax(largest, mean_feature(stratum));
     }
-    const double first = first_ratio(rung), weight = RUNG_WEIGHT * largest;
-    return (Rung){.ratio = largest > 0 ? (change + weight * first) / (feature + weight) : first,
-                  .feature = largest};
+    const double weight = RUNG_WEIGHT * largest;
+    rungs[rung] =
+        (Rung){largest > 0 ? (change + weight * first) / (feature + weight) : first, largest};
 }
 
 static double least_feature(uint32_t stratum)
 {
     if (stratum >= BEND_CLASSES)
-        return LEAST_SAMPLED;
+        return LEAST_SAMPLED * ladder_samples[1] / ladder_samples[strata_rung(stratum)];
     return stratum >= NEAR_CLASS ? LEAST_NEAR : LEAST_FAR;
 }
 
@@ -181,7 +189,7 @@ static Forecast forecast_of(const Strata *strata)
     Forecast forecast = {.mean = 0};
     Rung rungs[LADDER_RUNGS];
     for (uint32_t rung = 0; rung < LADDER_RUNGS; rung++)
-        rungs[rung] = rung_of(strata, rung);
+        measure_rung(rungs, rung, strata);
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
         Outlook *outlook = &forecast.strata[i];
         *outlook = outlook_of(strata, i, &rungs[strata_rung(i)]);
@@ -274,9 +282,9 @@ static void take_steps(Strata *strata, Step *steps, uint32_t count, double missi
             return;
         const Step *step = &steps[place];
         const double cost = step->pixels * step_cost(step->stratum);
-        const double part = fmin(missing / step->gain, samples / cost);
+        const double part = fmin(fmax(missing / step->gain, STEP_PART), samples / cost);
         Stratum *stratum = &strata->strata[step->stratum];
-        stratum->fraction += fmin(fmax(part, STEP_PART), 1) * (step->fraction - stratum->fraction);
+        stratum->fraction += fmin(part, 1) * (step->fraction - stratum->fraction);
         missing -= step->gain;
         samples -= cost;
         good = fmax(good, SCORE_PART * step->score);

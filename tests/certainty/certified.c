@@ -2,60 +2,21 @@
 // Draws the plain picture with the kernels that clrt chooses.
 #include "certainty/certified.h"
 
-#include "accel/flat.h"
 #include "extremes/support/check.h"
+#include "image/rendered.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static PictureSettings settings_of(const Scene *scene, const CertifiedView *view)
+static void draw_plain(Certified *certified, const Scene *scene, const CertifiedView *view)
 {
-    PictureSettings settings = picture_settings(0);
-    settings.render.width = view->width > 0 ? view->width : scene->width;
-    settings.render.height = view->height > 0 ? view->height : scene->height;
-    settings.render.samples = view->samples;
-    settings.render.max_level = scene->max_level;
-    settings.render.tile_width = settings.render.tile_height = 128;
-    return settings;
-}
-
-static bool look(Certified *certified, const RendererSetup *setup, const Renderer *renderer,
-                 const Normalization *normalization, Error *error)
-{
-    AovSet set = 0;
-    AovPass pass = {0};
-    Layers *seen = &certified->seen;
-    const AovSource source = {.setup = setup,
-                              .renderer = renderer,
-                              .camera = certified->camera,
-                              .center = certified->camera,
-                              .scene = {normalization, certified->stage.flat.light_count}};
-    if (!aov_read_list("primitive,material,shadow", &set, error))
-        return false;
-    aov_name_layers(set, seen);
-    const bool ok =
-        layers_make(seen, certified->settings.width, certified->settings.height, error) &&
-        aov_pass_open(&pass, set, &source, error) && aov_pass_draw(&pass, NULL, seen, error);
-    aov_pass_close(&pass);
-    return ok;
-}
-
-static bool draw_plain(Certified *certified, const Studio *studio, const Scene *scene,
-                       const PictureSettings *settings, Error *error)
-{
-    Stage stage;
-    Renderer renderer;
-    const RendererSetup setup = {
-        .device = &studio->device, .cache = &studio->cache, .source.choice = settings->choice};
-    picture_open(&renderer, &stage, studio, scene, settings);
-    const bool ok = framebuffer_make(&certified->plain, settings->render.width,
-                                     settings->render.height, error) &&
-                    renderer_draw(&renderer, &certified->camera, NULL, &certified->plain, error) &&
-                    look(certified, &setup, &renderer, &stage.normalization, error);
-    renderer_close(&renderer);
-    stage_free(&stage);
-    return ok;
+    PictureRequest request = picture_request(NULL, view->view);
+    request.scene = scene;
+    request.width = certified->settings.width;
+    request.height = certified->settings.height;
+    request.samples = view->samples;
+    certified->plain = rendered_with(request, "primitive,material,shadow", &certified->seen);
 }
 
 static bool certify(Certified *certified, const Studio *studio, Error *error)
@@ -87,16 +48,17 @@ static bool copy_plain(Certified *certified, Error *error)
 Certified certified_make(const Studio *studio, const Scene *scene, const CertifiedView *view)
 {
     Error error = {0};
-    const PictureSettings settings = settings_of(scene, view);
-    const RenderSettings *render = &settings.render;
-    Certified certified = {.settings = *render};
+    Certified certified = {.settings = picture_settings(view->width).render};
+    RenderSettings *settings = &certified.settings;
+    settings->height = view->height;
+    settings->samples = view->samples;
+    settings->max_level = scene->max_level;
     stage_make_as(&certified.stage, scene, TREE_SAH, NODES_PAIR);
     certified.camera =
         camera_make(&scene->viewpoints.data[view->view - 1], &certified.stage.normalization,
-                    render->width, render->height, render->samples);
-    require(draw_plain(&certified, studio, scene, &settings, &error) &&
-                copy_plain(&certified, &error) && certify(&certified, studio, &error),
-            &error);
+                    settings->width, settings->height, settings->samples);
+    draw_plain(&certified, scene, view);
+    require(copy_plain(&certified, &error) && certify(&certified, studio, &error), &error);
     return certified;
 }
 

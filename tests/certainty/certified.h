@@ -6,9 +6,9 @@
 #include "render/aov_pass.h"
 
 typedef struct {
-    uint32_t view;          // from 1
-    uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // per pixel and axis
+    uint32_t view; // from 1
+    uint32_t width, height;
+    uint32_t samples; // per pixel and axis
 } CertifiedView;
 
 typedef struct {

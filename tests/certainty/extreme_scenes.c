@@ -132,22 +132,6 @@ static Scene crossing(void)
     return scene;
 }
 
-static void swap_corners(uint32_t corners[3], uint32_t one, uint32_t other)
-{
-    const uint32_t kept = corners[one];
-    corners[one] = corners[other];
-    corners[other] = kept;
-}
-
-static Mesh reordered(Mesh mesh, Random *random)
-{
-    for (size_t i = 0; i < mesh.triangle_count; i++) {
-        swap_corners(mesh.triangles[i], 2, random_below(random, 3));
-        swap_corners(mesh.triangles[i], 1, random_below(random, 2));
-    }
-    return mesh;
-}
-
 static Mesh coincident_floor(void)
 {
     return shape_plane(vec3(-5, -5, -2.3), vec3(10, 0, 1), vec3(0, 10, 0), 6);
@@ -162,8 +146,8 @@ Scene extreme_coincident(void)
     Random random = {21};
     const Vec3 center = {0.1, -0.2, 0.3};
     shape_add(&scene, shape_sphere(14, center), 3);
-    shape_add(&scene, reordered(shape_sphere(14, center), &random), 2);
-    shape_add(&scene, reordered(coincident_floor(), &random), 1);
+    shape_add(&scene, shape_reordered(shape_sphere(14, center), &random), 2);
+    shape_add(&scene, shape_reordered(coincident_floor(), &random), 1);
     shape_add(&scene, coincident_floor(), 3);
     return scene;
 }

@@ -260,7 +260,7 @@ static Nearest meet_all(const Path *path, NUMBER reach)
     const RealNode *leaf;
     while ((leaf = real_walk_next(&walk, (double)smallest(reach, nearest.stop.t) * (1 + 1e-9))))
         for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++)
-            take_triangle(&nearest, path, path->view->tree->order[i]);
+            take_triangle(&nearest, path, i);
     return nearest;
 }
 

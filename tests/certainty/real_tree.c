@@ -8,71 +8,37 @@
 #define LEAF_MOST 4
 #define PADDING   1e-6
 
-typedef struct {
-    double key;
-    uint32_t place;
-} Keyed;
-
-static const float *corner_of(const TriangleData *triangle, int corner)
-{
-    return corner == 0 ? triangle->a : corner == 1 ? triangle->b : triangle->c;
-}
-
-static double middle_of(const TriangleData *triangle, int axis)
-{
-    return ((double)triangle->a[axis] + (double)triangle->b[axis] + (double)triangle->c[axis]) / 3;
-}
-
-static int compare_keys(const void *a, const void *b)
-{
-    const Keyed *first = a, *second = b;
-    return (first->key > second->key) - (first->key < second->key);
-}
-
-static void enclose(RealNode *node, const FlatScene *flat, const Keyed *keyed)
+static void include(RealNode *node, const float point[3])
 {
     for (int axis = 0; axis < 3; axis++) {
-        node->low[axis] = INFINITY;
-        node->high[axis] = -INFINITY;
-        for (uint32_t i = node->first; i < node->first + node->count; i++)
-            for (int corner = 0; corner < 3; corner++) {
-                const float *point = corner_of(&flat->triangles[keyed[i].place], corner);
-                node->low[axis] = fmin(node->low[axis], (double)point[axis] - PADDING);
-                node->high[axis] = fmax(node->high[axis], (double)point[axis] + PADDING);
-            }
+        node->low[axis] = fmin(node->low[axis], (double)point[axis] - PADDING);
+        node->high[axis] = fmax(node->high[axis], (double)point[axis] + PADDING);
     }
 }
 
-static int longest_axis(const RealNode *node)
-{
-    int longest = 0;
-    for (int axis = 1; axis < 3; axis++)
-        if (node->high[axis] - node->low[axis] > node->high[longest] - node->low[longest])
-            longest = axis;
-    return longest;
-}
-
-// Children take the next two free nodes. The depth of recursion is logarithmic, because each node
-// is halved.
-static void divide(RealTree *tree, uint32_t number, const FlatScene *flat, Keyed *keyed)
+// Encloses the node's triangles, and halves them. Children take the next two free nodes.
+static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];
-    const uint32_t first = node->first, count = node->count, half = count / 2;
-    enclose(node, flat, keyed);
-    if (count <= LEAF_MOST)
+    const uint32_t half = node->count / 2;
+    for (int axis = 0; axis < 3; axis++) {
+        node->low[axis] = INFINITY;
+        node->high[axis] = -INFINITY;
+    }
+    for (uint32_t i = node->first; i < node->first + node->count; i++) {
+        include(node, flat->triangles[i].a);
+        include(node, flat->triangles[i].b);
+        include(node, flat->triangles[i].c);
+    }
+    if (node->count <= LEAF_MOST)
         return;
-    const int axis = longest_axis(node);
-    for (uint32_t i = first; i < first + count; i++)
-        keyed[i].key = middle_of(&flat->triangles[keyed[i].place], axis);
-    qsort(keyed + first, count, sizeof *keyed, compare_keys);
-    const uint32_t children = tree->node_count;
+    node->children = tree->node_count;
     tree->node_count += 2;
-    tree->nodes[children] = (RealNode){.first = first, .count = half};
-    tree->nodes[children + 1] = (RealNode){.first = first + half, .count = count - half};
-    node->first = children;
-    node->count = 0;
-    divide(tree, children, flat, keyed);
-    divide(tree, children + 1, flat, keyed);
+    tree->nodes[node->children] = (RealNode){.first = node->first, .count = half};
+    tree->nodes[node->children + 1] =
+        (RealNode){.first = node->first + half, .count = node->count - half};
+    divide(tree, node->children, flat);
+    divide(tree, node->children + 1, flat);
 }
 
 bool real_tree_make(RealTree *tree, const FlatScene *flat, Error *error)
@@ -81,27 +47,18 @@ bool real_tree_make(RealTree *tree, const FlatScene *flat, Error *error)
     *tree = (RealTree){0};
     if (count == 0)
         return true;
-    Keyed *keyed = memory_raw(count, sizeof *keyed, error);
     tree->nodes = memory_raw(2 * (size_t)count, sizeof *tree->nodes, error);
-    tree->order = memory_raw(count, sizeof *tree->order, error);
-    const bool ok = keyed != NULL && tree->nodes != NULL && tree->order != NULL;
-    for (uint32_t i = 0; ok && i < count; i++)
-        keyed[i].place = i;
-    if (ok) {
-        tree->nodes[0] = (RealNode){.count = count};
-        tree->node_count = 1;
-        divide(tree, 0, flat, keyed);
-    }
-    for (uint32_t i = 0; ok && i < count; i++)
-        tree->order[i] = keyed[i].place;
-    free(keyed);
-    return ok;
+    if (tree->nodes == NULL)
+        return false;
+    tree->nodes[0] = (RealNode){.count = count};
+    tree->node_count = 1;
+    divide(tree, 0, flat);
+    return true;
 }
 
 void real_tree_free(RealTree *tree)
 {
     free(tree->nodes);
-    free(tree->order);
     *tree = (RealTree){0};
 }
 
@@ -137,11 +94,10 @@ const RealNode *real_walk_next(RealWalk *walk, double reach)
         const RealNode *node = &walk->tree->nodes[walk->waiting[--walk->count]];
         if (!enters(walk, node, reach))
             continue;
-        if (node->count > 0)
+        if (node->children == 0)
             return node;
-        const double toward = walk->inverse[longest_axis(node)];
-        walk->waiting[walk->count++] = node->first + (toward > 0);
-        walk->waiting[walk->count++] = node->first + !(toward > 0);
+        walk->waiting[walk->count++] = node->children;
+        walk->waiting[walk->count++] = node->children + 1;
     }
     return NULL;
 }

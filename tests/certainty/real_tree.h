@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Stored triangles -> a tree for tests, which differs from the tracer's tree. Nodes are halved
-// along the longest axis. Boxes are so wide that rounding cannot matter.
+// Stored triangles -> a tree for tests, which differs from the tracer's tree. It halves the
+// triangles in their stored order, in which neighbors are near each other. Boxes are so wide that
+// rounding cannot matter.
 #pragma once
 
 #include "accel/flat.h"
 
 typedef struct {
     double low[3], high[3];
-    uint32_t first, count; // of a range of order; if count is 0, first and first + 1 are the
-    // children
+    uint32_t first, count; // the triangles, by their places in the flat scene
+    uint32_t children;     // the first of two successive nodes; 0 for a leaf
 } RealNode;
 
 typedef struct {
     RealNode *nodes; // the root first; empty without triangles
-    uint32_t *order; // indices of triangles
     uint32_t node_count;
 } RealTree;
 

@@ -105,7 +105,7 @@ class Parts(SharedWork):
         self.expect_whole(names, *scene)
 
     def test_counts_of_tests_are_of_one_tree(self):
-        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--bvh"]
+        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--nodes", "wide", "--bvh"]
         names = self.draw("count", *scene, "sah", of=2)
         self.expect_whole(names, *scene, "sah")
         for other in ["--bvh", "midpoint"], ["--nodes", "pair"]:

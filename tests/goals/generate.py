@@ -41,6 +41,14 @@ def grid_triangles(columns, rows):
     return triangles
 
 
+def add_quad(vertices, triangles, corners):
+    """Adds two triangles with four vertices of their own."""
+    first = len(vertices) // 3
+    for corner in corners:
+        vertices += corner
+    triangles += [first, first + 1, first + 2, first, first + 2, first + 3]
+
+
 def bumpy_ball(rng, path, triangle_count):
     """Writes a closed, wavy ball of radius about 1. More triangles give shorter waves."""
     rows = max(4, round(math.sqrt(triangle_count / 4)))
@@ -95,10 +103,8 @@ def strips(path, count, width, length, step):
     vertices, triangles = [], []
     for i in range(count):
         y = (i - count / 2) * step
-        first = len(vertices) // 3
-        vertices += [-length, y, 0.3, length, y, 0.3, length, y, 0.3 + width,
-                     -length, y, 0.3 + width]
-        triangles += [first, first + 1, first + 2, first, first + 2, first + 3]
+        add_quad(vertices, triangles, [(-length, y, 0.3), (length, y, 0.3), (length, y, 0.3 + width),
+                                       (-length, y, 0.3 + width)])
     write_ply(path, vertices, triangles)
 
 
@@ -109,9 +115,8 @@ def tiles(path, side, parity):
     for row in range(side):
         for column in range(row % 2 ^ parity, side, 2):
             x, y = column * size - 30, row * size - 30
-            first = len(vertices) // 3
-            vertices += [x, y, 0, x + size, y, 0, x + size, y + size, 0, x, y + size, 0]
-            triangles += [first, first + 1, first + 2, first, first + 2, first + 3]
+            add_quad(vertices, triangles, [(x, y, 0), (x + size, y, 0), (x + size, y + size, 0),
+                                           (x, y + size, 0)])
     write_ply(path, vertices, triangles)
 
 
@@ -157,6 +162,11 @@ class Scene:
             self.say("light", self.rng.uniform(-12, 12), self.rng.uniform(-12, 12),
                      self.rng.uniform(3, 15), self.rng.uniform(0.5, 1.4) / count)
 
+    def spheres(self, count, across, heights, radii):
+        for _ in range(count):
+            self.say("sphere", *(self.rng.uniform(-across, across) for _ in range(2)),
+                     self.rng.uniform(*heights), self.rng.uniform(*radii))
+
     def camera(self, near, far, aim=0.5):
         angle, tilt = self.rng.uniform(0, 2 * math.pi), self.rng.uniform(0.1, 1.2)
         distance = self.rng.uniform(near, far)
@@ -171,76 +181,53 @@ class Scene:
         self.mesh(path)
 
 
-def draw_spheres(scene):
-    rng = scene.rng
+def draw_spheres(scene, rng):
     scene.lights(rng.randint(1, 3))
     for number in range(rng.randint(1, 4)):
         scene.any_material(f"stuff{number}")
-        for _ in range(rng.randint(2, 40)):
-            scene.say("sphere", *(rng.uniform(-2.5, 2.5) for _ in range(2)), rng.uniform(0, 2.5),
-                      rng.uniform(0.05, 0.6))
-    scene.any_material("ground")
-    scene.floor()
-    scene.camera(5, 9)
+        scene.spheres(rng.randint(2, 40), 2.5, (0, 2.5), (0.05, 0.6))
 
 
-def draw_dust(scene):
-    rng = scene.rng
+def draw_dust(scene, rng):
     scene.lights(rng.randint(1, 2))
     scene.any_material("dust")
     for _ in range(rng.randint(100, 1000)):
         scene.say("sphere", *(rng.gauss(0, 1.2) for _ in range(2)), rng.gauss(1.2, 0.6),
                   rng.uniform(0.003, 0.03))
-    scene.any_material("ground")
-    scene.floor()
-    scene.camera(5, 9)
 
 
-def draw_ball(scene, triangles=None):
-    rng = scene.rng
+def draw_ball(scene, rng, triangles=None):
     scene.lights(rng.randint(1, 3))
     scene.any_material("skin")
     path = scene.mesh_path()
     bumpy_ball(rng, path, triangles or round(10 ** rng.uniform(2.5, 5.2)))
     scene.mesh(path, "translate", 0, 0, 1.1)
-    scene.any_material("ground")
-    scene.floor()
-    scene.camera(3.5, 8, 0.9)
 
 
-def draw_dense(scene):
-    draw_ball(scene, 1_000_000)
+def draw_dense(scene, rng):
+    draw_ball(scene, rng, 1_000_000)
 
 
-def draw_terrain(scene):
-    rng = scene.rng
+def draw_terrain(scene, rng):
     scene.lights(rng.randint(1, 3))
     scene.any_material("ground")
     path = scene.mesh_path()
     terrain(rng, path, rng.randint(20, 250), rng.uniform(0.5, 3))
     scene.mesh(path)
     scene.any_material("balls")
-    for _ in range(rng.randint(0, 12)):
-        scene.say("sphere", *(rng.uniform(-3, 3) for _ in range(2)), rng.uniform(0.5, 2),
-                  rng.uniform(0.1, 0.5))
-    scene.camera(5, 9)
+    scene.spheres(rng.randint(0, 12), 3, (0.5, 2), (0.1, 0.5))
 
 
-def draw_boxes(scene):
-    rng = scene.rng
+def draw_boxes(scene, rng):
     scene.lights(rng.randint(1, 4))
     for number in range(rng.randint(1, 3)):
         scene.any_material(f"stuff{number}")
         path = scene.mesh_path()
         boxes(rng, path, rng.randint(5, 400), rng.uniform(0.02, 0.4))
         scene.mesh(path)
-    scene.any_material("ground")
-    scene.floor()
-    scene.camera(5, 10)
 
 
-def draw_strips(scene):
-    rng = scene.rng
+def draw_strips(scene, rng):
     scene.lights(rng.randint(1, 3))
     scene.any_material("strips")
     path = scene.mesh_path()
@@ -250,11 +237,9 @@ def draw_strips(scene):
     scene.material("mirror", "matte", rng.uniform(0.2, 0.9))
     scene.say("material", "mirror")
     scene.floor()
-    scene.camera(4, 9)
 
 
-def draw_tiles(scene):
-    rng = scene.rng
+def draw_tiles(scene, rng):
     scene.lights(rng.randint(1, 2))
     side = rng.randint(30, 180)
     for parity, name in enumerate(["white", "black"]):
@@ -266,14 +251,10 @@ def draw_tiles(scene):
         tiles(path, side, parity)
         scene.mesh(path)
     scene.any_material("balls")
-    for _ in range(rng.randint(0, 6)):
-        scene.say("sphere", *(rng.uniform(-3, 3) for _ in range(2)), rng.uniform(0.3, 1.5),
-                  rng.uniform(0.2, 0.8))
-    scene.camera(4, 8, 0.8)
+    scene.spheres(rng.randint(0, 6), 3, (0.3, 1.5), (0.2, 0.8))
 
 
-def draw_mirrors(scene):
-    rng = scene.rng
+def draw_mirrors(scene, rng):
     scene.lights(rng.randint(1, 3))
     scene.material("mirror", "blinn_phong", rng.uniform(0.3, 0.9),
                    round(10 ** rng.uniform(2, 3.7)))
@@ -286,34 +267,37 @@ def draw_mirrors(scene):
     scene.any_material("ground")
     scene.floor()
     scene.say("max_level", rng.randint(2, 6))
-    scene.camera(5, 9)
 
 
-def draw_lamps(scene):
-    rng = scene.rng
+def draw_lamps(scene, rng):
     scene.lights(rng.randint(8, 32))
     scene.any_material("stuff")
     path = scene.mesh_path()
     boxes(rng, path, rng.randint(10, 100), rng.uniform(0.1, 0.4))
     scene.mesh(path)
-    scene.any_material("ground")
-    scene.floor()
-    scene.camera(5, 10)
 
 
-KINDS = [draw_spheres, draw_tiles, draw_ball, draw_strips, draw_mirrors, draw_boxes, draw_lamps,
-         draw_dust, draw_terrain]
+# Each kind with whether it gets a floor of any material, and its camera's distances and aim.
+KINDS = [(draw_spheres, True, (5, 9)), (draw_tiles, False, (4, 8, 0.8)), (draw_ball, True, (3.5, 8, 0.9)),
+         (draw_strips, False, (4, 9)), (draw_mirrors, False, (5, 9)), (draw_boxes, True, (5, 10)),
+         (draw_lamps, True, (5, 10)), (draw_dust, True, (5, 9)), (draw_terrain, False, (5, 9))]
+DENSE = draw_dense, True, (3.5, 8, 0.9)
 
 
 def generate(seed, number, folder):
     """Writes scene `number` of the seed into the folder. Returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
     rng = random.Random(f"{seed}/{number}")
-    kind = draw_dense if number % DENSE_EVERY == DENSE_EVERY - 1 else KINDS[number % len(KINDS)]
+    is_dense = number % DENSE_EVERY == DENSE_EVERY - 1
+    kind, has_floor, view = DENSE if is_dense else KINDS[number % len(KINDS)]
     scene = Scene(rng, folder, f"{number:03}-{kind.__name__[len('draw_'):]}")
     scene.say("background", *scene.color())
     scene.say("ambient", rng.uniform(0.0, 0.2))
-    kind(scene)
+    kind(scene, rng)
+    if has_floor:
+        scene.any_material("ground")
+        scene.floor()
+    scene.camera(*view)
     path = folder / f"{scene.name}.scn"
     path.write_text("\n".join(scene.lines) + "\n")
     return path

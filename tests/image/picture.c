@@ -42,7 +42,9 @@ PictureRequest picture_request(const char *scene_path, uint32_t view)
 static bool load(Pipeline *pipeline, Error *error)
 {
     const PictureRequest *request = pipeline->request;
-    if (!scn_load(&pipeline->scene, request->scene_path, ply_parse, error))
+    if (request->scene != NULL)
+        pipeline->scene = *request->scene;
+    else if (!scn_load(&pipeline->scene, request->scene_path, ply_parse, error))
         return false;
     pipeline->normalization = normalization_of(&pipeline->scene);
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)
@@ -194,7 +196,8 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
     const RenderSettings settings = settings_of(request, &pipeline->scene);
     const RendererSetup setup = {.device = &pipeline->device,
                                  .cache = &pipeline->cache,
-                                 .source = {.extra_options = request->extra_options,
+                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                                            .extra_options = request->extra_options,
                                             .choice = request->choice,
                                             .entry = entry_of(request)}};
     if (!device_open(&pipeline->device, getenv("CLRT_DEVICE"), error) ||
@@ -218,7 +221,8 @@ bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Err
     renderer_close(&pipeline.renderer);
     device_close(&pipeline.device);
     flat_free(&pipeline.flat);
-    scene_free(&pipeline.scene);
+    if (request->scene == NULL)
+        scene_free(&pipeline.scene);
     cache_close(&pipeline.cache);
     return ok;
 }

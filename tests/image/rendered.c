@@ -4,18 +4,32 @@
 
 #include "image/form.h"
 #include "mesh/ply.h"
+#include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+void rendered_require(bool ok, const Error *error)
+{
+    if (!ok)
+        fail_msg("%s", error->text);
+}
+
+Scene rendered_scene(const char *path)
+{
+    Scene scene;
+    Error error = {0};
+    rendered_require(scn_load(&scene, path, ply_parse, &error), &error);
+    return scene;
+}
+
 Framebuffer rendered(const PictureRequest *request)
 {
     Framebuffer picture;
     Error error = {0};
-    if (!picture_render(&picture, request, &error))
-        fail_msg("%s", error.text);
+    rendered_require(picture_render(&picture, request, &error), &error);
     return picture;
 }
 
@@ -24,8 +38,7 @@ Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *
     Error error = {0};
     request.aovs = 0;
     request.layers = layers;
-    if (!aov_read_list(channels, &request.aovs, &error))
-        fail_msg("%s", error.text);
+    rendered_require(aov_read_list(channels, &request.aovs, &error), &error);
     return rendered(&request);
 }
 

@@ -8,6 +8,12 @@
 
 #include <stdio.h>
 
+// Ends the test with the error's text unless ok.
+void rendered_require(bool ok, const Error *error);
+
+// Reads a scene file. The caller frees the scene.
+Scene rendered_scene(const char *path);
+
 // The caller frees the picture.
 Framebuffer rendered(const PictureRequest *request);
 

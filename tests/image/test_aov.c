@@ -5,7 +5,6 @@
 #include "image/form.h"
 #include "image/rendered.h"
 #include "oracle/oracle.h"
-#include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <string.h>
@@ -78,8 +77,7 @@ static Judgment judge(const Scene *scene, const Layers *layers, uint32_t step)
     Judgment judgment = {0};
     FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
-    if (!oracle_make(&oracle, scene, &error))
-        fail_msg("%s", error.text);
+    rendered_require(oracle_make(&oracle, scene, &error), &error);
     const OracleView view = oracle_view(&oracle, &scene->viewpoints.data[0], layers->width,
                                         layers->height, scene->max_level);
     for (uint32_t y = 0; y < layers->height; y += step)
@@ -100,13 +98,10 @@ static double size_of(const Scene *scene)
 // ignore.
 static void check(const char *path, uint32_t step)
 {
-    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = rendered_scene(path);
     FREED_BY(layers_free) Layers layers;
-    Error error = {0};
     PictureRequest request = picture_request(path, 1);
     request.samples = 2;
-    if (!scn_load(&scene, path, ply_parse, &error))
-        fail_msg("%s", error.text);
     FREED_BY(framebuffer_free) Framebuffer picture = rendered_with(request, JUDGED, &layers);
     const Judgment judgment = judge(&scene, &layers, step);
     print_message("%s: %u of %u pixels show another primitive, %u other shadows, %u other bounces; "

@@ -7,8 +7,6 @@
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
-#include <math.h>
-#include <string.h>
 #include <unistd.h>
 
 #define ORDERS 6
@@ -132,91 +130,31 @@ TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
     unlink(second);
 }
 
-#define WAVES 9 // vertices along a side of the sheet
+// Smooth and flat objects with mirrors, shadows and lights on both sides. %s stands for the copies.
+#define STATEMENTS                                                                                 \
+    "background 0.2 0.3 0.5\nmax_level 5\nlight 2 -1 2.5 0.5\nlight -1 1.4 -1.7 0.4\n"             \
+    "define bright matte diffuse 0.9 0.7 0.3 reflectivity 0.4\nmaterial 2\nsphere 1 0.1 0.8 0.3\n" \
+    "sides %s\nmaterial bright\nply_file " CONE "\nply_file " BALL "\n%s"
+#define CONE   CLRT_SOURCE_FOLDER "/scenes/cone.ply"
+#define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
+#define COPIES "material 1\nply_file " CONE "\nply_file " BALL "\n"
 
-// Writes a wavy sheet with smooth normals and all corners in this order. A reversed sheet has
-// reversed normals.
-static void write_sheet(char path[TEMPORARY_PATH], int order)
+// extremes/one_picture changes the copies' corners, too.
+TEST(copies_of_meshes_change_no_bit_in_any_form)
 {
-    double positions[WAVES * WAVES][3];
-    float normals[WAVES * WAVES][3];
-    uint32_t triangles[2 * WAVES * WAVES][3], count = 0;
-    const double sign = is_reversed(order) ? -1 : 1;
-    for (uint32_t vertex = 0; vertex < WAVES * WAVES; vertex++) {
-        const double x = vertex % WAVES * 0.31 - 1.21, y = vertex / WAVES * 0.29 - 1.13;
-        const double point[3] = {x, y, 0.25 * sin(3 * x) * cos(2.5 * y)};
-        memcpy(positions[vertex], point, sizeof point);
-        normals[vertex][0] = (float)(sign * -0.75 * cos(3 * x) * cos(2.5 * y));
-        normals[vertex][1] = (float)(sign * 0.625 * sin(3 * x) * sin(2.5 * y));
-        normals[vertex][2] = (float)sign;
-    }
-    for (uint32_t at = 0; at < WAVES * (WAVES - 1); at++)
-        if (at % WAVES + 1 < WAVES) {
-            const uint32_t above = at + WAVES;
-            set_triangle(triangles[count++], (uint32_t[]){at, at + 1, above + 1}, order);
-            set_triangle(triangles[count++], (uint32_t[]){at, above + 1, above}, order);
+    for (size_t form = 0; form < 2 * FORMS; form++) {
+        char paths[2][TEMPORARY_PATH];
+        PictureRequest requests[2];
+        for (int copied = 0; copied < 2; copied++) {
+            FILE *stream = temporary_open(paths[copied]);
+            fprintf(stream, STATEMENTS, form < FORMS ? "one" : "two", copied == 1 ? COPIES : "");
+            temporary_close(stream);
+            requests[copied] =
+                rendered_in_form(picture_request(paths[copied], 1), &form_all[form % FORMS]);
+            requests[copied].width = requests[copied].height = SIDE;
         }
-    temporary_mesh(path, &(Mesh){.positions = positions,
-                                 .normals = normals,
-                                 .triangles = triangles,
-                                 .vertex_count = WAVES * WAVES,
-                                 .triangle_count = count});
-}
-
-// Renders the sheet with mirrors and with lights on both sides. The copy has another color. With
-// copy_order -1, there is no copy.
-static Framebuffer draw_sheet(int first_order, int copy_order, const char *sides,
-                              const KernelChoice *form)
-{
-    char sheet[TEMPORARY_PATH], copy[TEMPORARY_PATH], scene[TEMPORARY_PATH];
-    write_sheet(sheet, first_order);
-    write_sheet(copy, copy_order < 0 ? 0 : copy_order);
-    FILE *stream = temporary_open(scene);
-    fprintf(stream,
-            "background 0.2 0.3 0.5\nmax_level 5\nlight 2 -1 2.5 0.5\nlight -1 1.4 -1.7 0.4\n"
-            "light 1.5 0.3 0.35 0.3\ndefine bright matte diffuse 0.9 0.7 0.3 reflectivity 0.4\n"
-            "define dark blinn_phong diffuse 0.1 0.2 0.3\ncamera 1.1 -2.4 1.3 0 0 0 60\n"
-            "material 2\nsphere 0.4 0.1 0.8 0.3\nsides %s\nmaterial bright\nply_file %s\n",
-            sides, sheet);
-    if (copy_order >= 0)
-        fprintf(stream, "material dark\nply_file %s\n", copy);
-    temporary_close(stream);
-    PictureRequest request = rendered_in_form(picture_request(scene, 1), form);
-    request.width = request.height = SIDE;
-    const Framebuffer picture = rendered(&request);
-    unlink(sheet);
-    unlink(copy);
-    unlink(scene);
-    return picture;
-}
-
-static void assert_same(const Framebuffer *one, Framebuffer *other)
-{
-    assert_memory_equal(one->pixels, other->pixels, SIDE * SIDE * sizeof *one->pixels);
-    framebuffer_free(other);
-}
-
-TEST(a_copy_of_a_mesh_changes_no_bit_of_its_picture)
-{
-    for (size_t form = 0; form < FORMS; form++)
-        for (int two_sided = 0; two_sided < 2; two_sided++) {
-            const char *sides = two_sided == 1 ? "two" : "one";
-            FREED_BY(framebuffer_free)
-            Framebuffer alone = draw_sheet(0, -1, sides, &form_all[form]);
-            for (int order = 0; order < (two_sided == 1 ? ORDERS : 3); order++) {
-                Framebuffer doubled = draw_sheet(0, order, sides, &form_all[form]);
-                assert_same(&alone, &doubled);
-            }
-        }
-}
-
-TEST(turning_the_corners_of_all_triangles_changes_no_bit)
-{
-    for (size_t form = 0; form < FORMS; form++) {
-        FREED_BY(framebuffer_free) Framebuffer usual = draw_sheet(0, -1, "one", &form_all[form]);
-        for (int order = 1; order < 3; order++) {
-            Framebuffer turned = draw_sheet(order, -1, "one", &form_all[form]);
-            assert_same(&usual, &turned);
-        }
+        rendered_expect_same(&requests[0], &requests[1], 1);
+        unlink(paths[0]);
+        unlink(paths[1]);
     }
 }

@@ -5,7 +5,6 @@
 #include "image/form.h"
 #include "image/rendered.h"
 #include "oracle/stored.h"
-#include "scene/scn.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
@@ -17,8 +16,7 @@ static void trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
                   ExplainedSample *sample)
 {
     Error error = {0};
-    if (!explainer_trace(explainer, pixel, index, sample, &error))
-        fail_msg("%s", error.text);
+    rendered_require(explainer_trace(explainer, pixel, index, sample, &error), &error);
 }
 
 static double clamped(double value)
@@ -147,13 +145,12 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
 static void check_bounds(Explainer *explainer, const Framebuffer *picture, void *context)
 {
     Bounds *bounds = context;
-    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = rendered_scene(bounds->path);
     FREED_BY(oracle_free) Oracle oracle = {0};
     Error error = {0};
-    if (!scn_load(&scene, bounds->path, ply_parse, &error) ||
-        !stored_round(&scene, explainer->normalization, &error) ||
-        !oracle_make(&oracle, &scene, &error))
-        fail_msg("%s", error.text);
+    rendered_require(stored_round(&scene, explainer->normalization, &error) &&
+                         oracle_make(&oracle, &scene, &error),
+                     &error);
     OracleView view =
         stored_view(&oracle, &explainer->frame.camera, picture->width, picture->height);
     view.max_level = 1;

@@ -4,9 +4,8 @@
 // of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
-#include "image/picture.h"
+#include "image/rendered.h"
 #include "image/unusual_scenes.h"
-#include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
@@ -25,13 +24,11 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     char name[64];
     const Scene *scene = oracle->scene;
     Error error = {0};
-    FREED_BY(framebuffer_free) Framebuffer picture = {0}, expected = {0};
     const PictureRequest request = picture_request(path, view);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request), expected = {0};
     const OracleView rays = oracle_view(oracle, &scene->viewpoints.data[view - 1], scene->width,
                                         scene->height, scene->max_level);
-    if (!picture_render(&picture, &request, &error) ||
-        !oracle_draw(&rays, 1, step, &expected, &error))
-        fail_msg("%s", error.text);
+    rendered_require(oracle_draw(&rays, 1, step, &expected, &error), &error);
     const Comparison comparison = comparison_make(&rays, &picture, &expected, step);
     snprintf(name, sizeof name, "%s view %u", strrchr(path, '/') + 1, view);
     comparison_print(&comparison, name);
@@ -43,13 +40,12 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
 static void check(const char *path, uint32_t step)
 {
     Error error = {0};
-    FREED_BY(scene_free) Scene scene = {0};
+    FREED_BY(scene_free) Scene scene = rendered_scene(path);
     FREED_BY(oracle_free) Oracle oracle = {0};
     bool agrees = true;
     if (getenv("CLRT_FULL") != NULL)
         step = 1;
-    if (!scn_load(&scene, path, ply_parse, &error) || !oracle_make(&oracle, &scene, &error))
-        fail_msg("%s", error.text);
+    rendered_require(oracle_make(&oracle, &scene, &error), &error);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++)
         agrees = view_agrees(&oracle, path, view, step) && agrees;
     assert_true(agrees);

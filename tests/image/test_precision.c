@@ -7,7 +7,6 @@
 #include "image/unusual_scenes.h"
 #include "oracle/stored.h"
 #include "scene/camera.h"
-#include "scene/scn.h"
 #include "unit/cmocka_all.h"
 
 #include <string.h>
@@ -24,15 +23,6 @@ typedef struct {
 } Share;
 
 static const Share small = {3, 1}, meshes = {4, 4}, unusual = {2, 1};
-
-static Scene loaded(const char *path)
-{
-    Scene scene = {0};
-    Error error = {0};
-    if (!scn_load(&scene, path, ply_parse, &error))
-        fail_msg("%s", error.text);
-    return scene;
-}
 
 static PictureRequest request_of(const char *path, const Scene *scene, uint32_t view, uint32_t part)
 {
@@ -72,8 +62,7 @@ static uint32_t view_differences(const Oracle *stored, const Normalization *norm
                                           normalization, request->width, request->height, 1);
     const OracleView rays = stored_view(stored, &camera, request->width, request->height);
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(request), expected = {0};
-    if (!oracle_draw(&rays, 1, step, &expected, &error))
-        fail_msg("%s", error.text);
+    rendered_require(oracle_draw(&rays, 1, step, &expected, &error), &error);
     const uint32_t differing = count_differing(&picture, &expected, step, ROUNDED);
     print_message("%s view %u: %u of %u pixels differ from the oracle's\n",
                   strrchr(request->scene_path, '/') + 1, request->view, differing,
@@ -86,11 +75,12 @@ static void check_oracle(const char *path, Share share)
 {
     Error error = {0};
     uint32_t differing = 0;
-    FREED_BY(scene_free) Scene scene = loaded(path);
+    FREED_BY(scene_free) Scene scene = rendered_scene(path);
     FREED_BY(oracle_free) Oracle stored = {0};
     const Normalization normalization = normalization_of(&scene);
-    if (!stored_round(&scene, &normalization, &error) || !oracle_make(&stored, &scene, &error))
-        fail_msg("%s", error.text);
+    rendered_require(stored_round(&scene, &normalization, &error) &&
+                         oracle_make(&stored, &scene, &error),
+                     &error);
     for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
         const PictureRequest request =
             rendered_in_form(request_of(path, &scene, view, share.part), FP64);
@@ -154,7 +144,7 @@ TEST(fp32_differs_in_few_pixels)
         uint64_t differing = 0, pixels = 0;
         if (cases[i].needs_models && !models_are_made())
             continue;
-        FREED_BY(scene_free) Scene scene = loaded(cases[i].path);
+        FREED_BY(scene_free) Scene scene = rendered_scene(cases[i].path);
         for (uint32_t view = 1; view <= scene.viewpoints.count; view++) {
             const PictureRequest request = request_of(cases[i].path, &scene, view, 2);
             const PictureRequest one = rendered_in_form(request, &form_all[0]),

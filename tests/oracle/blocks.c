@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorts triangles into compact blocks, and intersects rays with them. Triangles are enlarged by
+// Collects successive triangles in blocks, and intersects rays with them. Triangles are enlarged by
 // TOLERANCE of their size, so that rounding lets no ray pass between two of them. Float rounding is
 // fifty thousand times as large.
 #include "oracle/blocks.h"
@@ -31,23 +31,16 @@ static Vec3 load(const VectorColumns *columns, uint32_t place)
     return vec3(columns->x[place], columns->y[place], columns->z[place]);
 }
 
-// A triangle that is not in a block yet.
-typedef struct {
-    const MeshObject *object;
-    uint32_t triangle, id;
-    double middle[3], key; // the mean of the corners; the coordinate to sort by
-} Placed;
-
-static void block_add(OracleBlock *block, const Placed *placed)
+static void block_add(OracleBlock *block, const MeshObject *object, size_t triangle, size_t id)
 {
-    const Mesh *mesh = &placed->object->mesh;
-    const Vec3 corner = corner_of(mesh, placed->triangle, 0);
+    const Mesh *mesh = &object->mesh;
+    const Vec3 corner = corner_of(mesh, triangle, 0);
     const uint32_t place = block->count++;
     store(&block->corner, place, corner);
-    store(&block->first, place, vec3_sub(corner_of(mesh, placed->triangle, 1), corner));
-    store(&block->second, place, vec3_sub(corner_of(mesh, placed->triangle, 2), corner));
-    block->least[place] = placed->object->two_sided ? -INFINITY : 0;
-    block->ids[place] = placed->id;
+    store(&block->first, place, vec3_sub(corner_of(mesh, triangle, 1), corner));
+    store(&block->second, place, vec3_sub(corner_of(mesh, triangle, 2), corner));
+    block->least[place] = object->two_sided ? -INFINITY : 0;
+    block->ids[place] = (uint32_t)id;
 }
 
 static double distance(Vec3 a, Vec3 b)
@@ -77,79 +70,23 @@ static void block_enclose(OracleBlock *block)
     block->radius += RADIUS_PADDING * block->radius + PLACE_PADDING * place;
 }
 
-static Placed placed_of(const MeshObject *object, size_t triangle, size_t id)
-{
-    Placed placed = {.object = object, .triangle = (uint32_t)triangle, .id = (uint32_t)id};
-    for (int corner = 0; corner < 3; corner++) {
-        const Vec3 p = corner_of(&object->mesh, triangle, corner);
-        placed.middle[0] += p.x / 3;
-        placed.middle[1] += p.y / 3;
-        placed.middle[2] += p.z / 3;
-    }
-    return placed;
-}
-
-static int longest_axis(const Placed *placed, size_t count)
-{
-    double extents[3];
-    for (int axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < count; i++) {
-            low = fmin(low, placed[i].middle[axis]);
-            high = fmax(high, placed[i].middle[axis]);
-        }
-        extents[axis] = high - low;
-    }
-    const int longer = extents[1] > extents[0] ? 1 : 0;
-    return extents[2] > extents[longer] ? 2 : longer;
-}
-
-static int compare_keys(const void *a, const void *b)
-{
-    const Placed *first = a, *second = b;
-    if (first->key != second->key)
-        return first->key < second->key ? -1 : 1;
-    return first->id < second->id ? -1 : 1;
-}
-
-// Sorts triangles so that neighbors are adjacent, by halving along the longest axis. Blocks are
-// then compact.
-static void arrange(Placed *placed, size_t count)
-{
-    if (count <= BLOCK_SIZE)
-        return;
-    const int axis = longest_axis(placed, count);
-    for (size_t i = 0; i < count; i++)
-        placed[i].key = placed[i].middle[axis];
-    qsort(placed, count, sizeof *placed, compare_keys);
-    const size_t block_count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE;
-    const size_t half = block_count / 2 * BLOCK_SIZE;
-    arrange(placed, half);
-    arrange(placed + half, count - half);
-}
-
 bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error)
 {
     const size_t count = scene_triangle_count(scene);
     size_t number = 0;
-    Placed *placed = memory_zeroed(count, sizeof *placed, error);
     *blocks = (OracleBlocks){.count = (count + BLOCK_SIZE - 1) / BLOCK_SIZE};
     blocks->data = memory_zeroed(blocks->count, sizeof *blocks->data, error);
-    const bool ok = placed != NULL && blocks->data != NULL;
-    for (size_t i = 0; ok && i < scene->objects.count; i++) {
+    if (blocks->data == NULL)
+        return false;
+    for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         for (size_t triangle = 0; triangle < object->mesh.triangle_count; triangle++, number++)
-            placed[number] = placed_of(object, triangle, scene->spheres.count + number);
+            block_add(&blocks->data[number / BLOCK_SIZE], object, triangle,
+                      scene->spheres.count + number);
     }
-    arrange(placed, number);
-    for (size_t i = 0; i < number; i++)
-        block_add(&blocks->data[i / BLOCK_SIZE], &placed[i]);
-    for (size_t i = 0; ok && i < blocks->count; i++)
+    for (size_t i = 0; i < blocks->count; i++)
         block_enclose(&blocks->data[i]);
-    free(placed);
-    if (!ok)
-        blocks_free(blocks);
-    return ok;
+    return true;
 }
 
 void blocks_free(OracleBlocks *blocks)
@@ -200,7 +137,7 @@ void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hi
     double distances[BLOCK_SIZE];
     for (size_t i = 0; i < blocks->count; i++) {
         const OracleBlock *block = &blocks->data[i];
-        if (!blocks->tests_all && !block_is_near(block, ray, fmin(hit->t, ray->far)))
+        if (!block_is_near(block, ray, fmin(hit->t, ray->far)))
             continue;
         block_distances(block, ray, distances);
         for (uint32_t place = 0; place < block->count; place++)
@@ -214,7 +151,7 @@ bool blocks_block(const OracleBlocks *blocks, const OracleRay *ray)
     double distances[BLOCK_SIZE];
     for (size_t i = 0; i < blocks->count; i++) {
         const OracleBlock *block = &blocks->data[i];
-        if (!blocks->tests_all && !block_is_near(block, ray, ray->far))
+        if (!block_is_near(block, ray, ray->far))
             continue;
         block_distances(block, ray, distances);
         for (uint32_t place = 0; place < block->count; place++)

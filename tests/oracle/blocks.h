@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Intersects rays with a scene's triangles in fp64, by the method of Moeller and Trumbore ("Fast,
-// minimum storage ray-triangle intersection", 1997). Blocks of 64 triangles have a layout that
-// compilers vectorize. There is no tree: a ray skips the blocks whose bounding sphere it misses,
-// and tests all other triangles.
+// minimum storage ray-triangle intersection", 1997). Blocks of successive triangles have a layout
+// that compilers vectorize. There is no tree: a ray skips the blocks whose bounding sphere it
+// misses, and tests all other triangles.
 #pragma once
 
 #include "scene/scene.h"
@@ -19,7 +19,7 @@ typedef struct {
     uint32_t id;
 } OracleHit;
 
-#define BLOCK_SIZE 64
+#define BLOCK_SIZE 16
 
 typedef struct {
     double x[BLOCK_SIZE], y[BLOCK_SIZE], z[BLOCK_SIZE];
@@ -38,7 +38,6 @@ typedef struct {
 typedef struct {
     OracleBlock *data; // count blocks; owned
     size_t count;
-    bool tests_all; // skip no block, for a test that skipping does not change hits
 } OracleBlocks;
 
 bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error);

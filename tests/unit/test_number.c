@@ -52,29 +52,11 @@ static void expect_double(const char *text, double expected)
 
 TEST(every_spelling_of_a_decimal_rounds_as_in_the_c_library)
 {
-    static const char *const spellings[] = {"0",
-                                            "-0",
-                                            "7",
-                                            "-7",
-                                            "+7",
-                                            "1.5",
-                                            "-.5",
-                                            "5.",
-                                            "1e3",
-                                            "1E+3",
-                                            "2.5e-3",
-                                            ".5e1",
-                                            "5.e1",
-                                            "0.1",
-                                            "-0.0e-5",
-                                            "00012.500",
-                                            "-1e309",
-                                            "1e-400",
-                                            "123456789012",
-                                            "-0.991745102557",
-                                            "1e99999999999999999999999",
-                                            "-1e-99999999999999999999999",
-                                            "0e99999999999999999999999"};
+    static const char *const spellings[] = {
+        "0",         "-0",     "7",      "-7",           "+7",
+        "1.5",       "-.5",    "5.",     "1e3",          "1E+3",
+        "2.5e-3",    ".5e1",   "5.e1",   "0.1",          "-0.0e-5",
+        "00012.500", "-1e309", "1e-400", "123456789012", "-0.991745102557"};
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++)
         expect_double(spellings[i], strtod(spellings[i], NULL));
 }
@@ -84,8 +66,11 @@ typedef struct {
     double value;
 } Case;
 
-// Halves, ties and neighbors of powers of two and ten.
+// Halves, ties and neighbors of powers of two and ten, and exponents past any integer.
 static const Case hard_cases[] = {
+    {"1e99999999999999999999999", HUGE_VAL},
+    {"-1e-99999999999999999999999", -0.0},
+    {"0e99999999999999999999999", 0},
     {"9007199254740991", 0x1.fffffffffffffp52},
     {"9007199254740993", 0x1p53},
     {"9007199254740995", 0x1.0000000000002p53},

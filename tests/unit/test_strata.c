@@ -121,6 +121,25 @@ TEST(pixels_on_the_last_rung_exhaust_the_ladder)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
 }
 
+// Returns the estimate for a picture of flat pixels and one other that are all on one rung.
+static double estimate_on(uint32_t rung)
+{
+    Strata strata = {.pixels = PIXELS};
+    for (int i = 0; i < PIXELS; i++) {
+        const double deviation = i == 0 ? 0.4 : 0;
+        strata_enter(&strata, strata_of_deviation(rung, deviation, false), 1,
+                     deviation * deviation / ladder_samples[rung]);
+    }
+    return strata_estimate(&strata).mean;
+}
+
+// The more samples see a flat pixel, the less detail can be hidden in it.
+TEST(doubled_samples_of_flat_pixels_have_a_quarter_of_the_error)
+{
+    for (uint32_t rung = 1; rung + 1 < LADDER_RUNGS; rung++)
+        assert_true(estimate_on(rung + 1) < 0.25 * estimate_on(rung));
+}
+
 TEST(no_more_samples_are_planned_than_may_be_taken)
 {
     static Pixel pixels[PIXELS];

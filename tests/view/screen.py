@@ -20,6 +20,7 @@ sys.path.append(str(ROOT / "tests" / "cli"))
 
 from pictures import read_pfm  # noqa: E402
 
+SCENE = ROOT / "scenes" / "reflections.scn"
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
 PATIENCE = 60  # seconds that any step may take, because kernels may have to be compiled
 TICK = 0.02  # waiting counts these steps, so that a pause of the machine does not count
@@ -85,10 +86,9 @@ class Screen:
 
     def clear(self):
         """Ends windows that a failed test has left open."""
-        for process in self.windows:
-            if process.poll() is None:
-                process.kill()
-                process.wait()
+        for window in self.windows:
+            window.process.kill()
+            window.process.wait()
         self.windows.clear()
 
     def close(self):
@@ -108,7 +108,7 @@ class Window:
         self.process = subprocess.Popen(command, env=screen.environment(), cwd=folder, text=True,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE)
-        screen.windows.append(self.process)
+        screen.windows.append(self)
         self.lines = queue.Queue()
         self.printed = []
         threading.Thread(target=self._listen, daemon=True).start()
@@ -214,17 +214,35 @@ def is_blue(red, green, blue):
     return red == 26 and green == 77 and blue == 255
 
 
+def is_test(function):
+    """Tests take a screen or a window, and perhaps a temporary folder."""
+    taken = set(inspect.signature(function).parameters)
+    return taken - {"folder"} in ({"screen"}, {"window"}, {"screen", "window"})
+
+
+def run_test(test, screen):
+    """Gives a test what it takes, and closes the windows that it leaves open. A test's window shows
+    SCENE, and runs in the test's folder."""
+    with tempfile.TemporaryDirectory() as name:
+        given = {"screen": lambda: screen, "folder": lambda: pathlib.Path(name),
+                 "window": lambda: opened(screen, SCENE, folder=name)}
+        test(**{taken: given[taken]() for taken in inspect.signature(test).parameters})
+        for window in screen.windows:
+            if window.process.poll() is None:
+                window.close()
+
+
 def run_tests(module):
-    """Runs the module's functions that take only a screen, or those of them that the command line
-    names. A function's name states what it tests."""
+    """Runs the module's tests, or those of them that the command line names. A function's name states
+    what it tests."""
     screen, failures = Screen(), 0
-    tests = [test for test in module.values() if inspect.isfunction(test) and test.__module__ == "__main__"
-             and list(inspect.signature(test).parameters) in (["screen"], ["_"])]
+    tests = [test for test in module.values()
+             if inspect.isfunction(test) and test.__module__ == "__main__" and is_test(test)]
     named = [test for test in tests if test.__name__ in sys.argv[1:]]
     for test in named or tests:
         start = time.monotonic()
         try:
-            test(screen)
+            run_test(test, screen)
             print(f"{time.monotonic() - start:6.2f} s  {test.__name__}", flush=True)
         except AssertionError as fault:
             failures += 1

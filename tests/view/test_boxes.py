@@ -5,11 +5,9 @@ window's text, its picture and the statistics. Usage: CLRT=path/to/clrt test_box
 
 import json
 import os
-import pathlib
 import subprocess
-import tempfile
 
-from screen import COURSE, ROOT, Window, is_blue, is_red, opened, planes_of, run_tests
+from screen import is_blue, is_red, opened, planes_of, run_tests
 from models import ply
 
 SIDE = 4  # clusters along a side of the scene
@@ -20,31 +18,6 @@ def statistics(scene, *options):
                            "--format", "pfm", "--stats=-", *options], check=True,
                           capture_output=True, text=True)
     return json.loads(done.stdout)["bvh"]
-
-
-def check_counts(screen, scene, *options):
-    """Checks all levels, selected by played keys."""
-    tree = statistics(scene, *options)
-    inner = tree["inner_nodes"]
-    window = Window(screen, scene, "--keys", "B" + "]" * len(inner), "--quit-after", "1", *options)
-    window.wait(f"boxes of leaves: {tree['leaves']},")
-    for level, count in enumerate(inner, start=1):
-        window.wait(f"boxes at level {level}: {count},")
-    window.end()
-    assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"
-    return inner, tree["leaves"]
-
-
-def counts_agree_with_statistics(screen):
-    scenes = [(ROOT / "scenes" / "simple.scn", ["--bvh", "midpoint"]),
-              (ROOT / "scenes" / "simple.scn", ["--nodes", "pair"])]
-    if COURSE.is_dir():
-        scenes += [(COURSE / "scenes" / "cow.scn", []), (COURSE / "scenes" / "buddha.scn", [])]
-    else:
-        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
-    for scene, options in scenes:
-        inner, leaves = check_counts(screen, scene, *options)
-        print(f"         {scene.stem} {options}: {leaves} leaves, inner nodes {inner}")
 
 
 def write_clusters(folder):
@@ -83,23 +56,24 @@ def count_shapes(shown, size, wanted):
     return shapes
 
 
-def as_many_boxes_are_seen_as_are_told(screen):
+def as_many_boxes_are_seen_as_are_told(screen, folder):
     size = (600, 600)
-    with tempfile.TemporaryDirectory() as folder:
-        scene = write_clusters(pathlib.Path(folder))
-        for options in ([], ["--bvh", "midpoint"]):
-            tree = statistics(scene, *options)
-            window = opened(screen, scene, *options, size=size)
-            window.press("B", f"boxes of leaves: {tree['leaves']},")
-            seen = count_shapes(window.read(), size, is_blue)
-            assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"
-            for level, count in enumerate(tree["inner_nodes"], start=1):
-                window.press("bracketright", f"boxes at level {level}: {count},")
-                seen = count_shapes(window.read(), size, is_red)
-                assert seen == count, f"level {level}: {seen} boxes are seen, {count} are there"
-            window.press("bracketright")
-            window.close()
-            print(f"         {options}: {tree['leaves']} leaves, inner {tree['inner_nodes']} seen")
+    scene = write_clusters(folder)
+    for options in ([], ["--bvh", "midpoint"], ["--nodes", "pair"]):
+        tree = statistics(scene, *options)
+        inner = tree["inner_nodes"]
+        assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"
+        window = opened(screen, scene, *options, size=size)
+        window.press("B", f"boxes of leaves: {tree['leaves']},")
+        seen = count_shapes(window.read(), size, is_blue)
+        assert seen == tree["leaves"], f"{seen} leaves are seen, {tree['leaves']} are there"
+        for level, count in enumerate(inner, start=1):
+            window.press("bracketright", f"boxes at level {level}: {count},")
+            seen = count_shapes(window.read(), size, is_red)
+            assert seen == count, f"level {level}: {seen} boxes are seen, {count} are there"
+        window.press("bracketright")
+        window.close()
+        print(f"         {options}: {tree['leaves']} leaves, inner {inner} seen")
 
 
 if __name__ == "__main__":

@@ -4,12 +4,10 @@
 test_drop.py"""
 
 import os
-import pathlib
 import subprocess
-import tempfile
 
 from drag import Drag
-from screen import ROOT, expect, opened, run_tests
+from screen import ROOT, expect, run_tests
 
 
 def drop(screen, *paths):
@@ -20,35 +18,29 @@ def drop(screen, *paths):
     drag.close()
 
 
-def a_dropped_scene_or_mesh_is_shown_through_its_first_camera(screen):
-    window = opened(screen, ROOT / "scenes" / "reflections.scn")
+def a_dropped_scene_or_mesh_is_shown_through_its_first_camera(screen, window, folder):
     window.press("3", "view 3")
     window.drag(1, 20, 0)
     window.wait("moved")
-    with tempfile.TemporaryDirectory() as name:
-        mesh = pathlib.Path(name) / "a cube's mesh.ply"
-        mesh.write_bytes((ROOT / "scenes" / "cube.ply").read_bytes())
-        drop(screen, mesh)
-        expect(window, mesh, "shows the mesh")
-        mesh.write_bytes((ROOT / "scenes" / "cone.ply").read_bytes())
-        expect(window, mesh, "follows the mesh's file")
-        drop(screen, ROOT / "scenes" / "simple.scn", mesh)
-        expect(window, ROOT / "scenes" / "simple.scn", "shows the first of two files")
-    window.close()
+    mesh = folder / "a cube's mesh.ply"
+    mesh.write_bytes((ROOT / "scenes" / "cube.ply").read_bytes())
+    drop(screen, mesh)
+    expect(window, mesh, "shows the mesh")
+    mesh.write_bytes((ROOT / "scenes" / "cone.ply").read_bytes())
+    expect(window, mesh, "follows the mesh's file")
+    drop(screen, ROOT / "scenes" / "simple.scn", mesh)
+    expect(window, ROOT / "scenes" / "simple.scn", "shows the first of two files")
 
 
-def a_dropped_file_that_is_no_scene_is_told_over_the_last_picture(screen):
-    window = opened(screen, ROOT / "scenes" / "reflections.scn")
+def a_dropped_file_that_is_no_scene_is_told_over_the_last_picture(screen, window, folder):
     before = window.read()
-    with tempfile.TemporaryDirectory() as name:
-        other = pathlib.Path(name) / "notes.scn"
-        other.write_text("spheer 0 0 0 1\n")
-        drop(screen, other)
-        window.wait("notes.scn:1:1: unknown statement (did you mean 'sphere'?)")
-        assert window.read() == before, "the last picture is gone"
-        other.write_text("light 9 -4 10 0.7\nsphere 0 0 0 1\n")
-        expect(window, other, "shows it once it is a scene")
-    window.close()
+    other = folder / "notes.scn"
+    other.write_text("spheer 0 0 0 1\n")
+    drop(screen, other)
+    window.wait("notes.scn:1:1: unknown statement (did you mean 'sphere'?)")
+    assert window.read() == before, "the last picture is gone"
+    other.write_text("light 9 -4 10 0.7\nsphere 0 0 0 1\n")
+    expect(window, other, "shows it once it is a scene")
 
 
 if __name__ == "__main__":

@@ -4,35 +4,27 @@
 in the printed state. Usage: CLRT=path/to/clrt test_keys.py"""
 
 import os
-import pathlib
-import tempfile
 
-from screen import ROOT, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
-
-SCENE = ROOT / "scenes" / "reflections.scn"
+from screen import ROOT, SCENE, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
 
 
 def in_both_views(test):
     """Runs the test with a window without text, first in the ray-traced and then in the OpenGL
     view. The test must leave the state as it was."""
-    def run(screen):
-        window = opened(screen, SCENE)
+    def run(window):
         for mode in ("ray traced", "OpenGL"):
             test(window, mode)
             window.press("r", "view 1, AA off, BVH on, help")
-        window.close()
     run.__name__ = test.__name__
     return run
 
 
-def it_opens_with_rays_and_r_switches_to_opengl(screen):
-    window = opened(screen, SCENE)
+def it_opens_with_rays_and_r_switches_to_opengl(window):
     traced = window.read()
     window.press("r", "OpenGL, view 1")
     assert window.read() != traced, "both views look the same"
     window.press("r", "ray traced, view 1")
     window.until(lambda shown: shown == traced, "shows the rays again")
-    window.close()
 
 
 @in_both_views
@@ -54,12 +46,10 @@ def digits_choose_the_scenes_cameras(window, mode):
     assert len(shown) == 6, f"{len(shown)} different pictures of six cameras"
 
 
-def b_turns_the_tree_off_and_draws_the_same_picture(screen):
-    window = opened(screen, SCENE)
+def b_turns_the_tree_off_and_draws_the_same_picture(window):
     before = window.read()
     window.press("b", "BVH off")
     assert window.read() == before, "brute force draws another picture"
-    window.close()
 
 
 @in_both_views
@@ -175,83 +165,68 @@ def u_turns_the_up_axis_of_a_mesh_without_a_scene(screen):
     window = opened(screen, SCENE)
     window.press("u")
     window.press("a", "AA 2x2, BVH on, help")
-    window.close()
 
 
-def keys_for_the_help_agree(screen):
-    window = opened(screen, SCENE)
+def keys_for_the_help_agree(window):
     plain, shown = window.read(), set()
     for key in ("h", "question", "F1"):
         window.press(key, "help on")
         shown.add(window.read())
         window.press(key, "help off")
     assert len(shown) == 1 and plain not in shown, "the help looks different"
-    window.close()
 
 
-def f11_fills_the_screen_and_escape_goes_back(screen):
-    window = opened(screen, SCENE)
+def f11_fills_the_screen_and_escape_goes_back(screen, window):
     before = window.read()
     window.press("F11", "full screen", "1024x768")
     window.press("Escape", "BVH on, help", "320x240")
     window.press("F11", "full screen", "1024x768")
     window.press("F11", "BVH on, help", "320x240")
     window.until(lambda shown: shown == before, "is as before")
-    window.close()
 
 
-def c_prints_the_camera(screen):
-    window = opened(screen, SCENE)
+def c_prints_the_camera(window):
     window.press("c")
     assert window.process.stdout.readline() == "azimuth -40.00, rotation 25.00, distance 6.5\n"
     line = window.process.stdout.readline()
     assert line.startswith("camera 4.5127682"), line
-    window.close()
 
 
-def s_f12_and_ctrl_s_save_the_picture(screen):
-    with tempfile.TemporaryDirectory() as folder:
-        window = opened(screen, SCENE, folder=folder)
-        for number, key in enumerate(("s", "F12", "ctrl+s"), start=1):
-            window.press(key, f"saved reflections-{number}.png and .")
-        window.press("s")
-        window.close()  # the file is complete nevertheless
-        endings = {file.suffix for file in pathlib.Path(folder).glob("reflections-2.*")}
-        assert endings in ({".png", ".exr"}, {".png", ".pfm"}), endings
+def s_f12_and_ctrl_s_save_the_picture(screen, folder):
+    window = opened(screen, SCENE, folder=folder)
+    for number, key in enumerate(("s", "F12", "ctrl+s"), start=1):
+        window.press(key, f"saved reflections-{number}.png and .")
+    window.press("s")
+    window.close()  # the file is complete nevertheless
+    endings = {file.suffix for file in folder.glob("reflections-2.*")}
+    assert endings in ({".png", ".exr"}, {".png", ".pfm"}), endings
 
 
-def a_failed_save_says_why(screen):
-    with tempfile.TemporaryDirectory() as parent:
-        folder = pathlib.Path(parent) / "gone"
-        folder.mkdir()
-        window = opened(screen, SCENE, folder=folder)
-        folder.rmdir()
-        window.press("s", "clrt: reflections-1.png: ")
-        window.close()
+def a_failed_save_says_why(screen, folder):
+    folder = folder / "gone"
+    folder.mkdir()
+    window = opened(screen, SCENE, folder=folder)
+    folder.rmdir()
+    window.press("s", "clrt: reflections-1.png: ")
 
 
-def s_holds_a_turning_camera_still(screen):
-    with tempfile.TemporaryDirectory() as folder:
-        window = opened(screen, SCENE, folder=folder)
-        window.press("o")
-        window.press("s", "saved reflections-1.")
-        window.press("o", "moved")
-        window.close()
+def s_holds_a_turning_camera_still(window, folder):
+    window.press("o")
+    window.press("s", "saved reflections-1.")
+    window.press("o", "moved")
 
 
-def r_in_capitals_reads_everything_again(screen):
-    with tempfile.TemporaryDirectory() as folder:
-        scene = pathlib.Path(folder) / "one.scn"
-        scene.write_text("material 0\nsphere 0 0 0.5 1\n")
-        before = scene.stat()
-        window = opened(screen, scene)
-        large = window.read()
-        # Changes the file invisibly: in place, with the same size and time.
-        scene.write_text("material 0\nsphere 0 0 0.5 2\n")
-        os.utime(scene, ns=(before.st_atime_ns, before.st_mtime_ns))
-        window.press("R")
-        window.until(lambda shown: shown != large, "shows the scene read again")
-        window.close()
+def r_in_capitals_reads_everything_again(screen, folder):
+    scene = folder / "one.scn"
+    scene.write_text("material 0\nsphere 0 0 0.5 1\n")
+    before = scene.stat()
+    window = opened(screen, scene)
+    large = window.read()
+    # Changes the file invisibly: in place, with the same size and time.
+    scene.write_text("material 0\nsphere 0 0 0.5 2\n")
+    os.utime(scene, ns=(before.st_atime_ns, before.st_mtime_ns))
+    window.press("R")
+    window.until(lambda shown: shown != large, "shows the scene read again")
 
 
 def q_ctrl_q_and_escape_quit(screen):
@@ -281,7 +256,6 @@ def options_choose_what_the_window_opens_with(screen):
                     "--keys", "h")
     window.wait("view 4, AA 3x3, BVH off", "exposure +1.0", "320x240")
     window.wait("help on")
-    window.close()
 
 
 if __name__ == "__main__":

@@ -4,13 +4,11 @@
 once, and that -o never connects to a display. Usage: CLRT=path/to/clrt test_life.py"""
 
 import os
-import pathlib
 import socket
 import subprocess
-import tempfile
 import time
 
-from screen import ROOT, Window, opened, planes_of, render, run_tests
+from screen import ROOT, SCENE, Window, opened, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
 GONE_SECONDS = 0.1  # in addition to the seconds for closing an idle window on this machine
@@ -23,25 +21,23 @@ def write_large(folder):
     return scene
 
 
-def a_million_triangles_open_orbit_and_close(screen):
+def a_million_triangles_open_orbit_and_close(screen, folder):
     if not LARGE.exists():
         print("skipped: scenes/models/coral.ply has not been made")
         return
-    with tempfile.TemporaryDirectory() as folder:
-        scene = write_large(pathlib.Path(folder))
-        start = time.monotonic()
-        window = opened(screen, scene, size=(400, 300))
-        print(f"         opened after {time.monotonic() - start:.2f} s")
-        for mode in ("ray traced", "OpenGL"):
-            before = window.read()
-            window.drag(1, 30, 10)
-            window.wait(mode, "moved")
-            assert window.read() != before, f"{mode}: nothing moves"
-            window.press("1", mode, "view 1,")
-            window.press("r", "view 1,")
-        expected = render(scene, size=(400, 300))
-        window.until(lambda shown: planes_of(shown) == expected, "shows what -o writes")
-        window.close()
+    scene = write_large(folder)
+    start = time.monotonic()
+    window = opened(screen, scene, size=(400, 300))
+    print(f"         opened after {time.monotonic() - start:.2f} s")
+    for mode in ("ray traced", "OpenGL"):
+        before = window.read()
+        window.drag(1, 30, 10)
+        window.wait(mode, "moved")
+        assert window.read() != before, f"{mode}: nothing moves"
+        window.press("1", mode, "view 1,")
+        window.press("r", "view 1,")
+    expected = render(scene, size=(400, 300))
+    window.until(lambda shown: planes_of(shown) == expected, "shows what -o writes")
 
 
 def is_picture(shown):
@@ -64,22 +60,21 @@ def seconds_to_close(screen, scene, *options, is_tracing):
     return time.monotonic() - start
 
 
-def a_window_closed_while_it_traces_is_gone_at_once(screen):
-    with tempfile.TemporaryDirectory() as folder:
-        cases = [(ROOT / "scenes" / "reflections.scn", ["--aa=64"])]
-        if LARGE.exists():
-            cases.append((write_large(pathlib.Path(folder)), ["--no-bvh"]))
-        for scene, options in cases:
-            rest = seconds_to_close(screen, scene, *options, is_tracing=False)
-            seconds = seconds_to_close(screen, scene, *options, is_tracing=True)
-            print(f"         {scene.stem} {options}: gone after {1e3 * seconds:.0f} ms, at rest "
-                  f"after {1e3 * rest:.0f} ms")
-            assert seconds < rest + GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
+def a_window_closed_while_it_traces_is_gone_at_once(screen, folder):
+    cases = [(SCENE, ["--aa=64"])]
+    if LARGE.exists():
+        cases.append((write_large(folder), ["--no-bvh"]))
+    for scene, options in cases:
+        rest = seconds_to_close(screen, scene, *options, is_tracing=False)
+        seconds = seconds_to_close(screen, scene, *options, is_tracing=True)
+        print(f"         {scene.stem} {options}: gone after {1e3 * seconds:.0f} ms, at rest "
+              f"after {1e3 * rest:.0f} ms")
+        assert seconds < rest + GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
 
 
 def camera_moves_while_a_picture_is_traced(screen):
     """Coarse pictures of a moved camera appear long before the full picture would be finished."""
-    window = Window(screen, ROOT / "scenes" / "reflections.scn", "--aa=64", size=(500, 400))
+    window = Window(screen, SCENE, "--aa=64", size=(500, 400))
     before = window.until(is_picture, "shows a picture")
     for step in range(5):
         start = time.monotonic()
@@ -91,8 +86,7 @@ def camera_moves_while_a_picture_is_traced(screen):
     window.end()
 
 
-def a_minimised_and_a_tiny_window_go_on(screen):
-    window = opened(screen, ROOT / "scenes" / "reflections.scn")
+def a_minimised_and_a_tiny_window_go_on(screen, window):
     before = window.read()
     screen.do("search", "--name", "clrt", "windowunmap", "--sync")
     screen.do("search", "--name", "clrt", "windowmap", "--sync")
@@ -103,12 +97,11 @@ def a_minimised_and_a_tiny_window_go_on(screen):
     screen.do("mousemove", 1, 1)
     window.press("t", "text on", "7x3")
     window.press("h", "help on", "7x3")
-    window.close()
 
 
-def o_never_touches_the_display(_):
+def o_never_touches_the_display(screen, folder):
     """The display is only a socket that detects connections."""
-    with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_INET) as door:
+    with socket.socket(socket.AF_INET) as door:
         door.bind(("127.0.0.1", 0))
         door.listen()
         door.setblocking(False)

@@ -3,12 +3,10 @@
 """The ray-traced window shows exactly the pixels that -o writes for the same camera.
 Usage: CLRT=path/to/clrt test_pixels.py"""
 
-import pathlib
 import subprocess
-import tempfile
 import os
 
-from screen import COURSE, ROOT, opened, planes_of, render, run_tests
+from screen import COURSE, SCENE, opened, planes_of, render, run_tests
 from pictures import read_png
 
 SIZE = (512, 512)
@@ -32,49 +30,41 @@ def every_view_of_the_courses_scenes_is_the_same(screen):
         window.close()
 
 
-def anti_aliased_pictures_are_the_same(screen):
-    scene = ROOT / "scenes" / "reflections.scn"
-    window = opened(screen, scene)
+def anti_aliased_pictures_are_the_same(window):
     window.press("a", "AA 2x2")
-    expect_same(window, scene, "--aa")
-    window.close()
+    expect_same(window, SCENE, "--aa")
 
 
 def pictures_of_any_size_are_the_same(screen):
-    scene = ROOT / "scenes" / "reflections.scn"
-    window = opened(screen, scene, size=(301, 207))
-    expect_same(window, scene)
+    window = opened(screen, SCENE, size=(301, 207))
+    expect_same(window, SCENE)
     window.size = (407, 333)
     screen.do("search", "--name", "clrt", "windowsize", *window.size)
     window.wait("407x333")
-    expect_same(window, scene)
-    window.close()
+    expect_same(window, SCENE)
 
 
-def a_moved_camera_prints_what_draws_the_same_picture(screen):
-    with tempfile.TemporaryDirectory() as folder:
-        scene = pathlib.Path(folder) / "own.scn"
-        scene.write_text("material 3\nsphere 0 0 0.5 1\nsphere 1 1 0.5 0.6\nlight 9 -4 10 0.7\n")
-        window = opened(screen, scene)
-        window.drag(1, 33, -21)
-        window.wait("moved", "rotation 16.75")
-        window.press("c")
-        window.process.stdout.readline()
-        camera = window.process.stdout.readline()
-        printed = pathlib.Path(folder) / "printed.scn"
-        printed.write_text(scene.read_text() + camera)
-        expect_same(window, printed)
-        window.close()
+def a_moved_camera_prints_what_draws_the_same_picture(screen, folder):
+    scene = folder / "own.scn"
+    scene.write_text("material 3\nsphere 0 0 0.5 1\nsphere 1 1 0.5 0.6\nlight 9 -4 10 0.7\n")
+    window = opened(screen, scene)
+    window.drag(1, 33, -21)
+    window.wait("moved", "rotation 16.75")
+    window.press("c")
+    window.process.stdout.readline()
+    camera = window.process.stdout.readline()
+    printed = folder / "printed.scn"
+    printed.write_text(scene.read_text() + camera)
+    expect_same(window, printed)
 
 
 def options_that_change_the_picture_do_so_here(screen):
-    scene = ROOT / "scenes" / "reflections.scn"
     for options in (["--max-level", "1"], ["--encode", "srgb"]):
-        plain = render(scene)
-        window = opened(screen, scene, *options)
+        plain = render(SCENE)
+        window = opened(screen, SCENE, *options)
         window.until(lambda shown: planes_of(shown) != plain, f"is changed by {options}")
         if "--max-level" in options:
-            expect_same(window, scene, *options)
+            expect_same(window, SCENE, *options)
         window.close()
 
 
@@ -90,25 +80,23 @@ def common_end(one, other):
     return length
 
 
-def saved_pictures_are_what_is_seen_and_what_was_traced(screen):
-    scene, size = ROOT / "scenes" / "reflections.scn", (160, 120)
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        window = opened(screen, scene, size=size, folder=folder)
-        window.press("s", "saved")
-        window.close()
-        png = (folder / "reflections-1.png").read_bytes()
-        assert planes_of_png(png) == render(scene, size=size), "the PNG differs"
-        for ending in ("exr", "pfm"):
-            saved = folder / f"reflections-1.{ending}"
-            if saved.exists():
-                subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "160x120", "-o",
-                                str(folder / f"a.{ending}")], check=True)
-                # The texts at the start contain different settings. The pixels after them must be
-                # equal.
-                written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
-                same = common_end(written, found)
-                assert same > 0.9 * len(written), f"the .{ending} differs: {same} bytes are equal"
+def saved_pictures_are_what_is_seen_and_what_was_traced(screen, folder):
+    size = (160, 120)
+    window = opened(screen, SCENE, size=size, folder=folder)
+    window.press("s", "saved")
+    window.close()
+    png = (folder / "reflections-1.png").read_bytes()
+    assert planes_of_png(png) == render(SCENE, size=size), "the PNG differs"
+    for ending in ("exr", "pfm"):
+        saved = folder / f"reflections-1.{ending}"
+        if saved.exists():
+            subprocess.run([os.environ["CLRT"], str(SCENE), "-q", "-s", "160x120", "-o",
+                            str(folder / f"a.{ending}")], check=True)
+            # The texts at the start contain different settings. The pixels after them must be
+            # equal.
+            written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
+            same = common_end(written, found)
+            assert same > 0.9 * len(written), f"the .{ending} differs: {same} bytes are equal"
 
 
 if __name__ == "__main__":

@@ -6,18 +6,8 @@ last valid picture. Usage: CLRT=path/to/clrt test_reload.py"""
 import os
 import pathlib
 import shutil
-import tempfile
 
-from screen import ROOT, expect, opened, render, run_tests
-
-
-def in_folder(test):
-    """Runs the test with a temporary folder."""
-    def run(screen):
-        with tempfile.TemporaryDirectory() as name:
-            test(screen, pathlib.Path(name))
-    run.__name__ = test.__name__
-    return run
+from screen import ROOT, expect, opened, run_tests
 
 
 def make_scene(folder):
@@ -27,7 +17,6 @@ def make_scene(folder):
     return scene
 
 
-@in_folder
 def a_changed_scene_is_shown_in_both_views(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
@@ -38,10 +27,8 @@ def a_changed_scene_is_shown_in_both_views(screen, folder):
     drawn = window.read()
     scene.write_text(scene.read_text() + "sphere -1 -1 1 0.5\n")
     window.until(lambda shown: shown != drawn, "shows the third scene by OpenGL")
-    window.close()
 
 
-@in_folder
 def a_scene_that_an_editor_replaces_is_shown(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
@@ -49,19 +36,15 @@ def a_scene_that_an_editor_replaces_is_shown(screen, folder):
     other.write_text(scene.read_text() + "sphere 1 1 1 0.5\n")
     other.rename(scene)
     expect(window, scene, "shows the scene put in its place")
-    window.close()
 
 
-@in_folder
 def a_changed_mesh_is_shown(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
     shutil.copy(ROOT / "scenes" / "tetrahedron.ply", folder / "mesh.ply")
     expect(window, scene, "shows the other mesh")
-    window.close()
 
 
-@in_folder
 def a_changed_material_library_is_shown(screen, folder):
     if not (pathlib.Path(os.environ["CLRT"]).parent / "clrt-foreign").exists():
         print("skipped: this build has no Assimp, so a model's materials are not tested")
@@ -76,10 +59,8 @@ def a_changed_material_library_is_shown(screen, folder):
     expect(window, scene, "shows the first color")
     (folder / "mesh.mtl").write_text("newmtl a\nKd 0 0.5 1\n")
     expect(window, scene, "shows the second color")
-    window.close()
 
 
-@in_folder
 def a_fault_is_told_over_the_last_good_picture(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
@@ -100,10 +81,8 @@ def a_fault_is_told_over_the_last_good_picture(screen, folder):
     window.press("1", "view 1,")
     scene.write_text(text + "sphere 1 1 1 0.5\n")
     expect(window, scene, "shows the mended scene")
-    window.close()
 
 
-@in_folder
 def a_mesh_that_was_missing_is_found_when_it_comes(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
@@ -115,10 +94,8 @@ def a_mesh_that_was_missing_is_found_when_it_comes(screen, folder):
     window.press("t", "text off")
     shutil.copy(ROOT / "scenes" / "tetrahedron.ply", folder / "late.ply")
     expect(window, scene, "shows the mesh that came late")
-    window.close()
 
 
-@in_folder
 def changed_kernels_trace_the_next_picture(screen, folder):
     kernels = folder / "kernels"
     shutil.copytree(ROOT / "kernels", kernels)

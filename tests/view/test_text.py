@@ -4,13 +4,10 @@
 any window, a hint leads to the help, and a note names what a scene lacks.
 Usage: CLRT=path/to/clrt test_text.py"""
 
-import pathlib
-import tempfile
 import time
 
-from screen import ROOT, Window, opened, run_tests
+from screen import SCENE, Window, opened, run_tests
 
-SCENE = ROOT / "scenes" / "reflections.scn"
 HINT_SECONDS = 5
 
 
@@ -63,25 +60,23 @@ def a_hint_at_the_help_is_shown_for_some_seconds(screen):
     later = window.until(lambda shown: shown != first, "hides the hint")
     lines = 4 * 960 * 40
     assert first[lines:] == later[lines:], "the hint is not in the line"
-    window.close()
 
 
-def scenes_that_lack_something_say_so_in_the_line(screen):
+def scenes_that_lack_something_say_so_in_the_line(screen, folder):
     """In a narrow window, the note fills the line, after the hint at the help is gone."""
     size, widths = (320, 240), {}
     scenes = {"whole": "light 9 -4 10 0.7\nmaterial 1\nsphere 0 0 0 1\n",
               "dark": "material 1\nsphere 0 0 0 1\n", "empty": ""}
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in scenes.items():
-            scene = pathlib.Path(folder) / f"{name}.scn"
-            scene.write_text(text)
-            window = opened(screen, scene, size=size)
-            plain = window.read()
-            time.sleep(HINT_SECONDS)
-            window.press("t", "text on")
-            window.until(lambda shown, before=plain: shown != before, "shows the line")
-            widths[name] = extent(plain, window.read(), size)[0]
-            window.close()
+    for name, text in scenes.items():
+        scene = folder / f"{name}.scn"
+        scene.write_text(text)
+        window = opened(screen, scene, size=size)
+        plain = window.read()
+        time.sleep(HINT_SECONDS)
+        window.press("t", "text on")
+        window.until(lambda shown, before=plain: shown != before, "shows the line")
+        widths[name] = extent(plain, window.read(), size)[0]
+        window.close()
     assert widths["whole"] < 285 < min(widths["dark"], widths["empty"]), widths
 
 

@@ -2,6 +2,7 @@
 // The scene's size and place, the device's denormals, the order of tiles and of triangles, and the
 // tree do not change a bit of the picture. image/test_identity.c varies the kernels and their work.
 #include "support/random.h"
+#include "support/shapes.h"
 #include "support/varied_scene.h"
 
 #include <string.h>
@@ -55,6 +56,35 @@ EXTREME(permuted_triangles_draw_the_same_picture_t29)
         outcome_add(&sum, compare("T-29", *state, &usual, scene));
     }
     outcome_report(sum, "permutations=%zu", permutations);
+}
+
+static void turn_corners(Mesh *mesh, Random *random)
+{
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (uint32_t turns = random_below(random, 3); turns > 0; turns--) {
+            uint32_t *corners = mesh->triangles[i];
+            const uint32_t first = corners[0];
+            memmove(corners, corners + 1, 2 * sizeof *corners);
+            corners[2] = first;
+        }
+}
+
+EXTREME(turned_corners_and_copies_in_any_order_draw_the_same_picture_t13)
+{
+    Outcome sum = {0};
+    Random random = {13};
+    FREED_BY(framebuffer_free) Framebuffer usual = usual_picture(*state, varied_scene());
+    for (int i = 0; i < 3; i++) {
+        Scene scene = varied_scene(), copy = varied_scene();
+        for (size_t object = 0; object < copy.objects.count; object++) {
+            turn_corners(&scene.objects.data[object].mesh, &random);
+            shape_add(&scene, shape_reordered(copy.objects.data[object].mesh, &random), 1);
+        }
+        copy.objects.count = 0; // scene has its meshes
+        scene_free(&copy);
+        outcome_add(&sum, compare("T-13", *state, &usual, scene));
+    }
+    outcome_report(sum, "copies=3");
 }
 
 EXTREME(every_tree_and_size_of_leaf_draws_the_same_picture_t30)

@@ -16,7 +16,7 @@
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
-                                                      "batch_each", "batch_leave"};
+                                                      "batch_leave"};
 
 static void require_success(cl_int status, const char *attempt)
 {
@@ -160,7 +160,6 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
         set_array(batch, BATCH_NODES, flat->pairs, flat->node_count * sizeof(BvhPair));
         set_array(batch, BATCH_TRIANGLES, flat->triangles, triangles * sizeof(TriangleData));
     }
-    batch->block_count = flat->block_count;
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
                                .triangle_count = flat->triangle_count,
                                .uses_bvh = flat->node_count > 0};
@@ -180,11 +179,11 @@ static void write_buffer(const RayBatch *batch, cl_mem buffer, const void *data,
         "write a buffer");
 }
 
-// Runs a kernel over `items` of the rays that the buffer holds, and reads `count` hits.
-static void run(const RayBatch *batch, BatchTask task, size_t items, TestHit *hits, size_t count)
+// Runs a kernel over `count` of the rays that the buffer holds, and reads their hits.
+static void run(const RayBatch *batch, BatchTask task, size_t count, TestHit *hits)
 {
     Error error = {0};
-    require(launch(batch, task, (cl_uint)items, &error), &error);
+    require(launch(batch, task, (cl_uint)count, &error), &error);
     require_success(clEnqueueReadBuffer(batch->device.queue, batch->hits, CL_TRUE, 0,
                                         count * sizeof *hits, hits, 0, NULL, NULL),
                     "read hits");
@@ -239,7 +238,7 @@ TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays)
         for (size_t i = 0; i < chunk.count; i++)
             ordered[i] = chunk.data[orders[i].index];
         write_buffer(batch, batch->rays, ordered, chunk.count * sizeof *ordered);
-        run(batch, task, chunk.count, found, chunk.count);
+        run(batch, task, chunk.count, found);
         for (size_t i = 0; i < chunk.count; i++)
             hits[first + orders[i].index] = found[i];
         free(orders);
@@ -256,18 +255,7 @@ TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward
         const Rays chunk = chunk_of(rays, first);
         write_buffer(batch, batch->rays, chunk.data, chunk.count * sizeof *chunk.data);
         write_buffer(batch, batch->outward, outward + first, chunk.count * sizeof *outward);
-        run(batch, BATCH_LEAVE, chunk.count, hits + first, chunk.count);
+        run(batch, BATCH_LEAVE, chunk.count, hits + first);
     }
     return hits;
-}
-
-void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits)
-{
-    const bool is_wide = batch->choice.nodes == NODES_WIDE;
-    const uint32_t triangles = batch->frame.triangle_count;
-    const uint32_t items = is_wide ? batch->block_count : triangles;
-    assert_true(triangles <= BATCH_RAYS);
-    assert_true(!is_wide || items <= BATCH_RAYS / batch->choice.lanes);
-    write_buffer(batch, batch->rays, ray, sizeof *ray);
-    run(batch, BATCH_EACH, items, hits, triangles);
 }

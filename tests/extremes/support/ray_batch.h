@@ -31,7 +31,6 @@ typedef struct {
 typedef enum {
     BATCH_NEAREST, // nearest_hit
     BATCH_BLOCKED, // is_blocked: id is 1 or 0
-    BATCH_EACH,    // ray_batch_each
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
@@ -55,7 +54,6 @@ typedef struct {
     cl_kernel kernels[BATCH_TASKS];
     cl_mem rays, hits, outward;
     cl_mem arrays[BATCH_ARRAYS];
-    uint32_t block_count;
     FrameData frame;
     KernelChoice choice; // form_choice, with a number of lanes
 } RayBatch;
@@ -78,10 +76,6 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 // Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
 // from one origin and reflected rays form packets.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
-
-// Intersects one ray with each triangle of the scene alone. Fills a hit per triangle, in file
-// order.
-void ray_batch_each(const RayBatch *batch, const TestRay *ray, TestHit *hits);
 
 // The id of a ray of ray_batch_leave that hits nothing but is shadowed.
 #define LEAVE_SHADOWED 0xfffffffeu

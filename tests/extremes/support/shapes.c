@@ -26,13 +26,26 @@ void shape_set_vertex(Mesh *mesh, size_t vertex, Vec3 position)
     mesh->positions[vertex][2] = shape_rounded(position.z);
 }
 
+static void swap_corners(uint32_t corners[3], uint32_t one, uint32_t other)
+{
+    const uint32_t kept = corners[one];
+    corners[one] = corners[other];
+    corners[other] = kept;
+}
+
 void shape_flip(Mesh *mesh)
 {
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        const uint32_t second = mesh->triangles[i][1];
-        mesh->triangles[i][1] = mesh->triangles[i][2];
-        mesh->triangles[i][2] = second;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        swap_corners(mesh->triangles[i], 1, 2);
+}
+
+Mesh shape_reordered(Mesh mesh, Random *random)
+{
+    for (size_t i = 0; i < mesh.triangle_count; i++) {
+        swap_corners(mesh.triangles[i], 2, random_below(random, 3));
+        swap_corners(mesh.triangles[i], 1, random_below(random, 2));
     }
+    return mesh;
 }
 
 static size_t put_triangle(Mesh *mesh, size_t triangle, uint32_t a, uint32_t b, uint32_t c)

@@ -37,6 +37,9 @@ void shape_set_vertex(Mesh *mesh, size_t vertex, Vec3 position);
 // Makes the mesh's back its front.
 void shape_flip(Mesh *mesh);
 
+// Returns the mesh with the corners of each triangle in any order.
+Mesh shape_reordered(Mesh mesh, Random *random);
+
 // Returns the center of far spheres: (s, -0.75 s, 0.5 s) for s = 2^exponent.
 Vec3 shape_center(int exponent);
 
