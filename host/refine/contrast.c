@@ -1,106 +1,164 @@
 // SPDX-License-Identifier: MIT
-// The bend of a sample is twice its distance from the mean of its two neighbors. A step between two
-// uniform surfaces thus counts in full. Without a step, contrast is the bend. Seams locate steps,
-// so lower weights apply to contrast beside them.
-#include "refine/pixel_contrast.h"
+// Threads list the cells to subdivide, and one thread subdivides them in order.
+#include "refine/contrast.h"
 
-// Weights of color differences and of bends beside a seam, and of contrast in a pixel with a seam.
-#define STEP_WEIGHT  0.5f
-#define BEND_WEIGHT  0.25f
-#define PIXEL_WEIGHT 0.5f
+#include <stdlib.h>
 
-static float larger(float a, float b)
+#define GROUPS_OF_TASK 512
+
+// The result of a range.
+typedef struct {
+    ARRAY(CellName) cells;
+    Error error;
+} CutList;
+
+typedef struct {
+    const RefineTree *tree;
+    const CutRule *rule;
+    uint32_t first;                  // group of the first range
+    float limits[REFINE_LEVELS + 1]; // the color differences that cells of each level may have
+    CutList *lists;                  // of each range
+} Marking;
+
+// Color differences count twice between pixels, whose surfaces may have similar colors by chance,
+// and half inside pixels, where seams locate the edges.
+static void set_limits(Marking *marking)
 {
-    return a > b ? a : b;
-}
-
-// Returns twice the distance of a sample from the weighted mean of its neighbors.
-static inline float bend(const SampleData *before, const SampleData *at, const SampleData *after,
-                         float weight)
-{
-    float most = 0;
-    for (int channel = 0; channel < 3; channel++) {
-        const float line = weight * before->color[channel] + (1 - weight) * after->color[channel];
-        most = larger(most, fabsf(at->color[channel] - line));
+    float fraction = 1;
+    marking->limits[0] = marking->rule->threshold / 2;
+    for (uint32_t level = 1; level < REFINE_LEVELS; level++) {
+        fraction /= GROUP_CELLS;
+        marking->limits[level] = 2 * marking->rule->threshold / fraction;
     }
-    return 2 * most;
+    marking->limits[REFINE_LEVELS] = INFINITY;
 }
 
-// Returns the color difference of samples on different surfaces.
-static float step(const SampleData *at, const SampleData *other)
+// Lists a cell if it is thin or its contrast exceeds the limit, and its larger neighbors.
+static bool mark_cell(const Marking *marking, const CellName *name, const uint32_t place[2],
+                      CutList *list)
 {
-    return at->signature == other->signature ? 0 : seam_difference(at, other);
-}
-
-float contrast_past_seams(float contrast)
-{
-    return PIXEL_WEIGHT * contrast;
-}
-
-// Computes the contrasts of a line's cells. Each sample beyond the line is twice as far from the
-// next cell as cells are from each other.
-static void contrast_of_line(const SampleData *const line[LINE_SAMPLES], CellContrast found[])
-{
-    static const float weights[GROUP_SIDE] = {1 / 3.0f, 0.5f, 2 / 3.0f};
-    bool is_step = seam_steps(line, 0);
-    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
-        const SampleData *before = line[i], *at = line[i + 1], *after = line[i + 2];
-        const bool was_step = is_step;
-        const float sides = larger(step(at, before), step(at, after));
-        const float bends = bend(before, at, after, weights[i]);
-        is_step = seam_steps(line, i + 1);
-        found[i].is_step = was_step || is_step;
-        found[i].value =
-            found[i].is_step ? larger(STEP_WEIGHT * sides, BEND_WEIGHT * bends) : bends;
+    static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const RefineTree *tree = marking->tree;
+    const SampleData *sample = refine_tree_sample(tree, name);
+    const uint32_t side = refine_tree_cell_side(name->level);
+    bool is_cut = thin_parts_cut(marking->rule->thin_parts, place, name->level);
+    for (int i = 0; i < 4; i++) {
+        const uint32_t beyond[2] = {place[0] + (uint32_t)steps[i][0] * side,
+                                    place[1] + (uint32_t)steps[i][1] * side};
+        CellName other;
+        if (!refine_tree_find(tree, beyond, &other))
+            continue;
+        const float difference = seam_difference(sample, refine_tree_sample(tree, &other));
+        is_cut = is_cut || difference > marking->limits[name->level];
+        if (other.level < name->level && difference > marking->limits[other.level] &&
+            !array_push(&list->cells, other, &list->error))
+            return false;
     }
+    return !is_cut || array_push(&list->cells, *name, &list->error);
 }
 
-// Raises the contrasts of a line's cells to the contrasts along the line.
-static void add_line(const CellGroup *group, uint32_t first, uint32_t stride,
-                     CellContrast contrast[GROUP_CELLS])
+static const SampleData *pixel_sample(const RefineTree *tree, uint32_t x, uint32_t y)
 {
-    const CellSide start = stride == 1 ? SIDE_LEFT : SIDE_ABOVE;
-    const SampleData *cells = &group->cells[first];
-    const SampleData *const line[LINE_SAMPLES] = {&group->beyond[start], cells, cells + stride,
-                                                  cells + 2 * (size_t)stride,
-                                                  &group->beyond[start + 1]};
-    CellContrast found[GROUP_SIDE];
-    contrast_of_line(line, found);
-    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
-        CellContrast *cell = &contrast[first + i * stride];
-        cell->value = larger(cell->value, found[i].value);
-        cell->is_step = cell->is_step || found[i].is_step;
-    }
+    return &tree->pixels[refine_tree_place(tree, x, y)];
 }
 
-// The area of a cell of each level, in pixels.
-static const float parts[REFINE_LEVELS + 1] = {1, 1 / 9.0f, 1 / 81.0f, 1 / 729.0f, 1 / 6561.0f};
-
-float contrast_across(const CellGroup *group, CellSide side, const SampleData *other,
-                      uint32_t level)
+// At the picture's edge, a pixel is its own neighbor.
+static bool pixel_differs(const RefineTree *tree, uint32_t x, uint32_t y, float limit)
 {
-    static const uint32_t first[SIDE_COUNT] = {0, 2, 0, 6}, stride[SIDE_COUNT] = {3, 3, 1, 1};
-    float most = 0;
-    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
-        const SampleData *cell = &group->cells[first[side] + i * stride[side]];
-        most = larger(most, step(cell, other));
-    }
-    return (level == 0 ? PIXEL_WEIGHT * CONTRAST_OUTLINE_WEIGHT : STEP_WEIGHT) * parts[level] *
-           most;
+    const SampleData *sample = pixel_sample(tree, x, y);
+    return seam_difference(sample, pixel_sample(tree, x - (x > 0), y)) > limit ||
+           seam_difference(sample, pixel_sample(tree, x + (x + 1 < tree->width), y)) > limit ||
+           seam_difference(sample, pixel_sample(tree, x, y - (y > 0))) > limit ||
+           seam_difference(sample, pixel_sample(tree, x, y + (y + 1 < tree->height))) > limit;
 }
 
-void contrast_keep(CellGroup *group)
+static bool mark_pixel(const Marking *marking, uint32_t x, uint32_t y, CutList *list)
 {
-    CellContrast contrast[GROUP_CELLS] = {0};
-    for (uint32_t i = 0; i < GROUP_SIDE; i++) {
-        add_line(group, i * GROUP_SIDE, 1, contrast);
-        add_line(group, i, GROUP_SIDE, contrast);
+    const RefineTree *tree = marking->tree;
+    const uint32_t place[2] = {x * REFINE_GRID, y * REFINE_GRID};
+    const CellName name = {.cell = y * tree->width + x};
+    return !(pixel_differs(tree, x, y, marking->limits[0]) ||
+             thin_parts_cut(marking->rule->thin_parts, place, 0)) ||
+           array_push(&list->cells, name, &list->error);
+}
+
+static void mark_rows(void *context, uint32_t first, uint32_t end)
+{
+    const Marking *marking = context;
+    const RefineTree *tree = marking->tree;
+    CutList *list = &marking->lists[first / PACKET_SIDE];
+    for (uint32_t left = 0; left < tree->width; left += PACKET_SIDE)
+        for (uint32_t y = first; y < end; y++)
+            for (uint32_t x = left; x < tree->width && x < left + PACKET_SIDE; x++)
+                if (!mark_pixel(marking, x, y, list))
+                    return;
+}
+
+static bool mark_group(const Marking *marking, uint32_t number, CutList *list)
+{
+    const CellGroup *group = &marking->tree->groups.data[number];
+    for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
+        const CellName name = {number, cell, group->level};
+        uint32_t place[2];
+        refine_tree_cell_place(group, cell, place);
+        if (!mark_cell(marking, &name, place, list))
+            return false;
     }
-    for (uint32_t i = 0; i < GROUP_CELLS; i++) {
-        contrast[i].value *= parts[group->level];
-        group->contrasts[i] = contrast_kept(contrast[i]);
+    return true;
+}
+
+static void mark_groups(void *context, uint32_t first, uint32_t end)
+{
+    const Marking *marking = context;
+    for (uint32_t i = first; i < end; i++)
+        if (!mark_group(marking, marking->first + i, &marking->lists[first / GROUPS_OF_TASK]))
+            return;
+}
+
+static bool cut_list(RefineTree *tree, const CutList *list, Error *error)
+{
+    if (list->error.text[0] != '\0')
+        return error_set(error, "%s", list->error.text);
+    for (size_t i = 0; i < list->cells.count; i++)
+        if (!refine_tree_cut(tree, &list->cells.data[i], error))
+            return false;
+    return true;
+}
+
+// The elements to mark in parallel ranges.
+typedef struct {
+    uint32_t count, part;
+    ThreadPoolPart *mark;
+} Ranges;
+
+static bool cut_marked(RefineTree *tree, Marking *marking, const Ranges *ranges, ThreadPool *pool,
+                       Error *error)
+{
+    const uint32_t tasks = range_count(ranges->count, ranges->part);
+    set_limits(marking);
+    marking->lists = memory_zeroed(tasks, sizeof *marking->lists, error);
+    bool ok = marking->lists != NULL;
+    if (ok)
+        thread_pool_share(pool, ranges->count, ranges->part, ranges->mark, marking);
+    for (uint32_t task = 0; marking->lists != NULL && task < tasks; task++) {
+        ok = ok && cut_list(tree, &marking->lists[task], error);
+        free(marking->lists[task].cells.data);
     }
-    for (CellSide side = 0; side < SIDE_COUNT; side++)
-        group->across[side] =
-            contrast_across(group, side, &group->beyond[side], group->beyond_levels[side]);
+    free(marking->lists);
+    return ok;
+}
+
+bool contrast_cut_pixels(RefineTree *tree, const CutRule *rule, ThreadPool *pool, Error *error)
+{
+    Marking marking = {.tree = tree, .rule = rule};
+    const Ranges rows = {tree->height, PACKET_SIDE, mark_rows};
+    return cut_marked(tree, &marking, &rows, pool, error);
+}
+
+bool contrast_cut_groups(RefineTree *tree, const CutRule *rule, uint32_t first, ThreadPool *pool,
+                         Error *error)
+{
+    Marking marking = {.tree = tree, .rule = rule, .first = first};
+    const Ranges groups = {(uint32_t)tree->groups.count - first, GROUPS_OF_TASK, mark_groups};
+    return cut_marked(tree, &marking, &groups, pool, error);
 }

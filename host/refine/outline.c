@@ -89,33 +89,27 @@ static bool find_extent(const Outline *outline, double low, double high, double 
     return extent[0] <= extent[1];
 }
 
-CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row)
+CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach)
 {
     double extent[2] = {outline->box.low[0], outline->box.high[0]};
-    const double top = row * grid->side, bottom = top + grid->side;
+    const double top = grid->origin[1] + row * grid->side - reach;
+    const double bottom = top + grid->side + 2 * reach;
     const bool is_all = outline->box.low[1] >= top && outline->box.high[1] <= bottom;
     if (!is_all && !find_extent(outline, top, bottom, extent))
         return (CellRange){0, 0};
-    return cells_touched(extent[0], extent[1], grid->per_length, grid->counts[0]);
+    return cells_touched(extent[0] - reach, extent[1] + reach, grid, 0);
+}
+
+CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row)
+{
+    return outline_near(outline, grid, row, 0);
 }
 
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row)
 {
-    double extent[2] = {INFINITY, -INFINITY};
-    const double middle = (row + 0.5) * grid->side;
-    const double *last = outline->corners[outline->count - 1];
-    double slope = outline->slopes[outline->count - 1];
-    for (uint32_t i = 0; i < outline->count; i++) {
-        const double *next = outline->corners[i];
-        if ((last[1] <= middle) != (next[1] <= middle)) {
-            const double x = last[0] + (middle - last[1]) * slope;
-            extent[0] = smaller(extent[0], x);
-            extent[1] = larger(extent[1], x);
-        }
-        last = next;
-        slope = outline->slopes[i];
-    }
-    if (extent[0] > extent[1])
+    double extent[2];
+    const double middle = grid->origin[1] + (row + 0.5) * grid->side;
+    if (!find_extent(outline, middle, middle, extent))
         return (CellRange){0, 0};
-    return cells_sampled(extent[0], extent[1], grid->per_length, grid->counts[0]);
+    return cells_sampled(extent[0], extent[1], grid, 0);
 }

@@ -23,10 +23,11 @@ typedef struct {
     OutlineBox box;                     // around the corners
 } Outline;
 
-// The square cells of one level of a picture. Their samples are at their centers.
+// Square cells of one level. Their samples are at their centers.
 typedef struct {
     double side, per_length; // per_length is 1 / side
     uint32_t counts[2];      // of columns and of rows
+    double origin[2];        // place of the first cell's corner
 } CellGrid;
 
 typedef struct {
@@ -48,30 +49,34 @@ static inline uint32_t outline_limit(int64_t value, uint32_t most)
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
 
-// Returns the cells from the one that contains low to the one that contains high.
-static inline CellRange cells_touched(double low, double high, double per_length, uint32_t count)
+// Returns the cells from the one that contains low to the one that contains high, along an axis.
+static inline CellRange cells_touched(double low, double high, const CellGrid *grid, int axis)
 {
-    return (CellRange){outline_limit(outline_floor(low * per_length), count),
-                       outline_limit(outline_floor(high * per_length) + 1, count)};
+    const double first = (low - grid->origin[axis]) * grid->per_length;
+    const double last = (high - grid->origin[axis]) * grid->per_length;
+    return (CellRange){outline_limit(outline_floor(first), grid->counts[axis]),
+                       outline_limit(outline_floor(last) + 1, grid->counts[axis])};
 }
 
-// Returns the cells whose centers lie between low and high.
-static inline CellRange cells_sampled(double low, double high, double per_length, uint32_t count)
+// Returns the cells whose centers lie between low and high, along an axis.
+static inline CellRange cells_sampled(double low, double high, const CellGrid *grid, int axis)
 {
-    return (CellRange){outline_limit(-outline_floor(0.5 - low * per_length), count),
-                       outline_limit(outline_floor(high * per_length - 0.5) + 1, count)};
+    const double first = (low - grid->origin[axis]) * grid->per_length;
+    const double last = (high - grid->origin[axis]) * grid->per_length;
+    return (CellRange){outline_limit(-outline_floor(0.5 - first), grid->counts[axis]),
+                       outline_limit(outline_floor(last - 0.5) + 1, grid->counts[axis])};
 }
 
 // box_touched returns the cells that a box touches along an axis. box_sampled returns the cells
 // whose centers the box contains.
 static inline CellRange box_touched(const OutlineBox *box, const CellGrid *grid, int axis)
 {
-    return cells_touched(box->low[axis], box->high[axis], grid->per_length, grid->counts[axis]);
+    return cells_touched(box->low[axis], box->high[axis], grid, axis);
 }
 
 static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid, int axis)
 {
-    return cells_sampled(box->low[axis], box->high[axis], grid->per_length, grid->counts[axis]);
+    return cells_sampled(box->low[axis], box->high[axis], grid, axis);
 }
 
 // Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
@@ -81,9 +86,11 @@ double outline_signed_area(const Outline *outline);
 // may return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// outline_touched returns the cells of a row that the polygon touches. outline_sampled returns the
-// cells whose centers the polygon contains.
+// outline_touched returns the cells of a row that the polygon touches. outline_near returns the
+// cells whose surroundings, up to `reach` along each axis, the polygon touches. outline_sampled
+// returns the cells whose centers the polygon contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
+CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);
 
 // Projects a mesh's triangles into the picture, clipped to the picture and a margin of two pixels.
@@ -107,10 +114,6 @@ Projection projection_of(const FrameData *frame, const Normalization *normalizat
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
                       Error *error);
 void projection_end(Projection *projection);
-
-// Computes the box around a triangle, seen from either side. Returns false if a corner is beyond a
-// clipping plane.
-bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box);
 
 // Computes the clipped outline of a triangle. Returns false if the triangle is outside, seen
 // edge-on, or one-sided and seen from behind.

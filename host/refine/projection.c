@@ -86,12 +86,6 @@ void projection_end(Projection *projection)
     projection->points = NULL;
 }
 
-static float smallest(float a, float b, float c)
-{
-    const float smaller = a < b ? a : b;
-    return smaller < c ? smaller : c;
-}
-
 typedef struct {
     uint32_t count;
     Vec3 corners[OUTLINE_CORNERS];
@@ -138,19 +132,6 @@ static bool cut_outline(const Projection *projection, const uint32_t vertices[3]
         outline->corners[i][1] = limited(corner->y / corner->z, projection->height);
     }
     return true;
-}
-
-bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box)
-{
-    const uint32_t *vertices = projection->object->mesh.triangles[triangle];
-    const ProjectedPoint *a = &projection->points[vertices[0]],
-                         *b = &projection->points[vertices[1]],
-                         *c = &projection->points[vertices[2]];
-    box->low[0] = smallest(a->x, b->x, c->x);
-    box->low[1] = smallest(a->y, b->y, c->y);
-    box->high[0] = -smallest(-a->x, -b->x, -c->x);
-    box->high[1] = -smallest(-a->y, -b->y, -c->y);
-    return (a->outside | b->outside | c->outside) == 0;
 }
 
 // Sets members one by one, because an initializer would clear all OUTLINE_CORNERS corners.

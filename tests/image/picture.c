@@ -86,15 +86,6 @@ static CameraData camera_of(const Pipeline *pipeline, uint32_t samples)
                        samples);
 }
 
-static bool refine(Adaptive *adaptive, const PictureRequest *request, Error *error)
-{
-    bool ok = true;
-    for (int step = 0; ok && step < 2 && request->contrasts[step] > 0; step++) {
-        ok = adaptive_refine(adaptive, request->contrasts[step], NULL, error);
-    }
-    return ok;
-}
-
 static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Framebuffer *framebuffer,
                             Error *error)
 {
@@ -103,8 +94,8 @@ static bool draw_adaptively(Pipeline *pipeline, const CameraData *camera, Frameb
     ThreadPool *pool = thread_pool_open(request->threads);
     const AdaptiveSetup setup = {&pipeline->renderer, &pipeline->flat,         camera, pool,
                                  &pipeline->scene,    &pipeline->normalization};
-    const bool ok =
-        adaptive_open(&adaptive, &setup, NULL, error) && refine(&adaptive, request, error);
+    const bool ok = adaptive_open(&adaptive, &setup, NULL, error) &&
+                    adaptive_refine(&adaptive, request->contrast, NULL, error);
     if (ok)
         adaptive_store(&adaptive, framebuffer);
     if (ok && request->sample_count != NULL)
@@ -134,7 +125,7 @@ static bool draw_for_goal(Pipeline *pipeline, const CameraData *camera, Framebuf
 
 static KernelEntry entry_of(const PictureRequest *request)
 {
-    if (request->contrasts[0] > 0)
+    if (request->contrast > 0)
         return KERNEL_SAMPLES;
     return request->error_goal > 0 ? KERNEL_LADDER : KERNEL_TILE;
 }

@@ -18,7 +18,7 @@ static PictureRequest square(const char *scene, uint32_t side)
 
 static PictureRequest adaptive(PictureRequest request, float contrast)
 {
-    request.contrasts[0] = contrast;
+    request.contrast = contrast;
     return request;
 }
 
@@ -33,26 +33,6 @@ TEST(every_form_threads_and_tree_refine_the_same)
         PictureRequest usual = adaptive(square(scenes[scene], 97), 0.02f);
         usual.height = 61;
         rendered_expect_same_in_every_form(&usual);
-    }
-}
-
-// The second step knows more samples around a cell, but it reuses all existing samples.
-TEST(refining_in_steps_takes_as_many_samples_as_at_once)
-{
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        uint64_t samples[2];
-        PictureRequest once = adaptive(square(scenes[scene], 120), 0.01f);
-        PictureRequest steps = once;
-        steps.contrasts[0] = 0.1f;
-        steps.contrasts[1] = 0.01f;
-        once.sample_count = &samples[0];
-        steps.sample_count = &samples[1];
-        FREED_BY(framebuffer_free) Framebuffer first = rendered(&once), second = rendered(&steps);
-        if (100 * samples[1] > 103 * samples[0] || 103 * samples[1] < 100 * samples[0])
-            fail_msg("%llu samples instead of %llu", (unsigned long long)samples[1],
-                     (unsigned long long)samples[0]);
-        assert_true(rendered_error(&first, &second) < 0.0005);
-        framebuffer_free(&second);
     }
 }
 
@@ -142,24 +122,4 @@ TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
     assert_int_equal(seen, SPHERES * SPHERES);
     assert_true(fabs(sum / expected - 1) < 0.1);
     remove(path);
-}
-
-TEST(a_faint_outline_is_placed_with_two_samples_a_pixel)
-{
-    uint64_t samples;
-    char path[TEMPORARY_PATH];
-    FILE *stream = temporary_open(path); // a sphere, 80 pixels wide, of little contrast
-    fprintf(stream, "background 0 0 0\ndefine it silhouette diffuse 0.06 0.06 0.06\nmaterial it\n"
-                    "camera 0 -100 0 0 0 0 60\nsphere 0.3 0 0.7 46\n");
-    temporary_close(stream);
-    PictureRequest plain = square(path, 100), many = plain;
-    many.samples = 32;
-    PictureRequest request = adaptive(plain, 0.08f);
-    request.sample_count = &samples;
-    FREED_BY(framebuffer_free)
-    Framebuffer picture = rendered(&request), first = rendered(&plain), exact = rendered(&many);
-    const double left = rendered_error(&picture, &exact) / rendered_error(&first, &exact);
-    if (samples < 10100 || samples > 11300 || left > 0.45)
-        fail_msg("%llu samples leave %g of the error", (unsigned long long)samples, left);
-    remove(request.scene_path);
 }

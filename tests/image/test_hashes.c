@@ -61,7 +61,7 @@ static void picture_hash(const Record *record, char hash[FRAMEBUFFER_HASH_SIZE])
     request.extra_options = getenv("CLRT_TEST_OPTIONS");
     request.threads = 2;
     if (is_refined) {
-        request.contrasts[0] = settings[record->number].contrast;
+        request.contrast = settings[record->number].contrast;
         request.error_goal = settings[record->number].error;
     }
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);

@@ -75,7 +75,7 @@ TEST(after_a_refused_launch_the_one_before_it_is_awaited)
 {
     PictureRequest request = picture_request(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", 1);
     request.width = request.height = 1024;
-    request.contrasts[0] = 0.1f;
+    request.contrast = 0.1f;
     FREED_BY(framebuffer_free) Framebuffer picture;
     Error error = {0};
     assert_false(picture_render(&picture, &request, &error));

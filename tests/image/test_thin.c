@@ -59,7 +59,7 @@ static PictureRequest request_of(Drawing *drawing, double light)
     temporary_close(stream);
     PictureRequest request = picture_request(drawing->scene, 1);
     request.width = request.height = SIDE;
-    request.contrasts[0] = 0.04f;
+    request.contrast = 0.04f;
     return request;
 }
 

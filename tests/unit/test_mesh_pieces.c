@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests that pieces of meshes are correct for any number of threads.
+// Tests the pieces of meshes.
 #include "refine/thin_parts.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -14,11 +14,11 @@ static Mesh mesh_of(uint32_t vertices, uint32_t triangles)
     return mesh;
 }
 
-static MeshPieces pieces_of(const Mesh *mesh, ThreadPool *pool)
+static MeshPieces pieces_of(const Mesh *mesh)
 {
     Error error;
     MeshPieces pieces;
-    assert_true(mesh_pieces_make(&pieces, mesh, pool, &error));
+    assert_true(mesh_pieces_make(&pieces, mesh, &error));
     return pieces;
 }
 
@@ -34,7 +34,7 @@ TEST(a_mesh_of_one_piece_keeps_its_order)
 {
     Mesh mesh = mesh_of(1002, 1000);
     fill_band(&mesh, 0, 1000, 0);
-    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh);
     assert_int_equal(pieces.count, 1);
     assert_int_equal(pieces.ends[0], 1000);
     assert_null(pieces.order);
@@ -77,7 +77,7 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 }
 
 #define VERTICES  40000
-#define TRIANGLES 80000 // so many that the triangles of a range are one piece
+#define TRIANGLES 80000
 
 // Random triangles. The vertices of each triangle are in one range of a thousand.
 TEST(pieces_are_what_shared_vertices_join)
@@ -91,12 +91,8 @@ TEST(pieces_are_what_shared_vertices_join)
     }
     static uint32_t lowest[VERTICES];
     find_lowest(&mesh, lowest);
-    for (uint32_t threads = 1; threads <= 4; threads++) {
-        ThreadPool *pool = thread_pool_open(threads);
-        FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, pool);
-        expect_pieces(&mesh, &pieces, lowest);
-        thread_pool_close(pool);
-    }
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh);
+    expect_pieces(&mesh, &pieces, lowest);
     free(mesh.triangles);
 }
 
@@ -107,7 +103,7 @@ TEST(small_pieces_are_one_before_the_larger)
     fill_band(&mesh, 0, band, 0);
     for (uint32_t i = 0; i < small; i++)
         fill_band(&mesh, band + i, band + i + 1, band + 2 + 3 * i);
-    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh);
     assert_int_equal(pieces.count, 2);
     assert_int_equal(pieces.ends[0], small);
     assert_int_equal(pieces.order[0], band);
@@ -118,6 +114,6 @@ TEST(small_pieces_are_one_before_the_larger)
 TEST(no_triangles_are_no_pieces)
 {
     const Mesh mesh = {0};
-    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh, NULL);
+    FREED_BY(mesh_pieces_free) MeshPieces pieces = pieces_of(&mesh);
     assert_int_equal(pieces.count, 0);
 }

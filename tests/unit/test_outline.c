@@ -7,7 +7,7 @@
 #define TRIALS 3000
 #define GRID   12
 
-static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}};
+static const CellGrid grid = {27, 1.0 / 27, {GRID, GRID + 1}, {0, 0}};
 
 // Returns a random triangle. Some triangles extend beyond the grid, and some are slivers.
 static Outline random_triangle(uint64_t *state)

@@ -39,7 +39,6 @@ static double sum_of_line(const Seam *seam, const SampleData cells[GROUP_CELLS])
 static Seam first_seam(const SampleData cells[GROUP_CELLS])
 {
     return (Seam){.stride = 1,
-                  .cells = GROUP_SIDE,
                   .side = SIDE,
                   .from = SIDE / 2,
                   .to = SIDE / 2 + SIDE,
@@ -113,26 +112,4 @@ TEST(a_third_surface_between_two_makes_a_seam_on_either_side)
     const double both = sum_of_line(&seam, cells) + sum_of_line(&rest, cells);
     const double expected = 2 * (0.25 + 0.75 + 0.75) + (7 * 0.75 + 7 * 0.25) / SIDE;
     assert_true(both - expected < 0.02 && both - expected > -0.02);
-}
-
-TEST(a_slope_is_no_step_and_a_crease_on_one_surface_is)
-{
-    const SampleData slope[] = {seen(0.1f, 1), seen(0.2f, 1), seen(0.3f, 1), seen(0.4f, 1),
-                                seen(0.5f, 1)};
-    const SampleData crease[] = {seen(0.1f, 1), seen(0.1f, 1), seen(0.12f, 1), seen(0.4f, 1),
-                                 seen(0.42f, 1)};
-    const SampleData *const line[] = {&slope[0], &slope[1], &slope[2], &slope[3], &slope[4]};
-    const SampleData *const bent[] = {&crease[0], &crease[1], &crease[2], &crease[3], &crease[4]};
-    for (uint32_t gap = 0; gap < LINE_GAPS; gap++) {
-        assert_false(seam_steps(line, gap));
-        assert_int_equal(seam_steps(bent, gap), gap == 2);
-    }
-}
-
-TEST(another_surface_is_a_step_whatever_its_color)
-{
-    const SampleData one = seen(0.1f, 1), other = seen(0.1f, 2);
-    const SampleData *const line[] = {&one, &one, &one, &one, &other};
-    assert_false(seam_steps(line, 2));
-    assert_true(seam_steps(line, 3));
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Decides which cells are subdivided: cells whose color differs from a neighbor's, and cells with
+// thin parts.
+#pragma once
+
+#include "base/thread_pool.h"
+#include "refine/thin_parts.h"
+
+// A cell's contrast is its largest color difference from a neighbor, weighted and multiplied by the
+// cell's fraction of the pixel.
+typedef struct {
+    const ThinParts *thin_parts;
+    float threshold; // cells with more contrast are subdivided
+} CutRule;
+
+// Subdivides pixels. Pixels are visited block by block, so that consecutive samples are near each
+// other.
+bool contrast_cut_pixels(RefineTree *tree, const CutRule *rule, ThreadPool *pool, Error *error);
+
+// Subdivides cells of the groups from first on, and larger cells beside these groups.
+bool contrast_cut_groups(RefineTree *tree, const CutRule *rule, uint32_t first, ThreadPool *pool,
+                         Error *error);

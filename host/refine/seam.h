@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A seam is the place where a line of samples crosses from one surface to another. Bisection
+// locates it with one sample per bit; subdividing cells takes eight samples for 1.6 bits.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
+
+// A line crosses the three cells of a row or a column of a group. Positions along the line are in
+// cells of the last level.
+typedef struct {
+    SampleData ends[SEAM_ENDS]; // the samples at from and at to
+    uint32_t x, y;              // start of the line
+    uint32_t next;              // next seam of the group; 0 at the end
+    uint8_t stride;             // from cell to cell: 1 along a row, GROUP_SIDE along a column
+    uint8_t side;               // of each cell
+    uint8_t line;               // index in the group, 0 to 2
+    uint8_t from, to;           // the interval to which the seam applies
+    uint8_t low, high;          // positions of the nearest samples before and after the seam
+    uint8_t assumed;            // the end with a sample from beyond the line, or SEAM_ENDS
+    uint8_t samples;            // taken to locate the seam
+} Seam;
+
+// Returns the largest difference between two samples' color values.
+static inline float seam_difference(const SampleData *one, const SampleData *other)
+{
+    float most = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        const float difference = fabsf(one->color[channel] - other->color[channel]);
+        most = difference > most ? difference : most;
+    }
+    return most;
+}
+
+// Returns the remaining error: contrast times the uncertain fraction of the pixel.
+float seam_contrast(const Seam *seam);
+
+// Returns whether another sample would narrow the interval, and where to take it.
+bool seam_asks(const Seam *seam, uint32_t place[2]);
+
+// Updates the seam with the requested sample. Returns whether the sample sees a third surface. In
+// that case, the caller must add *rest as the next seam.
+bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
+
+// Colors in steps of 2^-32, multiplied by twice the cell's area.
+typedef uint64_t ColorSum[3];
+
+// Corrects the color sums of a group's cells. Before, the sums must assume one color per cell.
+void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
+
+static inline uint64_t seam_color_steps(float color)
+{
+    return (uint64_t)(color * 0x1p32f);
+}
