@@ -32,8 +32,8 @@ typedef struct {
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
 
-// Returns bounds over the packets whose bits are set. If several are set, returns the whole beam's
-// bounds.
+// Returns bounds over the packets whose bits are set, at least one. If several are set, returns the
+// whole beam's bounds.
 static inline const Bounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
@@ -107,7 +107,8 @@ static inline void update_packet(Beam *beam, uint number)
     beam->reach[number] = highest(lanes_of(beam->live[number]) ? hit->t : (Real)(0.0f));
 }
 
-// Tests a block against the given lanes of the given packets. Returns whether a hit changed.
+// Tests a block against the given lanes of the given packets, at least one. Returns whether a hit
+// changed.
 static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets,
                                             const uint bits[PACKETS])
 {
@@ -191,10 +192,11 @@ static inline void walk_tree(Beam *beam)
 
 static inline void test_all_blocks(Beam *beam)
 {
-    for (uint block = 0; block * WIDE < beam->tracer->frame->triangle_count; block++) {
-        const uint packets = packets_searching(beam);
-        intersect_beam_block(beam, block, packets, beam->live);
-    }
+    uint packets = packets_searching(beam);
+    for (uint block = 0; packets != 0 && block * WIDE < beam->tracer->frame->triangle_count;
+         block++)
+        if (intersect_beam_block(beam, block, packets, beam->live))
+            packets = packets_searching(beam);
 }
 
 // Sets up a beam of rays whose directions share their signs. The count and the hits must be set.
@@ -211,8 +213,8 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     beam->bounded = 0;
 }
 
-// Finds the nearest hits of the beam's rays, or any hit of each shadow ray. If `alone` is set,
-// searches ray by ray.
+// Finds the nearest hits of the beam's rays, or any hit of each shadow ray. At least one lane must
+// search. If `alone` is set, searches ray by ray.
 static NOT_INLINE void search_beam(Beam *beam, bool alone)
 {
     if (!CLRT_BVH || !beam->tracer->frame->uses_bvh)
