@@ -79,6 +79,9 @@ void async_device_decide(AsyncDevice *async, bool wanted)
     pthread_mutex_unlock(&async->mutex);
 }
 
+// A pixel's samples for an error goal, times the goal. Each counts for about four samples of --aa.
+#define ERROR_SAMPLES 0.08
+
 // Returns whether clrt may choose the kernels. Explicit requests take precedence, and statistics
 // must not depend on the cached kernels.
 static bool leaves_kernels_open(const Options *options)
@@ -92,11 +95,15 @@ static bool leaves_kernels_open(const Options *options)
 void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uint64_t triangles)
 {
     KernelChoice choice;
-    const double pixels = (double)settings->width * settings->height * async->options->repeat *
-                          frames_count(&async->options->frames);
-    const QuickKernelRun run = {pixels * settings->samples * settings->samples, triangles};
+    const Options *options = async->options;
+    const double pictures = options->repeat * (double)frames_count(&options->frames);
+    const double pixels = (double)settings->width * settings->height * pictures;
+    const double per_pixel = options->error_goal > 0
+                                 ? 1 + ERROR_SAMPLES / options->error_goal
+                                 : (double)settings->samples * settings->samples;
+    const QuickKernelRun run = {pixels * per_pixel, pictures * options->time_goal, triangles};
     async->is_quick =
-        leaves_kernels_open(async->options) && quick_kernel_choose(&async->setup, &run, &choice);
+        leaves_kernels_open(options) && quick_kernel_choose(&async->setup, &run, &choice);
     if (async->is_quick)
         take_choice(async, choice);
 }

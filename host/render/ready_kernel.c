@@ -95,6 +95,9 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
+// The part of a time limit that other kernels lose: they take half as many samples at most.
+#define LOST_OF_LIMIT 0.5
+
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 {
     RendererSetup other = *setup;
@@ -104,7 +107,8 @@ static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
 
 static double seconds_lost(const RendererSetup *setup, const QuickKernelRun *run)
 {
-    return run->samples * SAVED_PER_SAMPLE / setup->device->compute_units;
+    return run->samples * SAVED_PER_SAMPLE / setup->device->compute_units +
+           LOST_OF_LIMIT * run->seconds;
 }
 
 // Packets are compiled once a run would lose more time without them than compiling takes.

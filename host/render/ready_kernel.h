@@ -42,6 +42,7 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 // The size of a run.
 typedef struct {
     double samples; // of all pictures
+    double seconds; // that all pictures may take; 0 for no limit
     uint64_t triangles;
 } QuickKernelRun;
 

@@ -270,6 +270,12 @@ class Compiled(Work):
         self.clrt("--warm", **self.cache)
         self.draws_by("packet, wide")
 
+    def test_goals_that_would_lose_more_by_rays_get_packets(self):
+        self.draws_by("ray, pair", "--time", "0.1")
+        self.draws_by("ray, pair", "--error", "0.05")
+        self.draws_by("packet, wide", "--time", "3")
+        self.draws_by("packet, wide", "--error", "0.05")
+
 
 class Endings(Work):
     """Inputs and outputs that end early or late."""
