@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds a subtree on one thread, from a range of Bvh::order, by one of two ways to split a node.
+// Divides nodes of a tree, by one of two ways to split a node.
 #pragma once
 
 #include "accel/bvh.h"
@@ -15,17 +15,17 @@ typedef float Float4 __attribute__((vector_size(16)));
 typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
-    Float4 low, negated_high; // x, y, z; BuildItem keeps its integers in the fourth component
+    Float4 low, negated_high; // x, y, z; BuildItem keeps its number in a fourth component
 } Bounds;
 
-// The element that builders sort: a triangle, or a grid cell with several triangles (upper.h).
+// A triangle to sort.
 typedef union {
     Bounds bounds;
     struct {
         float low[3];
         uint32_t number;
         float negated_high[3];
-        uint32_t weight; // number of triangles
+        uint32_t unused;
     };
 } BuildItem;
 
@@ -118,23 +118,22 @@ static inline float item_center(const BuildItem *item, int axis)
 
 // Chooses how to split a node, with one function per builder.
 typedef struct {
-    const BuildItem *items; // items of the node
-    uint32_t count;         // number of items
-    uint32_t weight;        // number of triangles in all items
-    Bounds box;             // bounds of the items
-    Bounds centers;         // bounds of their doubled centers
-    uint32_t depth;         // depth of the node; 1 for the root
-    uint32_t total;         // triangles in the whole tree
+    const BuildItem *items; // the node's triangles
+    uint32_t count;
+    Bounds box;     // bounds of the triangles
+    Bounds centers; // bounds of their doubled centers
+    uint32_t depth; // depth of the node; 1 for the root
+    uint32_t total; // triangles in the whole tree
     BvhLeaves leaves;
 } BuildRange;
 
 typedef enum {
     SPLIT_NONE,  // the node is a leaf
-    SPLIT_PLANE, // a plane separates the items' centers
-    SPLIT_HALVES // each child gets half of the items
+    SPLIT_PLANE, // a plane separates the triangles' centers
+    SPLIT_HALVES // each child gets half of the triangles
 } SplitKind;
 
-// An item is left of the plane if (doubled center - origin) * scale < limit.
+// A triangle is left of the plane if (doubled center - origin) * scale < limit.
 typedef struct {
     SplitKind kind;
     int axis;
@@ -156,41 +155,24 @@ typedef struct {
     uint32_t node;
     uint32_t first, count; // range of its triangles in Bvh::order
     uint32_t depth;        // 1 for the root of the tree
+    uint32_t left;         // set by build_divide: triangles of the first child; 0 for a leaf
 } BuildTask;
-
-// The contribution of one subtree to the counts of Bvh. node_count excludes the subtree's root.
-typedef struct {
-    uint32_t node_count, leaf_count, largest_leaf, depth;
-} BuildCounts;
 
 typedef struct {
     Bvh *bvh;
-    const Triangles *triangles;
+    uint32_t total;      // triangles in the tree
+    BuildItem *items[2]; // the triangles of nodes at even depths, and of nodes at odd depths
     Split (*split)(const BuildRange *range);
     BvhLeaves leaves;
 } Build;
 
-// The bounds of a set of items, and the bounds of their doubled centers.
-typedef struct {
-    Bounds box, centers;
-} Measure;
+// Sorts a node's triangles into two children, or makes it a leaf.
+void build_divide(const Build *build, BuildTask *task);
 
-Measure build_measure(const BuildItem *items, uint32_t count);
+// Makes the nodes `child` and `child + 1` the children of a divided node, and stores their tasks.
+void build_set_children(const Build *build, const BuildTask *task, uint32_t child,
+                        BuildTask children[2]);
 
-// Copies each item to left or right, in their order.
-void build_move(const BuildItem *items, uint32_t count, const Split *split, BuildItem *left,
-                BuildItem *right);
-
-// Makes task's node an inner node whose children are the nodes `child` and `child + 1`. The first
-// gets `left` triangles. Stores the tasks of both in children.
-void build_inner(const Build *build, const BuildTask *task, uint32_t left, uint32_t child,
-                 BuildTask children[2]);
-
-// Sets an inner node's leaf_count to the sum of its children's. Does not change a leaf.
-void build_count_leaves(Bvh *bvh, uint32_t number);
-
-// Builds the subtree below root and adds to counts. items is a buffer for twice root's triangles.
-// Nodes below root use indices from 2 * first + 1 to 2 * (first + count) - 2, with first and count
-// of root. No other subtree uses these indices.
-void build_subtree(const Build *build, const BuildTask *root, BuildItem *items,
-                   BuildCounts *counts);
+// Builds the subtree below root. Nodes below root use indices from 2 * first + 1 to
+// 2 * (first + count) - 2, with first and count of root. No other subtree uses these indices.
+void build_subtree(const Build *build, const BuildTask *root);

@@ -32,18 +32,14 @@ typedef struct {
 } BvhNode;
 
 typedef struct {
-    BvhNode *nodes;                  // the first is the root; some entries are unused
-    uint32_t *order;                 // triangle indices, leaf by leaf
-    uint32_t *upper;                 // indices of the inner nodes that upper.h made, ascending
-    uint32_t node_count, leaf_count; // nodes in use; leaves among them
-    uint32_t upper_count;
-    uint32_t largest_leaf, depth; // in triangles; in levels, at most BVH_MAX_DEPTH
+    BvhNode *nodes;                       // the first is the root; some entries are unused
+    uint32_t *order;                      // triangle indices, leaf by leaf
+    uint32_t node_count, leaf_count;      // nodes in use; leaves among them
+    uint32_t largest_leaf, depth;         // in triangles; in levels, at most BVH_MAX_DEPTH
+    uint32_t inner_counts[BVH_MAX_DEPTH]; // inner nodes at every depth, the root's first
 } Bvh;
 
 // Builds the tree. It has no nodes if there are no triangles.
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, ThreadPool *pool,
                Error *error);
 void bvh_free(Bvh *bvh);
-
-// Counts the inner nodes at every depth. counts[0] is the root's level.
-void bvh_count_levels(const Bvh *bvh, uint32_t counts[BVH_MAX_DEPTH]);

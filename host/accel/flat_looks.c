@@ -22,73 +22,44 @@ static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
 static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
 {
     const Vec3 normal = vec3_of_floats(mesh->normals[triangle[corner]]);
-    return vec3_extent(normal) > 0 ? normal : face_normal(mesh, triangle);
+    return vec3_dot(normal, normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
-// Returns -1 if sorting the corners swapped front and back, otherwise 1.
-static int sign_of(const CornerOrder *order)
+// fmax would be a function call.
+static double larger(double a, double b)
 {
-    return order->reversed ? -1 : 1;
+    return a > b ? a : b;
+}
+
+// Returns 2^-floor(log2(value)) for a positive value that is a normal number, faster than ilogb and
+// scalbn.
+static double inverse_power(double value)
+{
+    uint64_t bits;
+    double power;
+    memcpy(&bits, &value, sizeof bits);
+    bits = (2046 - (bits >> 52)) << 52;
+    memcpy(&power, &bits, sizeof power);
+    return power;
 }
 
 // Stores a triangle's normals, scaled by one power of two that keeps their squares in range. The
 // ratios of their lengths stay unchanged, because they are interpolation weights.
-static void scale_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
+static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {
     Vec3 normals[3];
     double extent = 0;
     for (int corner = 0; corner < 3; corner++) {
         normals[corner] = corner_normal(mesh, triangle, order->places[corner]);
-        extent = fmax(extent, vec3_extent(normals[corner]));
+        extent = larger(extent, larger(fabs(normals[corner].x),
+                                       larger(fabs(normals[corner].y), fabs(normals[corner].z))));
     }
-    const double scale = sign_of(order) * (extent > 0 ? scalbn(1, -ilogb(extent)) : 1);
+    const double scale = (order->reversed ? -1 : 1) * (extent > 0 ? inverse_power(extent) : 1);
     for (int corner = 0; corner < 3; corner++) {
         vec3_store(data->normals[corner], vec3_scale(normals[corner], scale));
         data->normals[corner][3] = 0;
     }
-}
-
-static float extent_of(const float *normal)
-{
-    const float x = fabsf(normal[0]), y = fabsf(normal[1]), z = fabsf(normal[2]);
-    const float xy = x > y ? x : y;
-    return xy > z ? xy : z;
-}
-
-// Returns 2^-floor(log2(value)) for a positive value. The result must be a normal number.
-static float inverse_power(float value)
-{
-    uint32_t bits;
-    float power;
-    memcpy(&bits, &value, sizeof bits);
-    bits = (254 - (bits >> 23)) << 23;
-    memcpy(&power, &bits, sizeof power);
-    return power;
-}
-
-// Computes the same bits as scale_normals, but in float. Returns false, without a result, if a
-// normal is missing or its size is extreme.
-static bool scale_usual_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
-                                const CornerOrder *order)
-{
-    const float *normals[3];
-    float smallest = INFINITY, largest = 0;
-    for (int corner = 0; corner < 3; corner++) {
-        normals[corner] = mesh->normals[triangle[order->places[corner]]];
-        const float extent = extent_of(normals[corner]);
-        smallest = extent < smallest ? extent : smallest;
-        largest = extent > largest ? extent : largest;
-    }
-    if (!(smallest > 0x1p-100f && largest < 0x1p100f))
-        return false;
-    const float scale = (float)sign_of(order) * inverse_power(largest);
-    for (int corner = 0; corner < 3; corner++) {
-        for (int axis = 0; axis < 3; axis++)
-            data->normals[corner][axis] = normals[corner][axis] * scale;
-        data->normals[corner][3] = 0;
-    }
-    return true;
 }
 
 static void make_chunk(void *context, uint32_t first, uint32_t end)
@@ -103,8 +74,8 @@ static void make_chunk(void *context, uint32_t first, uint32_t end)
         const CornerOrder *order = &corner_orders[looks->orders[i]];
         looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
         looks->looks[i].normals = smooth ? looks->first_normals + i : NOTHING;
-        if (smooth && !scale_usual_normals(&looks->normals[i], mesh, triangle, order))
-            scale_normals(&looks->normals[i], mesh, triangle, order);
+        if (smooth)
+            store_normals(&looks->normals[i], mesh, triangle, order);
     }
 }
 

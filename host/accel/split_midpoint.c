@@ -33,20 +33,20 @@ static bool makes_progress(const BuildRange *range, Split *split)
 {
     const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);
     Bounds sides[2] = {bounds_empty(), bounds_empty()};
-    uint32_t weights[2] = {0};
+    uint32_t counts[2] = {0};
     for (uint32_t i = 0; i < range->count; i++) {
         const bool left = split_is_left(split, &range->items[i]);
         bounds_unite(&sides[left], &range->items[i].bounds);
-        weights[left] += range->items[i].weight;
+        counts[left]++;
     }
-    split->left = weights[1];
-    return weights[0] > 0 && weights[1] > 0 && bounds_extent(&sides[0], split->axis) <= largest &&
+    split->left = counts[1];
+    return counts[0] > 0 && counts[1] > 0 && bounds_extent(&sides[0], split->axis) <= largest &&
            bounds_extent(&sides[1], split->axis) <= largest;
 }
 
 Split split_midpoint(const BuildRange *range)
 {
-    if (range->weight <= LEAF_TRIANGLES || range->depth >= deepest_level(range->total))
+    if (range->count <= LEAF_TRIANGLES || range->depth >= deepest_level(range->total))
         return (Split){.kind = SPLIT_NONE};
     int axes[3];
     axes_by_extent(&range->box, axes);

@@ -10,9 +10,6 @@
 #define FEW_ITEMS 32
 #define FEW_BINS  8
 
-// Nodes with at least this many items fill two sets of bins.
-#define MANY_ITEMS 128
-
 // The most triangles in a leaf.
 #define LARGEST_LEAF 8
 
@@ -30,7 +27,7 @@ static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS]
 // Each bin holds all three axes, so that vector operations price three planes at once.
 typedef struct {
     Bounds bounds[BINS][3];
-    Uint4 weights[BINS];
+    Uint4 counts[BINS];
 } Bins;
 
 // An item's bin is floor((doubled center - origin) * scale). On an axis without extent, scale is 0.
@@ -46,10 +43,10 @@ typedef struct {
     float price;
 } Plane;
 
-// Returns the number of leaf tests for each weight.
-static Float4 units_of(const Costs *costs, Uint4 weights)
+// Returns the number of leaf tests for each count.
+static Float4 units_of(const Costs *costs, Uint4 counts)
 {
-    const Uint4 units = (weights + (costs->unit - 1)) >> costs->unit_bits;
+    const Uint4 units = (counts + (costs->unit - 1)) >> costs->unit_bits;
     return __builtin_convertvector(units, Float4);
 }
 
@@ -70,7 +67,7 @@ static void clear_bins(Bins *bins, int count)
     for (int bin = 0; bin < count; bin++) {
         for (int axis = 0; axis < 3; axis++)
             bins->bounds[bin][axis] = bounds_empty();
-        bins->weights[bin] = (Uint4){0};
+        bins->counts[bin] = (Uint4){0};
     }
 }
 
@@ -81,37 +78,13 @@ static void fill_item(Bins *bins, const BuildItem *item, const Binning *binning)
     for (int axis = 0; axis < 3; axis++) {
         const int bin = (int)place[axis];
         bounds_unite(&bins->bounds[bin][axis], &bounds);
-        bins->weights[bin][axis] += item->weight;
-    }
-}
-
-// Neighboring items often fall into one bin, where each update waits for the previous one.
-// Therefore the two halves of the items fill two sets of bins, which are then united.
-static void fill_bins_twice(Bins *bins, const BuildRange *range, const Binning *binning)
-{
-    Bins second;
-    const uint32_t half = range->count / 2;
-    clear_bins(&second, binning->bins);
-    for (uint32_t i = 0; i < half; i++) {
-        fill_item(bins, &range->items[i], binning);
-        fill_item(&second, &range->items[half + i], binning);
-    }
-    if (range->count % 2 > 0)
-        fill_item(bins, &range->items[range->count - 1], binning);
-    for (int bin = 0; bin < binning->bins; bin++) {
-        for (int axis = 0; axis < 3; axis++)
-            bounds_unite(&bins->bounds[bin][axis], &second.bounds[bin][axis]);
-        bins->weights[bin] += second.weights[bin];
+        bins->counts[bin][axis]++;
     }
 }
 
 static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binning)
 {
     clear_bins(bins, binning->bins);
-    if (range->count >= MANY_ITEMS) {
-        fill_bins_twice(bins, range, binning);
-        return;
-    }
     for (uint32_t i = 0; i < range->count; i++)
         fill_item(bins, &range->items[i], binning);
 }
@@ -119,7 +92,7 @@ static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binnin
 // The bounds and triangle counts on one side of three planes, one plane per axis.
 typedef struct {
     Bounds bounds[3];
-    Uint4 weights;
+    Uint4 counts;
 } Sides;
 
 static Sides sides_empty(void)
@@ -131,14 +104,14 @@ static void sides_add(Sides *sides, const Bins *bins, int bin)
 {
     for (int axis = 0; axis < 3; axis++)
         bounds_unite(&sides->bounds[axis], &bins->bounds[bin][axis]);
-    sides->weights += bins->weights[bin];
+    sides->counts += bins->counts[bin];
 }
 
 // Returns the price of a side for each axis: half the surface area times the number of tests. An
 // empty side's price is NaN.
 static Float4 sides_price(const Sides *sides, const Costs *costs)
 {
-    return bounds_half_areas(sides->bounds) * units_of(costs, sides->weights);
+    return bounds_half_areas(sides->bounds) * units_of(costs, sides->counts);
 }
 
 // Returns the cheapest plane. Sweeps once from the right to price the right sides, and once from
@@ -160,7 +133,7 @@ static Plane cheapest_plane(const Bins *bins, int count, const Costs *costs)
         const Uint4 less = (Uint4)(prices < best);
         best = (Float4)((less & (Uint4)prices) | (~less & (Uint4)best));
         best_bins = (less & (uint32_t)bin) | (~less & best_bins);
-        best_left = (less & sides.weights) | (~less & best_left);
+        best_left = (less & sides.counts) | (~less & best_left);
     }
     Plane plane = {-1, 0, 0, INFINITY};
     for (int axis = 0; axis < 3; axis++)
@@ -173,7 +146,7 @@ Split split_sah(const BuildRange *range)
 {
     const Costs *costs = &costs_of[range->leaves];
     // One test covers all these triangles, so a split cannot be cheaper.
-    if (range->weight <= costs->unit)
+    if (range->count <= costs->unit)
         return (Split){.kind = SPLIT_NONE};
     Plane best = {-1, 0, 0, INFINITY};
     const Binning binning = binning_of(&range->centers, range->count);
@@ -183,11 +156,11 @@ Split split_sah(const BuildRange *range)
         best = cheapest_plane(&bins, binning.bins, costs);
     }
     const float area = bounds_half_area(&range->box);
-    const float units = units_of(costs, (Uint4){range->weight})[0];
+    const float units = units_of(costs, (Uint4){range->count})[0];
     const bool pays = best.price + costs->node * area < units * area;
-    if (best.axis >= 0 && (pays || range->weight > LARGEST_LEAF))
+    if (best.axis >= 0 && (pays || range->count > LARGEST_LEAF))
         return (Split){
             SPLIT_PLANE,     best.axis, binning.origin[best.axis], binning.scale[best.axis],
             (float)best.bin, best.left};
-    return (Split){.kind = range->weight > LARGEST_LEAF ? SPLIT_HALVES : SPLIT_NONE};
+    return (Split){.kind = range->count > LARGEST_LEAF ? SPLIT_HALVES : SPLIT_NONE};
 }
