@@ -259,7 +259,6 @@ static ExitCode check_files(Picture *picture, Error *error)
 static ExitCode prepare(Run *run, Error *error)
 {
     picture_warn_of_goal(run->options);
-    image_prepare(run->options->format);
     const ExitCode started = run_start(run, error);
     if (started != EXIT_DONE)
         return started;

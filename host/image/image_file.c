@@ -74,12 +74,6 @@ double image_format_half_step(const char *format, Encoding encoding)
     return find_format(format)->is_float ? 0x1p-25 : 1 / (510 * steepest);
 }
 
-void image_prepare(const char *format)
-{
-    if (find_format(format)->module != NULL)
-        image_process_start();
-}
-
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error)
 {
     const char *module = find_format(format)->module;
@@ -92,13 +86,13 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {
-    unsigned char *bytes = NULL;
-    if (!format->is_float) {
-        bytes = encode_bytes(framebuffer, settings, cause);
-        if (bytes == NULL)
-            return false;
-    }
-    ImageModulePicture picture = {
+    char message[512] = "";
+    ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, cause);
+    unsigned char *bytes =
+        format->is_float || write == NULL ? NULL : encode_bytes(framebuffer, settings, cause);
+    if (write == NULL || (bytes == NULL && !format->is_float))
+        return false;
+    const ImageModulePicture picture = {
         .path = path,
         .format = format->module,
         .pixels = format->is_float ? (const void *)framebuffer->pixels : bytes,
@@ -109,7 +103,7 @@ static bool write_by_module(const Framebuffer *framebuffer, const char *path, co
         .texts = (const char *const *)settings->texts,
         .text_count = settings->text_count,
     };
-    const bool ok = image_process_write(&picture, cause);
+    const bool ok = write(&picture, message, sizeof message) || error_set(cause, "%s", message);
     free(bytes);
     return ok;
 }

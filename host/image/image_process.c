@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: MIT
-// The parent sends a request with strings and pixels over a socket pair, and the child answers. The
-// parent writes pictures above LARGEST_SENT itself, to avoid a second copy.
+// A child process with limited resources reads the file and sends a header and the values, or a
+// header with a message. The parent validates the header like a file.
 #include "image/image_process.h"
 
-#include "base/array.h"
 #include "base/child_process.h"
 
 #include <dlfcn.h>
-#include <signal.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#define LARGEST_SENT ((size_t)64 << 20)
+#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes beyond the memory already mapped
+#define TIME_LIMIT   120                // seconds of processor and of wall time
 
-// In the socket, zero-terminated strings and the pixels follow the request.
-typedef struct {
-    ImageModulePicture picture; // whose pointers are the parent's
-    size_t string_size;
-} Request;
-
+// The values follow if ok.
 typedef struct {
     int ok;
     char message[512];
-} Answer;
+    ImageModuleContent content; // whose pointers are the child's
+} Head;
 
-static ChildProcess writer;
+_Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
+                   STORED_NAME_SIZE == IMAGE_MODULE_NAME_SIZE &&
+                   STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
+               "names and texts are copied whole");
 
 ModuleFunction *open_module(const char *name, Error *cause)
 {
@@ -44,104 +42,94 @@ ModuleFunction *open_module(const char *name, Error *cause)
     return function;
 }
 
-static size_t pixel_size(const ImageModulePicture *picture)
+static void live_within_limits(void)
 {
-    return (size_t)picture->width * (size_t)picture->height * 3 *
-           (picture->is_float ? sizeof(float) : 1);
+    confine_process(TIME_LIMIT);
+    confine_resource(RLIMIT_AS, confine_mapped_memory() + MEMORY_LIMIT);
+    dup2(STDOUT_FILENO, STDERR_FILENO); // decoders print warnings
 }
 
-// Returns a string of a request: path, format, or one of 2 * text_count texts.
-static const char *string_at(const ImageModulePicture *picture, size_t place)
-{
-    return place == 0 ? picture->path : place == 1 ? picture->format : picture->texts[place - 2];
-}
+typedef struct {
+    const char *path, *format;
+} ReadRequest;
 
-static bool send_request(const ImageModulePicture *picture)
-{
-    Request request = {.picture = *picture};
-    const size_t count = 2 + 2 * picture->text_count;
-    for (size_t i = 0; i < count; i++)
-        request.string_size += strlen(string_at(picture, i)) + 1;
-    bool ok = child_send(writer.socket, &request, sizeof request);
-    for (size_t i = 0; ok && i < count; i++)
-        ok = child_send(writer.socket, string_at(picture, i), strlen(string_at(picture, i)) + 1);
-    return ok && child_send(writer.socket, picture->pixels, pixel_size(picture));
-}
-
-// Points the picture's members into strings. texts must have 2 * text_count entries.
-static void place_strings(ImageModulePicture *picture, const char *strings, const char **texts)
-{
-    picture->path = strings;
-    picture->format = picture->path + strlen(picture->path) + 1;
-    const char *next = picture->format + strlen(picture->format) + 1;
-    for (size_t i = 0; i < 2 * picture->text_count; i++) {
-        texts[i] = next;
-        next += strlen(next) + 1;
-    }
-    picture->texts = texts;
-}
-
-static bool answer_request(int socket, const Request *request, ImageModuleWrite *write,
-                           const Error *failure)
-{
-    Error error = {0};
-    Answer answer = {0};
-    ImageModulePicture picture = request->picture;
-    char *strings = memory_raw(request->string_size, 1, &error);
-    void *pixels = memory_raw(pixel_size(&picture), 1, &error);
-    const char **texts = memory_raw(2 * picture.text_count, sizeof *texts, &error);
-    bool ok = strings != NULL && pixels != NULL && texts != NULL &&
-              child_receive(socket, strings, request->string_size) &&
-              child_receive(socket, pixels, pixel_size(&picture));
-    if (ok) {
-        place_strings(&picture, strings, texts);
-        picture.pixels = pixels;
-        snprintf(answer.message, sizeof answer.message, "%.500s", failure->text);
-        answer.ok = write != NULL && write(&picture, answer.message, sizeof answer.message);
-        ok = child_send(socket, &answer, sizeof answer);
-    }
-    free(strings);
-    free(pixels);
-    free(texts);
-    return ok;
-}
-
-// Serves requests until the parent ends.
 static void serve(int socket, const void *context)
 {
+    const ReadRequest *request = context;
     Error failure = {0};
-    Request request;
-    (void)context;
-    // Only the parent handles these signals. It may still send its picture afterwards.
-    signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN);
-    ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, &failure);
-    while (child_receive(socket, &request, sizeof request) &&
-           answer_request(socket, &request, write, &failure))
-        continue;
+    Head head = {.content = {.values_max = STORED_VALUES_MAX, .text_names = stored_text_names}};
+    const ImageModuleContent *content = &head.content;
+    live_within_limits();
+    ImageModuleRead *read = (ImageModuleRead *)open_module(IMAGE_MODULE_READ, &failure);
+    snprintf(head.message, sizeof head.message, "%.500s", failure.text);
+    head.ok = read != NULL && read(request->path, request->format, &head.content, head.message,
+                                   sizeof head.message);
+    if (child_send(socket, &head, sizeof head) && head.ok)
+        child_send(socket, content->values,
+                   (size_t)content->width * content->height * content->channel_count *
+                       (content->is_8_bit ? 1 : sizeof(float)));
 }
 
-void image_process_start(void)
+// Messages may quote a hostile file, so control characters become spaces.
+static bool take_message(const Head *head, Error *cause)
 {
-    Error ignored = {0};
-    if (writer.id == 0)
-        child_fork(&writer, serve, NULL, &ignored);
+    char message[sizeof head->message];
+    snprintf(message, sizeof message, "%.*s", (int)sizeof message - 1, head->message);
+    for (char *c = message; *c != '\0'; c++)
+        if (*c < ' ' || *c == 127)
+            *c = ' ';
+    return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-static bool write_here(const ImageModulePicture *picture, Error *cause)
+// Checks every field before use.
+static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
-    char message[512] = "";
-    ImageModuleWrite *write = (ImageModuleWrite *)open_module(IMAGE_MODULE_WRITE, cause);
-    return write != NULL &&
-           (write(picture, message, sizeof message) || error_set(cause, "%s", message));
+    const ImageModuleContent *content = &head->content;
+    if (!head->ok)
+        return take_message(head, cause);
+    if (!stored_image_check_size(content->width, content->height, content->channel_count, cause))
+        return false;
+    *image = (StoredImage){.width = content->width,
+                           .height = content->height,
+                           .channel_count = content->channel_count};
+    memcpy(image->names, content->names, sizeof image->names);
+    memcpy(image->texts, content->texts, sizeof image->texts);
+    for (uint32_t i = 0; i < STORED_CHANNELS_MAX; i++)
+        image->names[i][STORED_NAME_SIZE - 1] = '\0';
+    for (int i = 0; i < STORED_TEXTS; i++)
+        image->texts[i][STORED_TEXT_SIZE - 1] = '\0';
+    return stored_image_allocate(image, cause);
 }
 
-bool image_process_write(const ImageModulePicture *picture, Error *cause)
+static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *cause)
 {
-    Answer answer;
-    if (writer.id == 0 || pixel_size(picture) > LARGEST_SENT)
-        return write_here(picture, cause);
-    if (!send_request(picture) || !child_receive(writer.socket, &answer, sizeof answer))
-        return error_set(cause, "the process that writes pictures has ended");
-    return answer.ok || error_set(cause, "%s", answer.message);
+    const size_t count = (size_t)image->width * image->height * image->channel_count;
+    const size_t size = count * (is_8_bit ? 1 : sizeof(float));
+    // Bytes fill the end of the array, so that none is overwritten before it is converted.
+    unsigned char *bytes = (unsigned char *)(image->values + count) - size;
+    if (!child_receive(socket, bytes, size))
+        return error_set(cause, "reading it ended the process that did");
+    if (is_8_bit)
+        stored_image_values(bytes, count, image->values);
+    return true;
+}
+
+static bool receive_image(StoredImage *image, int socket, Error *cause)
+{
+    Head head;
+    if (!child_receive(socket, &head, sizeof head))
+        return error_set(cause, "reading it ended the process that did");
+    return take_head(image, &head, cause) &&
+           take_values(image, socket, head.content.is_8_bit != 0, cause);
+}
+
+bool image_process_read(StoredImage *image, const char *path, const char *format, Error *cause)
+{
+    const ReadRequest request = {path, format};
+    ChildProcess child;
+    if (!child_fork(&child, serve, &request, cause))
+        return false;
+    const bool ok = receive_image(image, child.socket, cause);
+    child_end(&child);
+    return ok;
 }

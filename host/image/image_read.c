@@ -57,7 +57,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     const char *format = module_format(start, length);
     if (format == NULL)
         return error_set(cause, "it is no %s", READABLE);
-    return image_reader_run(image, path, format, cause);
+    return image_process_read(image, path, format, cause);
 }
 
 // Rejects pipes, because they may never end and cannot be rewound after the signature is read.
