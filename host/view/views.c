@@ -23,10 +23,10 @@ void views_close(Views *views)
 {
     text_view_close(&views->text);
     ray_view_close(&views->rays);
-    line_view_close(&views->normals);
-    line_view_close(&views->boxes);
+    drawing_close(&views->normals.drawing);
+    drawing_close(&views->boxes.drawing);
     sphere_view_close(&views->spheres);
-    triangle_view_close(&views->triangles);
+    drawing_close(&views->triangles);
     target_close(&views->target);
     *views = (Views){0};
 }

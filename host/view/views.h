@@ -8,7 +8,7 @@
 
 typedef struct {
     Target target;
-    TriangleView triangles;
+    Drawing triangles;
     SphereView spheres;
     LineView boxes, normals;
     RayView rays;

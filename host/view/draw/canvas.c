@@ -118,7 +118,7 @@ void canvas_encode_again(Canvas *canvas, double gain)
     const size_t count = layer == NULL ? 0 : (size_t)layer->settings.width * layer->settings.height;
     if (count > 0) {
         encode_row(canvas, layer, 0, count, gain);
-        layer->revision++;
+        layer->pass = ++canvas->passes;
     }
     pthread_mutex_unlock(&canvas->mutex);
 }

@@ -12,11 +12,10 @@
 typedef struct {
     Framebuffer framebuffer; // only for the tracing thread until the layer is complete
     unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
-    uint64_t pass;           // number of the pass that fills the layer, ascending; 0: empty
+    uint64_t pass;           // number of the bytes' contents, ascending; 0: empty
     RenderSettings settings; // size and tiles of this pass
     uint64_t tiles_done;
-    uint64_t revision; // number of times that the bytes were encoded again
-    bool is_hidden;    // not displayed before it is complete
+    bool is_hidden; // not displayed before it is complete
     bool is_whole;
 } Layer;
 
@@ -24,7 +23,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // number of passes begun
+    uint64_t passes; // number of contents so far
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;
@@ -42,7 +41,8 @@ void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double 
 // Marks the layer complete, which makes it the latest picture, or empty.
 void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 
-// Encodes the latest complete picture again, with colors multiplied by gain.
+// Encodes the latest complete picture again, with colors multiplied by gain. No other picture may be
+// in progress.
 void canvas_encode_again(Canvas *canvas, double gain);
 
 // Return the latest complete picture, and the picture in progress that is displayed above it. Both

@@ -22,27 +22,50 @@
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// Compiles and links a program. attributes ends with NULL, and its names get the locations 0, 1 and
-// so on. On failure, returns 0, and error receives the driver's message.
-GLuint shader_build(const char *text, const char *const *attributes, Error *error);
+// An attribute of a shader. Those of buffer 0 are of a vertex, those of buffer 1 of an instance.
+typedef struct {
+    const char *name;
+    int buffer;
+    GLint floats; // their number
+    size_t offset;
+} Attribute;
+
+#define ATTRIBUTES_MOST 5
+
+typedef struct {
+    const char *shader;
+    size_t sizes[2];                       // of an element of each buffer in bytes
+    Attribute attributes[ATTRIBUTES_MOST]; // the first have names
+} DrawingLayout;
+
+// A program and the buffers that it reads.
+typedef struct {
+    GLuint program, array, buffers[2];
+} Drawing;
+
+// Compiles the shader and makes empty buffers. On failure, error receives the driver's message. The
+// caller closes the drawing, even after a failure.
+bool drawing_open(Drawing *drawing, const DrawingLayout *layout, Error *error);
+void drawing_close(Drawing *drawing);
+
+// Makes the program and its vertex array current.
+void drawing_use(const Drawing *drawing);
+
+// Replaces the contents of a buffer.
+void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
 
 // Set uniforms of the current program by name. Ignore names that the program does not use.
 void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
-// Describes and enables an attribute of the current vertex array and buffer: its number of floats,
-// its vertices' size in bytes and its offset in each.
-void shader_set_attribute(GLuint attribute, GLint floats, size_t size, size_t offset);
-
 // Cubes: faces from -1 to 1, edges from 0 to 1.
 #define CUBE_FACE_VERTICES 36
 #define CUBE_EDGE_VERTICES 24 // followed by the two of a diagonal
 
-// Makes a buffer of triangles or lines, with three floats per vertex, and binds it to the attribute
-// of the current vertex array.
-GLuint cube_make_faces(GLuint attribute);
-GLuint cube_make_edges(GLuint attribute);
+// Fill buffer 0 with triangles or lines, three floats per vertex.
+void cube_fill_faces(const Drawing *drawing);
+void cube_fill_edges(const Drawing *drawing);
 
 // The scene's lights and materials -> the uniforms of shaders/light.glsl.
 
@@ -79,23 +102,18 @@ Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uin
 // Sets the lens's uniforms in the current program.
 void lens_apply(const Lens *lens, GLuint program);
 
-typedef struct {
-    GLuint program, vertices, indices, array;
-} TriangleView;
-
-bool triangle_view_open(TriangleView *view, Error *error);
-void triangle_view_close(TriangleView *view);
+bool triangle_view_open(Drawing *view, Error *error);
 
 // Copies the model's triangles into the OpenGL buffers, in place of the previous triangles.
-bool triangle_view_load(TriangleView *view, const Model *model, Error *error);
+bool triangle_view_load(const Drawing *view, const Model *model, Error *error);
 
 // Draws the triangles as seen through lens, with colors converted by tone.
-void triangle_view_draw(const TriangleView *view, const Model *model, const Lens *lens,
+void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,
                         const Tone *tone);
 
 // Spheres, exact in every pixel.
 typedef struct {
-    GLuint program, corners, spheres, array;
+    Drawing drawing;
     ARRAY(float) numbers; // of all spheres, in OpenGL's layout
 } SphereView;
 
@@ -109,14 +127,13 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
 
 // Boxes, or their diagonals, in one color.
 typedef struct {
-    GLuint program, corners, boxes, array;
+    Drawing drawing;
     bool is_diagonal;
     uint32_t count; // of loaded boxes
 } LineView;
 
 // With is_diagonal, draws a line from each box's low corner to its high one, in any direction.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
-void line_view_close(LineView *view);
 
 void line_view_load(LineView *view, const Box *boxes, size_t count);
 void line_view_draw(const LineView *view, const Lens *lens, const float color[3]);
@@ -143,12 +160,11 @@ bool normals_make(Boxes *lines, const Model *model, Error *error);
 // OpenGL's copy of a layer.
 typedef struct {
     GLuint texture;
-    uint64_t pass, revision, tiles;
-    uint32_t width, height;
+    uint64_t pass, tiles;
 } LayerCopy;
 
 typedef struct {
-    GLuint program, array;
+    Drawing drawing;
     LayerCopy copies[CANVAS_LAYERS];
 } RayView;
 
@@ -197,7 +213,7 @@ typedef struct {
 } TextVertex;
 
 typedef struct {
-    GLuint program, vertices, array;
+    Drawing drawing;
     Font font;
     ARRAY(TextVertex) corners; // of the text to draw
 } TextView;

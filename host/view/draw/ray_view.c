@@ -4,27 +4,22 @@
 
 bool ray_view_open(RayView *view, Error *error)
 {
-    static const char *const attributes[] = {NULL};
-    *view = (RayView){.program = shader_build(shader_picture, attributes, error)};
-    if (view->program == 0)
-        return false;
-    glGenVertexArrays(1, &view->array);
+    static const DrawingLayout layout = {.shader = shader_picture};
+    *view = (RayView){0};
     for (int layer = 0; layer < CANVAS_LAYERS; layer++) {
         glGenTextures(1, &view->copies[layer].texture);
         glBindTexture(GL_TEXTURE_2D, view->copies[layer].texture);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     }
-    return true;
+    return drawing_open(&view->drawing, &layout, error);
 }
 
 void ray_view_close(RayView *view)
 {
     for (int layer = 0; layer < CANVAS_LAYERS; layer++)
         glDeleteTextures(1, &view->copies[layer].texture);
-    glDeleteVertexArrays(1, &view->array);
-    glDeleteProgram(view->program);
+    drawing_close(&view->drawing);
     *view = (RayView){0};
 }
 
@@ -40,15 +35,12 @@ static void update_copy(LayerCopy *copy, const Layer *layer)
 {
     const RenderSettings *settings = &layer->settings;
     glBindTexture(GL_TEXTURE_2D, copy->texture);
-    if (copy->width != settings->width || copy->height != settings->height)
+    if (copy->pass != layer->pass) {
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, (GLsizei)settings->width, (GLsizei)settings->height,
                      0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
-    if (copy->pass != layer->pass || copy->revision != layer->revision)
+        copy->pass = layer->pass;
         copy->tiles = 0;
-    copy->width = settings->width;
-    copy->height = settings->height;
-    copy->pass = layer->pass;
-    copy->revision = layer->revision;
+    }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, (GLint)settings->width);
     for (; copy->tiles < layer->tiles_done; copy->tiles++) {
@@ -58,13 +50,6 @@ static void update_copy(LayerCopy *copy, const Layer *layer)
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-static LayerCopy *copy_of(RayView *view, const Canvas *canvas, const Layer *layer)
-{
-    LayerCopy *copy = &view->copies[layer - canvas->layers];
-    update_copy(copy, layer);
-    return copy;
-}
-
 static void draw_part(GLint x, GLint y, GLint width, GLint height)
 {
     glScissor(x, y, width, height);
@@ -72,12 +57,13 @@ static void draw_part(GLint x, GLint y, GLint width, GLint height)
 }
 
 // Draws the complete rows of tiles, and the finished part of the next row.
-static void draw_done(const LayerCopy *copy, const RenderSettings *settings)
+static void draw_done(const Layer *layer)
 {
-    const GLint width = (GLint)copy->width, height = (GLint)copy->height;
-    const uint32_t columns = (copy->width + settings->tile_width - 1) / settings->tile_width;
-    const GLint rows = (GLint)(copy->tiles / columns * settings->tile_height);
-    const GLint part = (GLint)(copy->tiles % columns * settings->tile_width);
+    const RenderSettings *settings = &layer->settings;
+    const GLint width = (GLint)settings->width, height = (GLint)settings->height;
+    const uint32_t columns = (settings->width + settings->tile_width - 1) / settings->tile_width;
+    const GLint rows = (GLint)(layer->tiles_done / columns * settings->tile_height);
+    const GLint part = (GLint)(layer->tiles_done % columns * settings->tile_width);
     const GLint done = rows < height ? rows : height;
     draw_part(0, height - done, width, done);
     const GLint next = done + (GLint)settings->tile_height;
@@ -85,15 +71,19 @@ static void draw_done(const LayerCopy *copy, const RenderSettings *settings)
     draw_part(0, height - bottom, part, bottom - done);
 }
 
-static void draw_layer(const LayerCopy *copy, const RenderSettings *settings, uint32_t width,
-                       uint32_t height)
+static bool has_size(const Layer *layer, uint32_t width, uint32_t height)
 {
-    const bool is_exact = copy->width == width && copy->height == height;
-    glBindTexture(GL_TEXTURE_2D, copy->texture);
+    return layer->settings.width == width && layer->settings.height == height;
+}
+
+static void draw_layer(LayerCopy *copy, const Layer *layer, uint32_t width, uint32_t height)
+{
+    const bool is_exact = has_size(layer, width, height);
+    update_copy(copy, layer);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
     if (is_exact)
-        draw_done(copy, settings);
+        draw_done(layer);
     else
         draw_part(0, 0, (GLint)width, (GLint)height);
 }
@@ -102,14 +92,12 @@ void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t heigh
 {
     pthread_mutex_lock(&canvas->mutex);
     const Layer *whole = canvas_whole(canvas), *unfinished = canvas_unfinished(canvas);
-    glUseProgram(view->program);
-    glBindVertexArray(view->array);
+    drawing_use(&view->drawing);
     glEnable(GL_SCISSOR_TEST);
     if (whole != NULL)
-        draw_layer(copy_of(view, canvas, whole), &whole->settings, width, height);
-    if (unfinished != NULL && unfinished->settings.width == width &&
-        unfinished->settings.height == height)
-        draw_layer(copy_of(view, canvas, unfinished), &unfinished->settings, width, height);
+        draw_layer(&view->copies[whole - canvas->layers], whole, width, height);
+    if (unfinished != NULL && has_size(unfinished, width, height))
+        draw_layer(&view->copies[unfinished - canvas->layers], unfinished, width, height);
     glDisable(GL_SCISSOR_TEST);
     glBindVertexArray(0);
     pthread_mutex_unlock(&canvas->mutex);

@@ -34,24 +34,60 @@ static bool link_program(GLuint program, Error *error)
     return error_set(error, "OpenGL does not link a program: %s", message);
 }
 
-GLuint shader_build(const char *text, const char *const *attributes, Error *error)
+static bool build(GLuint program, const DrawingLayout *layout, Error *error)
 {
-    const GLuint vertex = compile(GL_VERTEX_SHADER, text, error);
-    const GLuint fragment = vertex == 0 ? 0 : compile(GL_FRAGMENT_SHADER, text, error);
-    GLuint program = fragment == 0 ? 0 : glCreateProgram();
-    if (program != 0) {
+    const GLuint vertex = compile(GL_VERTEX_SHADER, layout->shader, error);
+    const GLuint fragment = vertex == 0 ? 0 : compile(GL_FRAGMENT_SHADER, layout->shader, error);
+    if (fragment != 0) {
         glAttachShader(program, vertex);
         glAttachShader(program, fragment);
-        for (GLuint place = 0; attributes[place] != NULL; place++)
-            glBindAttribLocation(program, place, attributes[place]);
-        if (!link_program(program, error)) {
-            glDeleteProgram(program);
-            program = 0;
-        }
     }
+    for (GLuint i = 0; i < ATTRIBUTES_MOST && layout->attributes[i].name != NULL; i++)
+        glBindAttribLocation(program, i, layout->attributes[i].name);
+    const bool ok = fragment != 0 && link_program(program, error);
     glDeleteShader(vertex);
     glDeleteShader(fragment);
-    return program;
+    return ok;
+}
+
+bool drawing_open(Drawing *drawing, const DrawingLayout *layout, Error *error)
+{
+    *drawing = (Drawing){.program = glCreateProgram()};
+    glGenVertexArrays(1, &drawing->array);
+    glGenBuffers(2, drawing->buffers);
+    glBindVertexArray(drawing->array);
+    for (GLuint i = 0; i < ATTRIBUTES_MOST && layout->attributes[i].name != NULL; i++) {
+        const Attribute *attribute = &layout->attributes[i];
+        const int buffer = attribute->buffer;
+        glBindBuffer(GL_ARRAY_BUFFER, drawing->buffers[buffer]);
+        glVertexAttribPointer(i, attribute->floats, GL_FLOAT, GL_FALSE,
+                              (GLsizei)layout->sizes[buffer], (void *)attribute->offset);
+        glEnableVertexAttribArray(i);
+        if (buffer == 1)
+            glVertexAttribDivisor(i, 1);
+    }
+    glBindVertexArray(0);
+    return build(drawing->program, layout, error);
+}
+
+void drawing_close(Drawing *drawing)
+{
+    glDeleteProgram(drawing->program);
+    glDeleteVertexArrays(1, &drawing->array);
+    glDeleteBuffers(2, drawing->buffers);
+    *drawing = (Drawing){0};
+}
+
+void drawing_use(const Drawing *drawing)
+{
+    glUseProgram(drawing->program);
+    glBindVertexArray(drawing->array);
+}
+
+void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, drawing->buffers[buffer]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, bytes, GL_STATIC_DRAW);
 }
 
 void shader_set_number(GLuint program, const char *name, double value)
@@ -69,40 +105,28 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
-void shader_set_attribute(GLuint attribute, GLint floats, size_t size, size_t offset)
+// Fills a buffer with cube corners. Bit n of a corner's number is its coordinate along axis n.
+static void fill_cube(const Drawing *drawing, const unsigned char *corners, int count, float low)
 {
-    glVertexAttribPointer(attribute, floats, GL_FLOAT, GL_FALSE, (GLsizei)size, (void *)offset);
-    glEnableVertexAttribArray(attribute);
-}
-
-// Makes a buffer of cube corners. Bit n of a corner's number is its coordinate along axis n.
-static GLuint make_cube(GLuint attribute, const unsigned char *corners, int count, float low)
-{
-    GLuint buffer;
     float vertices[CUBE_FACE_VERTICES][3];
     for (int i = 0; i < count; i++)
         for (int axis = 0; axis < 3; axis++)
             vertices[i][axis] = (corners[i] >> axis & 1) != 0 ? 1 : low;
-    glGenBuffers(1, &buffer);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof vertices[0]), vertices,
-                 GL_STATIC_DRAW);
-    shader_set_attribute(attribute, 3, sizeof vertices[0], 0);
-    return buffer;
+    drawing_fill(drawing, 0, vertices, (size_t)count * sizeof vertices[0]);
 }
 
-GLuint cube_make_faces(GLuint attribute)
+void cube_fill_faces(const Drawing *drawing)
 {
     // The corners are counter-clockwise, seen from outside.
     static const unsigned char corners[CUBE_FACE_VERTICES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
                                                               0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
                                                               0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    return make_cube(attribute, corners, CUBE_FACE_VERTICES, -1);
+    fill_cube(drawing, corners, CUBE_FACE_VERTICES, -1);
 }
 
-GLuint cube_make_edges(GLuint attribute)
+void cube_fill_edges(const Drawing *drawing)
 {
     static const unsigned char corners[CUBE_EDGE_VERTICES + 2] = {
         0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7, 0, 7};
-    return make_cube(attribute, corners, CUBE_EDGE_VERTICES + 2, 0);
+    fill_cube(drawing, corners, CUBE_EDGE_VERTICES + 2, 0);
 }

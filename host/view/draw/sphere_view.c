@@ -13,31 +13,22 @@
 
 bool sphere_view_open(SphereView *view, Error *error)
 {
-    static const char *const attributes[] = {"corner",   "sphere", "diffuse",
-                                             "specular", "look",   NULL};
-    *view = (SphereView){.program = shader_build(shader_spheres, attributes, error)};
-    if (view->program == 0)
-        return false;
-    glGenVertexArrays(1, &view->array);
-    glBindVertexArray(view->array);
-    view->corners = cube_make_faces(0);
-    glGenBuffers(1, &view->spheres);
-    glBindBuffer(GL_ARRAY_BUFFER, view->spheres);
-    for (GLuint vector = 0; vector < 4; vector++) {
-        shader_set_attribute(vector + 1, 4, SPHERE_NUMBERS * sizeof(float),
-                             vector * 4 * sizeof(float));
-        glVertexAttribDivisor(vector + 1, 1);
-    }
-    glBindVertexArray(0);
-    return true;
+    static const DrawingLayout layout = {shader_spheres,
+                                         {3 * sizeof(float), SPHERE_NUMBERS * sizeof(float)},
+                                         {{"corner", 0, 3, 0},
+                                          {"sphere", 1, 4, 0},
+                                          {"diffuse", 1, 4, 4 * sizeof(float)},
+                                          {"specular", 1, 4, 8 * sizeof(float)},
+                                          {"look", 1, 4, 12 * sizeof(float)}}};
+    *view = (SphereView){0};
+    const bool ok = drawing_open(&view->drawing, &layout, error);
+    cube_fill_faces(&view->drawing);
+    return ok;
 }
 
 void sphere_view_close(SphereView *view)
 {
-    glDeleteProgram(view->program);
-    glDeleteVertexArrays(1, &view->array);
-    glDeleteBuffers(1, &view->corners);
-    glDeleteBuffers(1, &view->spheres);
+    drawing_close(&view->drawing);
     free(view->numbers.memory);
     *view = (SphereView){0};
 }
@@ -70,13 +61,10 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     for (size_t i = 0; i < count; i++)
         store_sphere(view->numbers.data + SPHERE_NUMBERS * i, model, &scene->spheres.data[i],
                      lens->eye);
-    glUseProgram(view->program);
-    glBindVertexArray(view->array);
-    lens_apply(lens, view->program);
-    light_apply(scene, &model->normalization, tone, view->program);
-    glBindBuffer(GL_ARRAY_BUFFER, view->spheres);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(SPHERE_NUMBERS * count * sizeof(float)),
-                 view->numbers.data, GL_STREAM_DRAW);
+    drawing_use(&view->drawing);
+    lens_apply(lens, view->drawing.program);
+    light_apply(scene, &model->normalization, tone, view->drawing.program);
+    drawing_fill(&view->drawing, 1, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
     // Draws back faces, because they cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);

@@ -90,28 +90,20 @@ static float width_of(const Font *font, const char *text, size_t length)
 
 bool text_view_open(TextView *view, Error *no_font, Error *error)
 {
-    static const char *const attributes[] = {"position", "texel", "tint", NULL};
-    *view = (TextView){.program = shader_build(shader_text, attributes, error)};
-    if (view->program == 0)
-        return false;
+    static const DrawingLayout layout = {shader_text,
+                                         {sizeof(TextVertex), 0},
+                                         {{"position", 0, 2, offsetof(TextVertex, x)},
+                                          {"texel", 0, 2, offsetof(TextVertex, u)},
+                                          {"tint", 0, 4, offsetof(TextVertex, color)}}};
+    *view = (TextView){0};
     find_font(&view->font, no_font);
     glGenTextures(1, &view->font.texture);
-    glGenVertexArrays(1, &view->array);
-    glGenBuffers(1, &view->vertices);
-    glBindVertexArray(view->array);
-    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    shader_set_attribute(0, 2, sizeof(TextVertex), offsetof(TextVertex, x));
-    shader_set_attribute(1, 2, sizeof(TextVertex), offsetof(TextVertex, u));
-    shader_set_attribute(2, 4, sizeof(TextVertex), offsetof(TextVertex, color));
-    glBindVertexArray(0);
-    return true;
+    return drawing_open(&view->drawing, &layout, error);
 }
 
 void text_view_close(TextView *view)
 {
-    glDeleteProgram(view->program);
-    glDeleteVertexArrays(1, &view->array);
-    glDeleteBuffers(1, &view->vertices);
+    drawing_close(&view->drawing);
     glDeleteTextures(1, &view->font.texture);
     file_free(&view->font.file);
     free(view->corners.memory);
@@ -218,12 +210,9 @@ static void put_text(Pen *pen, const char *text)
 
 static void draw_corners(TextView *view)
 {
-    glUseProgram(view->program);
+    drawing_use(&view->drawing);
+    drawing_fill(&view->drawing, 0, view->corners.data, view->corners.count * sizeof(TextVertex));
     glBindTexture(GL_TEXTURE_2D, view->font.texture);
-    glBindVertexArray(view->array);
-    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(view->corners.count * sizeof(TextVertex)),
-                 view->corners.data, GL_STREAM_DRAW);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDrawArrays(GL_TRIANGLES, 0, (GLsizei)view->corners.count);
@@ -278,8 +267,8 @@ void text_view_draw(TextView *view, const TextOverlay *overlay)
     float top = 0;
     if (view->font.file.bytes == NULL)
         return;
-    glUseProgram(view->program);
-    glUniform2f(glGetUniformLocation(view->program, "size"), (float)overlay->width,
+    glUseProgram(view->drawing.program);
+    glUniform2f(glGetUniformLocation(view->drawing.program, "size"), (float)overlay->width,
                 (float)overlay->height);
     shorten(&view->font, overlay->line,
             (float)overlay->width / (SIZE * overlay->density) - 2 * MARGIN);

@@ -10,31 +10,13 @@ typedef struct {
     float normal[3]; // zero for none
 } Vertex;
 
-bool triangle_view_open(TriangleView *view, Error *error)
+bool triangle_view_open(Drawing *view, Error *error)
 {
-    static const char *const attributes[] = {"position", "normal", NULL};
-    *view = (TriangleView){.program = shader_build(shader_triangles, attributes, error)};
-    if (view->program == 0)
-        return false;
-    glGenVertexArrays(1, &view->array);
-    glGenBuffers(1, &view->vertices);
-    glGenBuffers(1, &view->indices);
-    glBindVertexArray(view->array);
-    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->indices);
-    shader_set_attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
-    shader_set_attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
-    glBindVertexArray(0);
-    return true;
-}
-
-void triangle_view_close(TriangleView *view)
-{
-    glDeleteProgram(view->program);
-    glDeleteVertexArrays(1, &view->array);
-    glDeleteBuffers(1, &view->vertices);
-    glDeleteBuffers(1, &view->indices);
-    *view = (TriangleView){0};
+    static const DrawingLayout layout = {shader_triangles,
+                                         {sizeof(Vertex), 0},
+                                         {{"position", 0, 3, offsetof(Vertex, position)},
+                                          {"normal", 0, 3, offsetof(Vertex, normal)}}};
+    return drawing_open(view, &layout, error);
 }
 
 static void store_vertex(Vertex *vertex, const float point[4], const float *normal)
@@ -56,21 +38,15 @@ static void store_vertices(Vertex *vertices, const Model *model)
     }
 }
 
-bool triangle_view_load(TriangleView *view, const Model *model, Error *error)
+bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
 {
     const Triangles *triangles = &model->triangles;
     Vertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
     if (vertices == NULL)
         return false;
     store_vertices(vertices, model);
-    glBindVertexArray(view->array);
-    glBindBuffer(GL_ARRAY_BUFFER, view->vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(triangles->point_count * sizeof *vertices), vertices,
-                 GL_STATIC_DRAW);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 (GLsizeiptr)(triangles->count * sizeof *triangles->corners), triangles->corners,
-                 GL_STATIC_DRAW);
-    glBindVertexArray(0);
+    drawing_fill(view, 0, vertices, triangles->point_count * sizeof *vertices);
+    drawing_fill(view, 1, triangles->corners, triangles->count * sizeof *triangles->corners);
     free(vertices);
     return true;
 }
@@ -84,13 +60,12 @@ static void set_material(GLuint program, const Material *material)
     glUniform4fv(glGetUniformLocation(program, "look"), 1, vectors[2]);
 }
 
-void triangle_view_draw(const TriangleView *view, const Model *model, const Lens *lens,
-                        const Tone *tone)
+void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)
 {
     const Scene *scene = &model->scene;
     size_t first = 0;
-    glUseProgram(view->program);
-    glBindVertexArray(view->array);
+    drawing_use(view);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->buffers[1]);
     lens_apply(lens, view->program);
     light_apply(scene, &model->normalization, tone, view->program);
     for (size_t i = 0; i < scene->objects.count; i++) {
