@@ -168,6 +168,14 @@ static void report_loaded(Worker *worker, const Job *job, const Error *error)
     end_update(worker);
 }
 
+static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
+{
+    WorkerStatus *status = begin_update(worker);
+    status->fault = fault;
+    status->failure = *error;
+    end_update(worker);
+}
+
 static bool take(Worker *worker, const Job *job, Model *model, Error *error)
 {
     report_busy(worker, "compiling the kernels");
@@ -192,61 +200,36 @@ static void publish(Worker *worker, Model *model, bool has_tree)
     model_release(before);
 }
 
+// Publishes the first scene before the device is open, so that the window opens early. Later scenes
+// are published with compiled kernels.
 void jobs_load(Worker *worker, const Job *job)
 {
-    Error error = {0};
+    Error scene_failure = {0}, failure = {0};
+    const uint32_t threads = worker->setup.options->threads;
+    const bool is_first = worker->model == NULL;
     report_busy(worker, "reading the scene");
-    Model *model =
-        model_load(job->request.path, job->request.up, worker->setup.options->threads, &error);
-    const BvhSettings tree = tracer_tree(&worker->tracer);
-    if (model != NULL && model_build_tree(model, &tree, worker->setup.options->threads, &error)) {
-        Error cause = {0};
-        if (take(worker, job, model, &cause))
-            publish(worker, model, true);
-        report_taken(worker, job, &cause);
+    Model *model = model_load(job->request.path, job->request.up, threads, &scene_failure);
+    bool ok = model != NULL;
+    if (ok && is_first) {
+        publish(worker, model, false);
+        report_busy(worker, "opening the device");
+        ok = tracer_open(&worker->tracer, worker->setup.options, &failure);
     }
-    model_release(model);
-    report_loaded(worker, job, &error);
-}
-
-static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
-{
-    WorkerStatus *status = begin_update(worker);
-    status->fault = fault;
-    status->failure = *error;
-    status->busy = "";
-    end_update(worker);
-}
-
-// Publishes the first scene before the device is open, so that the window opens early.
-bool jobs_begin(Worker *worker)
-{
-    Error error = {0};
-    pthread_mutex_lock(&worker->mutex);
-    const Job job = {.kind = JOB_LOAD, .request = worker->request};
-    pthread_mutex_unlock(&worker->mutex);
-    Model *model =
-        model_load(job.request.path, job.request.up, worker->setup.options->threads, &error);
-    if (model == NULL) {
-        report_fault(worker, FAULT_SCENE, &error);
-        return false;
+    if (ok) {
+        const BvhSettings tree = tracer_tree(&worker->tracer);
+        ok = model_build_tree(model, &tree, threads, is_first ? &failure : &scene_failure);
     }
-    publish(worker, model, false);
-    report_busy(worker, "opening the device");
-    bool ok = tracer_open(&worker->tracer, worker->setup.options, &error);
-    const BvhSettings tree = tracer_tree(&worker->tracer);
-    ok = ok && model_build_tree(model, &tree, worker->setup.options->threads, &error);
-    if (ok)
+    if (ok && is_first)
         publish(worker, model, true);
-    ok = ok && take(worker, &job, model, &error);
+    if (ok && take(worker, job, model, &failure))
+        publish(worker, model, true);
+    if (worker->tracer.model == NULL)
+        report_fault(worker, model == NULL ? FAULT_SCENE : FAULT_DEVICE,
+                     model == NULL ? &scene_failure : &failure);
+    else if (ok)
+        report_taken(worker, job, &failure);
+    report_loaded(worker, job, &scene_failure);
     model_release(model);
-    if (!ok) {
-        report_fault(worker, FAULT_DEVICE, &error);
-        return false;
-    }
-    report_taken(worker, &job, &error);
-    report_loaded(worker, &job, &error);
-    return true;
 }
 
 void jobs_take(Worker *worker, const Job *job)
@@ -277,17 +260,6 @@ void jobs_explain(Worker *worker, const Job *job)
     snprintf(status->explanation, sizeof status->explanation, "%s", ok ? text : error.text);
     status->done.explains = request->explains;
     status->busy = "";
-    end_update(worker);
-}
-
-void jobs_save(Worker *worker, const Job *job)
-{
-    Saver *saver = job->request.saver;
-    const Layer *layer = canvas_whole(worker->setup.canvas);
-    const bool is_traced = job->request.is_traced && layer != NULL;
-    saver_write(saver, is_traced ? &layer->framebuffer : &saver->shown);
-    framebuffer_free(&saver->shown);
-    begin_update(worker)->done.saves = job->request.saves;
     end_update(worker);
 }
 

@@ -11,15 +11,12 @@
 // The loop's longest sleep in seconds. Files are checked between sleeps.
 #define REST_SECONDS 0.1
 
-// A closed window waits this long for files that are being saved.
-#define SAVE_SECONDS 60
-
 static uint32_t samples_of(const Viewer *viewer)
 {
     return viewer->state.smooth ? viewer->settings.samples : 1;
 }
 
-static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
+static void run_commands(Viewer *viewer, unsigned commands)
 {
     if (commands & COMMAND_CAMERA) {
         status_text_camera(&viewer->state, stdout);
@@ -33,7 +30,10 @@ static bool run_commands(Viewer *viewer, unsigned commands, Error *error)
         viewer->wants_save = true;
     if (commands & COMMAND_QUIT)
         viewer->quits = true;
-    return !(commands & COMMAND_RELOAD) || viewer_renew(viewer, error);
+    if (commands & COMMAND_RELOAD) {
+        viewer->request.loads++;
+        viewer->request.renewals++;
+    }
 }
 
 static void explain(Viewer *viewer, const Event *event)
@@ -47,7 +47,7 @@ static void explain(Viewer *viewer, const Event *event)
     viewer->explained = ++request->explains;
 }
 
-static bool take_event(Viewer *viewer, const Event *event, Error *error)
+static void take_event(Viewer *viewer, const Event *event)
 {
     viewer->is_dirty = true;
     viewer->notice[0] = '\0';
@@ -55,16 +55,15 @@ static bool take_event(Viewer *viewer, const Event *event, Error *error)
     const unsigned commands = state_apply(&viewer->state, event, &viewer->scene);
     if (commands & COMMAND_EXPLAIN)
         explain(viewer, event);
-    return run_commands(viewer, commands, error);
+    run_commands(viewer, commands);
 }
 
-static bool take_events(Viewer *viewer, Error *error)
+static void take_events(Viewer *viewer)
 {
-    Event event;
-    while (window_take_event(&viewer->window, &event))
-        if (viewer->model != NULL && !take_event(viewer, &event, error))
-            return false;
-    return true;
+    Window *window = &viewer->window;
+    for (int i = 0; i < window->event_count; i++)
+        take_event(viewer, &window->events[i]);
+    window->event_count = 0;
 }
 
 bool viewer_has_keys(const Viewer *viewer)
@@ -79,15 +78,15 @@ static bool is_playing(const Viewer *viewer)
 }
 
 // Plays the next key once the effect of the previous key is displayed.
-static bool play_key(Viewer *viewer, Error *error)
+static void play_key(Viewer *viewer)
 {
     if (!is_playing(viewer) || !viewer_is_settled(viewer) || viewer->is_dirty)
-        return true;
+        return;
     viewer->is_dirty = true;
     if (!viewer_has_keys(viewer))
-        return true;
+        return;
     const Event event = {.kind = EVENT_KEY, .key = (unsigned char)*viewer->settings.keys++};
-    return take_event(viewer, &event, error);
+    take_event(viewer, &event);
 }
 
 // Removes an old hint. Turns the camera if it turns automatically. The camera waits until its
@@ -140,10 +139,17 @@ static double idle_seconds(const Viewer *viewer)
 
 static bool step(Viewer *viewer, Error *error)
 {
-    window_wait(&viewer->window, idle_seconds(viewer));
-    if (!viewer_follow_worker(viewer, error) || !take_events(viewer, error) ||
-        !viewer_take_drop(viewer, error) || !play_key(viewer, error))
+    const double rest = idle_seconds(viewer);
+    if (rest > 0)
+        glfwWaitEventsTimeout(rest);
+    else
+        glfwPollEvents();
+    if (!viewer_follow_worker(viewer, error))
         return false;
+    take_events(viewer);
+    if (!viewer_take_drop(viewer, error))
+        return false;
+    play_key(viewer);
     window_set_full_screen(&viewer->window, viewer->state.full_screen);
     viewer_follow_files(viewer);
     advance(viewer);
@@ -159,7 +165,7 @@ static bool step(Viewer *viewer, Error *error)
 static bool await_scene(Viewer *viewer)
 {
     do {
-        window_wait(&viewer->window, REST_SECONDS);
+        glfwWaitEventsTimeout(REST_SECONDS);
         worker_poll(viewer->worker, &viewer->status);
     } while (viewer->status.models == 0 && viewer->status.fault == FAULT_NONE);
     return viewer->status.fault == FAULT_NONE;
@@ -215,9 +221,7 @@ static void close_viewer(Viewer *viewer)
     if (viewer->window.handle != NULL)
         views_close(&viewer->views);
     window_close(&viewer->window);
-    const bool is_saving = viewer->status.done.saves != viewer->request.saves;
-    const double patience = is_saving ? SAVE_SECONDS : viewer->settings.patience;
-    if (viewer->worker != NULL && !worker_stop(viewer->worker, patience))
+    if (viewer->worker != NULL && !worker_stop(viewer->worker, viewer->settings.patience))
         return;
     for (size_t i = 0; i < viewer->dropped.count; i++)
         free(viewer->dropped.data[i]);

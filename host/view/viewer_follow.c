@@ -66,14 +66,6 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
     return views_load(&viewer->views, viewer->model, error) && viewer_watch_files(viewer, error);
 }
 
-static void report_saved(Viewer *viewer)
-{
-    viewer->failure = viewer->saver.error;
-    snprintf(viewer->notice, sizeof viewer->notice, "%s", viewer->saver.notice);
-    if (viewer->settings.verbose && viewer->notice[0] != '\0')
-        fprintf(stderr, "%s\n", viewer->notice);
-}
-
 bool viewer_follow_worker(Viewer *viewer, Error *error)
 {
     WorkerStatus status;
@@ -82,8 +74,6 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
         return true;
     const bool has_model = status.models != viewer->status.models;
     const bool has_tree = status.has_tree != viewer->status.has_tree;
-    if (status.done.saves != viewer->status.done.saves)
-        report_saved(viewer);
     if (status.done.explains != viewer->status.done.explains && viewer->settings.verbose)
         fputs(status.explanation, stderr);
     viewer->status = status;
@@ -124,15 +114,6 @@ void viewer_follow_files(Viewer *viewer)
     viewer->polled = now;
     viewer->request.loads += watch_poll(&viewer->scene_files);
     viewer->request.renewals += watch_poll(&viewer->kernel_files);
-}
-
-bool viewer_renew(Viewer *viewer, Error *error)
-{
-    viewer->request.loads++;
-    viewer->request.renewals++;
-    views_close(&viewer->views);
-    return views_open(&viewer->views, &viewer->failure, error) &&
-           views_load(&viewer->views, viewer->model, error);
 }
 
 bool viewer_recover(Viewer *viewer, Error *error)

@@ -25,6 +25,20 @@ typedef struct {
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
+// The strings of saved files.
+typedef struct {
+    const char *scene_path; // determines the files' names
+    const char *state;      // stored in both files
+    char *notice;           // NOTICE_SIZE bytes for a message with the written files
+} SaveText;
+
+#define NOTICE_SIZE 512
+
+// Writes the shown picture, in the window's values, to a PNG file and the traced picture to an EXR
+// file, both in the current folder.
+bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, const SaveText *text,
+                   Error *error);
+
 #define STATE_SIZE 1024
 
 typedef struct {
@@ -44,7 +58,6 @@ typedef struct {
     Watch scene_files, kernel_files;
     double polled;            // time of the latest check of these files
     bool is_failure_followed; // the scene's folder is watched, too, because a read failed
-    Saver saver;
     bool wants_save;
     FrameTimes frame_times;
     uint64_t explained;    // request.explains of the displayed explanation; 0 for none
@@ -52,7 +65,7 @@ typedef struct {
     double advanced;       // time up to which the camera has turned automatically
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
-    char notice[SAVER_TEXT_SIZE];
+    char notice[NOTICE_SIZE];
     char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // as printed last
     char title[STATE_SIZE];                                      // the window's current title
     bool is_dirty, quits;
@@ -74,9 +87,6 @@ bool viewer_take_drop(Viewer *viewer, Error *error);
 // Requests a new read of changed files.
 void viewer_follow_files(Viewer *viewer);
 
-// Requests a new read of everything and rebuilds the OpenGL objects.
-bool viewer_renew(Viewer *viewer, Error *error);
-
 // Reopens the window and rebuilds its contents if the driver has lost the context.
 bool viewer_recover(Viewer *viewer, Error *error);
 
@@ -89,5 +99,5 @@ bool viewer_has_keys(const Viewer *viewer);
 // Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
-// Requests to save the latest picture if the user wants that and the picture is complete.
+// Saves the picture if the user wants that and the picture is complete.
 void viewer_save(Viewer *viewer);

@@ -94,8 +94,7 @@ bool viewer_is_settled(const Viewer *viewer)
     const bool still = worker_is_finished(status, &viewer->request) &&
                        (!viewer->state.traced || status->reached.is_counted);
     return viewer->model != NULL && status->has_tree && status->busy[0] == '\0' &&
-           !viewer->wants_save && status->done.saves == viewer->request.saves &&
-           (viewer->state.turning || still);
+           !viewer->wants_save && (viewer->state.turning || still);
 }
 
 static Frame frame_of(Viewer *viewer)
@@ -195,19 +194,33 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
+// Uses the traced picture under the lock, or else the shown one.
+static bool save(Viewer *viewer, const Framebuffer *shown)
+{
+    char state[STATE_SIZE];
+    const Figures figures = figures_of(viewer);
+    const SaveText text = {viewer->settings.scene_path, state, viewer->notice};
+    status_text_state(state, sizeof state, &viewer->state, &figures);
+    pthread_mutex_lock(&viewer->canvas.mutex);
+    const Layer *layer = viewer->state.traced ? canvas_whole(&viewer->canvas) : NULL;
+    const bool ok =
+        pictures_save(shown, layer != NULL ? &layer->framebuffer : shown, &text, &viewer->failure);
+    pthread_mutex_unlock(&viewer->canvas.mutex);
+    return ok;
+}
+
 void viewer_save(Viewer *viewer)
 {
-    Saver *saver = &viewer->saver;
-    WorkerRequest *request = &viewer->request;
-    if (!viewer->wants_save || viewer->is_dirty || !worker_is_finished(&viewer->status, request))
+    Framebuffer shown = {0};
+    if (!viewer->wants_save || viewer->is_dirty ||
+        !worker_is_finished(&viewer->status, &viewer->request))
         return;
-    const Figures figures = figures_of(viewer);
     viewer->wants_save = false;
-    if (!target_read(&viewer->views.target, &saver->shown, &viewer->failure))
-        return;
-    status_text_state(saver->settings, sizeof saver->settings, &viewer->state, &figures);
-    saver->scene_path = viewer->settings.scene_path;
-    request->saver = saver;
-    request->saves++;
-    worker_request(viewer->worker, request);
+    viewer->is_dirty = true;
+    viewer->failure = (Error){0};
+    const bool ok =
+        target_read(&viewer->views.target, &shown, &viewer->failure) && save(viewer, &shown);
+    if (ok && viewer->settings.verbose)
+        fprintf(stderr, "%s\n", viewer->notice);
+    framebuffer_free(&shown);
 }

@@ -219,26 +219,6 @@ void window_close(Window *window)
     *window = (Window){0};
 }
 
-void window_wait(Window *window, double seconds)
-{
-    (void)window;
-    if (seconds > 0)
-        glfwWaitEventsTimeout(seconds);
-    else
-        glfwPollEvents();
-}
-
-bool window_take_event(Window *window, Event *event)
-{
-    if (window->event_count == 0)
-        return false;
-    *event = window->events[0];
-    window->event_count--;
-    for (int i = 0; i < window->event_count; i++)
-        window->events[i] = window->events[i + 1];
-    return true;
-}
-
 char *window_take_drop(Window *window)
 {
     char *path = window->dropped;

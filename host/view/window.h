@@ -12,13 +12,13 @@
 
 typedef struct {
     GLFWwindow *handle;
-    Event events[WINDOW_EVENTS];
-    int event_count;
-    char *dropped;           // path of a file, or NULL; owned
-    double mouse_x, mouse_y; // pointer position at the latest event
-    int modifiers;           // GLFW's bits of the keys pressed with the latest button
-    bool may_click;          // the left button is pressed, and the pointer has hardly moved
-    bool is_touched;         // the window must be drawn again
+    Event events[WINDOW_EVENTS]; // the user's actions, which GLFW adds while it waits for events
+    int event_count;             // the caller removes them
+    char *dropped;               // path of a file, or NULL; owned
+    double mouse_x, mouse_y;     // pointer position at the latest event
+    int modifiers;               // GLFW's bits of the keys pressed with the latest button
+    bool may_click;              // the left button is pressed, and the pointer has hardly moved
+    bool is_touched;             // the window must be drawn again
     bool is_full_screen;
     int place[4]; // position and size outside full screen
 } Window;
@@ -30,13 +30,6 @@ bool window_connect(Error *error);
 // context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
-
-// Waits for events, such as glfwPostEmptyEvent posts from any thread, but at most this many
-// seconds.
-void window_wait(Window *window, double seconds);
-
-// Stores the next event in *event. Returns false if there is no event.
-bool window_take_event(Window *window, Event *event);
 
 // Returns the path of the latest dropped file, or NULL. The caller frees the path.
 char *window_take_drop(Window *window);

@@ -20,8 +20,6 @@ static Pass next_pass(const Worker *worker)
 static JobKind next_kind(const Worker *worker, const Pass *pass)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
-    if (request->saves != done->saves)
-        return JOB_SAVE;
     if (worker->stops)
         return JOB_STOP;
     if (request->loads != done->loads)
@@ -53,17 +51,14 @@ static Job await_job(Worker *worker)
 
 static void *work(void *context)
 {
-    static void (*const run[])(Worker *, const Job *) = {
-        [JOB_LOAD] = jobs_load, [JOB_TAKE] = jobs_take,     [JOB_EXPLAIN] = jobs_explain,
-        [JOB_SAVE] = jobs_save, [JOB_ENCODE] = jobs_encode, [JOB_PASS] = jobs_trace};
+    static void (*const run[])(Worker *, const Job *) = {[JOB_LOAD] = jobs_load,
+                                                         [JOB_TAKE] = jobs_take,
+                                                         [JOB_EXPLAIN] = jobs_explain,
+                                                         [JOB_ENCODE] = jobs_encode,
+                                                         [JOB_PASS] = jobs_trace};
     Worker *worker = context;
-    bool goes_on = jobs_begin(worker);
-    while (goes_on) {
-        const Job job = await_job(worker);
-        goes_on = job.kind != JOB_STOP;
-        if (goes_on)
-            run[job.kind](worker, &job);
-    }
+    for (Job job = await_job(worker); job.kind != JOB_STOP; job = await_job(worker))
+        run[job.kind](worker, &job);
     tracer_close(&worker->tracer);
     return NULL;
 }
@@ -119,8 +114,7 @@ bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request
 {
     const WorkerRequest *done = &status->done;
     const bool is_read = done->loads == request->loads && done->renewals == request->renewals &&
-                         done->uses_bvh == request->uses_bvh &&
-                         done->explains == request->explains && done->saves == request->saves;
+                         done->uses_bvh == request->uses_bvh && done->explains == request->explains;
     const PlanReached *reached = &status->reached;
     const bool is_traced = reached->subject == request->subject && reached->divisor == 1 &&
                            reached->samples == request->samples && done->gain == request->gain;

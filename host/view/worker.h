@@ -4,24 +4,8 @@
 // nothing else.
 #pragma once
 
-#include "image/image_file.h"
 #include "view/draw/canvas.h"
 #include "view/tracer.h"
-
-// Pictures -> files.
-
-#define SAVER_TEXT_SIZE 512
-
-typedef struct {
-    Framebuffer shown;              // for the 8-bit file, in the window's values; owned
-    const char *scene_path;         // determines the files' names
-    char settings[SAVER_TEXT_SIZE]; // stored in both files
-    char notice[SAVER_TEXT_SIZE];   // message with the written files; empty after a failure
-    Error error;                    // empty without a failure
-} Saver;
-
-// Writes the shown picture and the traced one to the current folder. Fills notice or error.
-void saver_write(Saver *saver, const Framebuffer *traced);
 
 // A request from the window to the worker thread.
 typedef struct {
@@ -38,8 +22,6 @@ typedef struct {
     uint64_t renewals; // number of requested kernel builds after the first
     uint64_t explains; // number of requested explanations
     uint32_t pixel[2]; // the pixel to explain
-    uint64_t saves;    // number of requested saves of the latest picture
-    Saver *saver;      // belongs to the worker until the save is done
 } WorkerRequest;
 
 typedef enum { FAULT_NONE, FAULT_SCENE, FAULT_DEVICE } WorkerFault;
@@ -86,6 +68,6 @@ Model *worker_model(Worker *worker);
 // Returns whether the request is fulfilled: nothing is left to read or trace.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
-// Stops and frees the worker, after a requested save. If the worker does not stop within this many
+// Stops and frees the worker. If the worker does not stop within this many
 // seconds, worker_stop frees nothing and returns false. The process must then end.
 bool worker_stop(Worker *worker, double seconds);

@@ -20,7 +20,7 @@ struct Worker {
     double woken;
 };
 
-typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_EXPLAIN, JOB_SAVE, JOB_ENCODE, JOB_PASS } JobKind;
+typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_EXPLAIN, JOB_ENCODE, JOB_PASS } JobKind;
 
 typedef struct {
     JobKind kind;
@@ -28,12 +28,9 @@ typedef struct {
     Pass pass;
 } Job;
 
-// Run the jobs. jobs_begin runs the first load and opens the device. It returns false if nothing
-// can be displayed.
-bool jobs_begin(Worker *worker);
+// Run the jobs. The first load also opens the device.
 void jobs_load(Worker *worker, const Job *job);
 void jobs_take(Worker *worker, const Job *job);
 void jobs_explain(Worker *worker, const Job *job);
-void jobs_save(Worker *worker, const Job *job);
 void jobs_encode(Worker *worker, const Job *job);
 void jobs_trace(Worker *worker, const Job *job);
