@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint32_t flat_pair_count(const Bvh *bvh)
+// Returns the number of pairs: one per inner node, and one if the root is a leaf.
+static uint32_t pair_count(const Bvh *bvh)
 {
-    if (bvh->node_count <= 1)
-        return bvh->node_count;
-    return bvh->node_count - bvh->leaf_count;
+    return bvh->node_count <= 1 ? bvh->node_count : bvh->node_count - bvh->leaf_count;
 }
 
 // Writes an inner node as pairs[number], followed by the nodes below it, depth first. Returns the
@@ -28,7 +27,7 @@ static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, con
     return count;
 }
 
-void flat_pair_write(BvhPair *pairs, const Bvh *bvh)
+static void write_pairs(BvhPair *pairs, const Bvh *bvh)
 {
     if (bvh->node_count == 0)
         return;
@@ -62,12 +61,12 @@ static void place_triangles(FlatScene *flat, const FlatSource *source)
 
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
-    flat->node_count = flat_pair_count(source->bvh);
+    flat->node_count = pair_count(source->bvh);
     flat->pairs = memory_raw(flat->node_count, sizeof *flat->pairs, error);
     flat->triangles = memory_raw(flat->triangle_count, sizeof *flat->triangles, error);
     if (flat->pairs == NULL || flat->triangles == NULL)
         return false;
-    flat_pair_write(flat->pairs, source->bvh);
+    write_pairs(flat->pairs, source->bvh);
     place_triangles(flat, source);
     free(flat->looks);
     flat->looks = NULL;

@@ -13,12 +13,6 @@ bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error);
 // triangles in leaf order. The looks move into the triangles.
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Returns the number of pairs: one per inner node, and one if the root is a leaf.
-uint32_t flat_pair_count(const Bvh *bvh);
-
-// Fills flat_pair_count(bvh) pairs, the root first.
-void flat_pair_write(BvhPair *pairs, const Bvh *bvh);
-
 // Fills the wide layout: nodes of eight children, and a block for every leaf. The triangles' flags
 // move from the looks to the blocks. Without a tree, blocks hold the triangles in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);

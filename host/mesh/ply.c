@@ -237,14 +237,14 @@ static bool read_elements(Loader *loader)
     return true;
 }
 
-static bool load(Loader *loader)
+static bool load(Mesh *mesh, PlyReader reader)
 {
-    Mesh *mesh = loader->mesh;
+    Loader loader = {.reader = reader, .mesh = mesh};
     *mesh = (Mesh){0};
-    const bool ok = ply_header_parse(&loader->header, &loader->reader) && read_elements(loader);
-    mesh->triangles = loader->triangles.data;
-    mesh->triangle_count = loader->triangles.count;
-    ply_header_free(&loader->header);
+    const bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
+    mesh->triangles = loader.triangles.data;
+    mesh->triangle_count = loader.triangles.count;
+    ply_header_free(&loader.header);
     if (ok)
         mesh_drop_triangles(mesh);
     else
@@ -260,14 +260,13 @@ static PlyReader reader_of(const char *bytes, size_t size, const char *name, Err
 
 bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
 {
-    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
-    return load(&loader);
+    return load(mesh, reader_of(bytes, size, name, error));
 }
 
 bool ply_parse_tolerantly(Mesh *mesh, const char *bytes, size_t size, const char *name,
                           Error *error)
 {
-    Loader loader = {.reader = reader_of(bytes, size, name, error), .mesh = mesh};
-    loader.reader.is_tolerant = true;
-    return load(&loader);
+    PlyReader reader = reader_of(bytes, size, name, error);
+    reader.is_tolerant = true;
+    return load(mesh, reader);
 }

@@ -51,5 +51,3 @@ bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
 
 // Returns z, or y if the meshes would fall over with z up and stand on a flat base with y up.
 UpAxis up_axis_of_shape(const Scene *scene);
-
-// Cameras for a mesh without a scene.

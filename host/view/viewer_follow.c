@@ -91,13 +91,12 @@ bool viewer_follow_worker(Viewer *viewer, Error *error)
 
 bool viewer_take_drop(Viewer *viewer, Error *error)
 {
-    char *path = window_take_drop(&viewer->window);
+    char *path = viewer->window.dropped;
     if (path == NULL)
         return true;
-    if (!array_push(&viewer->dropped, path, error)) {
-        free(path);
+    if (!array_push(&viewer->dropped, path, error))
         return false;
-    }
+    viewer->window.dropped = NULL;
     viewer->settings.scene_path = viewer->request.path = path;
     viewer->request.up = UP_AUTO;
     viewer->request.loads++;

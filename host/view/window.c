@@ -219,13 +219,6 @@ void window_close(Window *window)
     *window = (Window){0};
 }
 
-char *window_take_drop(Window *window)
-{
-    char *path = window->dropped;
-    window->dropped = NULL;
-    return path;
-}
-
 void window_measure(const Window *window, uint32_t *width, uint32_t *height)
 {
     int pixels[2] = {0, 0};

@@ -14,7 +14,7 @@ typedef struct {
     GLFWwindow *handle;
     Event events[WINDOW_EVENTS]; // the user's actions, which GLFW adds while it waits for events
     int event_count;             // the caller removes them
-    char *dropped;               // path of a file, or NULL; owned
+    char *dropped;               // path of the latest dropped file, or NULL; owned
     double mouse_x, mouse_y;     // pointer position at the latest event
     int modifiers;               // GLFW's bits of the keys pressed with the latest button
     bool may_click;              // the left button is pressed, and the pointer has hardly moved
@@ -30,9 +30,6 @@ bool window_connect(Error *error);
 // context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
-
-// Returns the path of the latest dropped file, or NULL. The caller frees the path.
-char *window_take_drop(Window *window);
 
 // Stores the window's size in pixels, or zeros while the window is minimized.
 void window_measure(const Window *window, uint32_t *width, uint32_t *height);

@@ -41,8 +41,8 @@ void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double 
 // Marks the layer complete, which makes it the latest picture, or empty.
 void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 
-// Encodes the latest complete picture again, with colors multiplied by gain. No other picture may be
-// in progress.
+// Encodes the latest complete picture again, with colors multiplied by gain. No other picture may
+// be in progress.
 void canvas_encode_again(Canvas *canvas, double gain);
 
 // Return the latest complete picture, and the picture in progress that is displayed above it. Both
