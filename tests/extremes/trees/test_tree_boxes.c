@@ -78,7 +78,7 @@ static Box block_box(Walk *walk, uint32_t number)
     return box;
 }
 
-// The same for a wide node.
+// Checks the children of a wide node.
 static Box check_wide(Walk *walk, uint32_t number)
 {
     Box all = box_empty();
