@@ -229,7 +229,7 @@ TEST(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place)
     const uint64_t pass = first->pass;
     canvas_encode_again(&canvas, 4);
     assert_int_equal(first->bytes[3 * 3 + 1], 255); // brighter colors become white
-    assert_true(first->pass > pass); // OpenGL copies it again
+    assert_true(first->pass > pass);                // OpenGL copies it again
     Layer *second = canvas_begin(&canvas, &settings, false, &error);
     assert_ptr_equal(canvas_unfinished(&canvas), second);
     canvas_add_tiles(&canvas, second, 1, 1);
