@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A background thread opens the device and makes the general kernel. The specialized kernel depends
-// on the scene, which another thread is still reading.
+// A background thread opens the device, and the caller's thread reads the scene. Making the kernel
+// there, too, would not make runs measurably shorter.
 #include "cli/run.h"
 
 #include "base/clock.h"
@@ -19,40 +19,17 @@ static bool open_device(AsyncDevice *async)
 {
     const Options *options = async->options;
     const double start = clock_seconds();
-    bool ok = device_open(&async->device, options->device, &async->error);
+    const bool ok = device_open(&async->device, options->device, &async->error);
     async->device_seconds = clock_seconds() - start;
     const KernelChoice choice = kernel_choose(&options->kernel, &async->device);
     take_choice(async, choice);
-    ok = ok && kernel_check_device(&choice, &async->device, &async->error);
-    return ok;
-}
-
-// Publishes the device and returns whether this thread should make the kernel. The thread loads a
-// cached kernel unless the caller has declined it. It compiles an uncached kernel only on request,
-// so it waits for the decision.
-static bool publish_device(AsyncDevice *async, bool is_open, bool is_compiled)
-{
-    pthread_mutex_lock(&async->mutex);
-    async->is_done = true;
-    async->is_open = is_open;
-    pthread_cond_broadcast(&async->changed);
-    while (is_open && !is_compiled && !async->is_decided)
-        pthread_cond_wait(&async->changed, &async->mutex);
-    const bool wanted = is_open && (async->is_wanted || !async->is_decided);
-    pthread_mutex_unlock(&async->mutex);
-    return wanted;
+    return ok && kernel_check_device(&choice, &async->device, &async->error);
 }
 
 static void *start(void *context)
 {
     AsyncDevice *async = context;
-    const Options *options = async->options;
-    Error unused = {0};
-    const SceneTraits traits = traits_general(options->statistics);
-    const bool is_open = open_device(async);
-    const bool is_compiled = is_open && ready_kernel_is_compiled(&async->setup, &traits);
-    if (publish_device(async, is_open, is_compiled) && options->specialization != SPECIALIZE_ALWAYS)
-        ready_kernel_make(&async->ready, &async->setup, &traits, async->group, &unused);
+    async->is_open = open_device(async);
     return NULL;
 }
 
@@ -60,23 +37,9 @@ void async_device_begin(AsyncDevice *async, const Options *options, RendererSetu
 {
     *async = (AsyncDevice){.setup = setup, .options = options};
     async->setup.device = &async->device;
-    async->setup.ready = &async->ready;
-    pthread_mutex_init(&async->mutex, NULL);
-    pthread_cond_init(&async->changed, NULL);
-    async->exists = true;
     async->is_running = device_thread_start(&async->thread, start, async);
     if (!async->is_running) // fall back to opening the device on this thread
-        publish_device(async, open_device(async), true);
-}
-
-void async_device_decide(AsyncDevice *async, bool wanted)
-{
-    pthread_mutex_lock(&async->mutex);
-    if (!async->is_decided)
-        async->is_wanted = wanted;
-    async->is_decided = true;
-    pthread_cond_broadcast(&async->changed);
-    pthread_mutex_unlock(&async->mutex);
+        start(async);
 }
 
 // A pixel's samples for an error goal, times the goal. Each counts for about four samples of --aa.
@@ -108,32 +71,22 @@ void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uin
         take_choice(async, choice);
 }
 
-bool async_device_wait_device(AsyncDevice *async, Error *error)
+static void join(AsyncDevice *async)
 {
-    pthread_mutex_lock(&async->mutex);
-    while (!async->is_done)
-        pthread_cond_wait(&async->changed, &async->mutex);
-    pthread_mutex_unlock(&async->mutex);
-    return async->is_open || error_set(error, "%s", async->error.text);
+    if (async->is_running)
+        pthread_join(async->thread, NULL);
+    async->is_running = false;
 }
 
-void async_device_wait_kernel(AsyncDevice *async)
+bool async_device_wait(AsyncDevice *async, Error *error)
 {
-    if (!async->is_running)
-        return;
-    async_device_decide(async, false);
-    pthread_join(async->thread, NULL);
-    async->is_running = false;
+    join(async);
+    return async->is_open || error_set(error, "%s", async->error.text);
 }
 
 void async_device_free(AsyncDevice *async)
 {
-    if (!async->exists)
-        return;
-    async_device_wait_kernel(async);
-    ready_kernel_free(&async->ready);
-    device_close(&async->device);
-    pthread_cond_destroy(&async->changed);
-    pthread_mutex_destroy(&async->mutex);
-    *async = (AsyncDevice){0};
+    join(async);
+    if (CLRT_TIDY_EXIT)
+        device_close(&async->device);
 }

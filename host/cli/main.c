@@ -38,8 +38,6 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
                             Error *error)
 {
     Run run = {.options = options};
-    run.report.options = options;
-    run.report.settings = &run.settings;
     cache_open(&run.cache);
     if (progress_on_terminal() && !options->quiet)
         run.cache.announce = progress_show_compiling;

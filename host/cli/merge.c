@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/report.h"
+#include "cli/picture.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
 #include "render/renderer.h"

@@ -26,14 +26,12 @@ ExitCode warm_kernels(Run *run, Error *error)
     const Options *options = run->options;
     const bool has_scene = options->scene_path != NULL;
     run_begin(run);
-    async_device_decide(&run->async_device, false);
     if (has_scene && !run_load_scene(run, error))
         return EXIT_SCENE;
     if (!run_await_device(run, error))
         return EXIT_DEVICE;
     if (has_scene && !run_build_scene(run, error))
         return EXIT_SCENE;
-    async_device_wait_kernel(&run->async_device);
     const SceneTraits general = traits_general(options->statistics);
     if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
         !warm_kernel(run, &general, "general", error))
