@@ -270,6 +270,10 @@ class Compiled(Work):
         self.clrt("--warm", **self.cache)
         self.draws_by("packet, wide")
 
+    def test_adaptive_samples_that_would_lose_more_by_rays_get_packets(self):
+        self.draws_by("ray, pair", "-j", "1", "--aa-adaptive=0.5", size="200x150")
+        self.draws_by("packet, wide", "-j", "1", "--aa-adaptive=0.0005", size="400x300")
+
     def test_goals_that_would_lose_more_by_rays_get_packets(self):
         self.draws_by("ray, pair", "--time", "0.1")
         self.draws_by("ray, pair", "--error", "0.05")

@@ -6,6 +6,29 @@ from pictures import read_exr
 from work import EVERY_FEATURE, SCENE, SharedWork, Work, main, needs_exr
 
 SMALL = [SCENE, "-s", "96x72", "-o"]
+# One triangle fills the picture, so colors change slowly and differ only by rounding.
+FLAT = """up 0 1 0
+camera 0 0 5 0 0 0 10
+ambient 0.7
+light 0 0 900 0.37
+define wall matte diffuse 0.31 0.77 0.93
+material wall
+ply_file wall.ply
+"""
+WALL = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+-90 -90 0
+90 -90 0
+0 90 0
+3 0 1 2
+"""
 COLORED = [EVERY_FEATURE, "-s", "96x72", "-o", "a.exr"]
 
 
@@ -61,6 +84,14 @@ class Reference(SharedWork):
     def test_its_reported_own_error_is_its_true_error(self):
         found = self.compare("one-reference.pfm", "fine.pfm")["rmse"]
         self.assertTrue(0.6 < found / self.one["own_error"] < 1.6, (found, self.one["own_error"]))
+
+    def test_it_has_the_rounding_of_fp64_although_most_of_its_samples_are_in_fp32(self):
+        self.write(flat_scn=FLAT, wall_ply=WALL)
+        for precision in "fp32", "fp64":
+            self.clrt("flat.scn", "-q", "-s", "16x16", "-o", f"{precision}.pfm", "--precision", precision,
+                      "--reference=flat.pfm")
+        fp32, fp64 = (self.compare("flat.pfm", f"{precision}.pfm")["rmse"] for precision in ("fp32", "fp64"))
+        self.assertTrue(0 < 4 * fp64 < fp32, (fp32, fp64))
 
     def test_another_grid_of_samples_agrees_within_the_error_of_both(self):
         self.clrt(*SMALL, "grid.pfm", "-q", "--aa=24", "--precision", "fp64")
