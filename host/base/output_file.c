@@ -136,3 +136,20 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause)
     *file = (OutputFile){0};
     return ok;
 }
+
+// The stream is buffered, so fclose may report the failure.
+bool output_file_write(const char *path, WriteStream *write, void *context, Error *error)
+{
+    OutputFile file;
+    Error cause = {0};
+    if (!output_file_begin(&file, path, error))
+        return false;
+    FILE *stream = fopen(file.temporary, "wbe");
+    bool ok = stream != NULL && write(context, stream, &cause);
+    if (!ok)
+        error_set(&cause, "%s", strerror(errno));
+    if (stream != NULL && fclose(stream) != 0)
+        ok = error_set(&cause, "%s", strerror(errno));
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
+}
