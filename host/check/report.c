@@ -72,29 +72,18 @@ void check_report_write_text(const Check *check, FILE *stream)
         fprintf(stream, "%zu of %zu findings are faults\n", failing, check->findings.count);
 }
 
-static json_t *integer(uint64_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
-// Returns null if `value` is not finite, because JSON has no infinity.
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *fault_json(MeshFault fault)
 {
-    return json_pack("{s:o, s:o}", "count", integer(fault.count), "first",
-                     fault.count > 0 ? integer(fault.first) : json_null());
+    return json_pack("{s:o, s:o}", "count", json_count(fault.count), "first",
+                     fault.count > 0 ? json_count(fault.first) : json_null());
 }
 
 static json_t *feature_json(const Feature *feature)
 {
     const bool found = isfinite(feature->steps);
-    return json_pack("{s:o, s:o, s:o}", "size", found ? number(feature->size) : json_null(),
-                     "steps", number(feature->steps), "triangle",
-                     found ? integer(feature->triangle) : json_null());
+    return json_pack("{s:o, s:o, s:o}", "size", found ? json_finite(feature->size) : json_null(),
+                     "steps", json_finite(feature->steps), "triangle",
+                     found ? json_count(feature->triangle) : json_null());
 }
 
 static json_t *leaks_json(const Check *check, size_t object)
@@ -103,9 +92,9 @@ static json_t *leaks_json(const Check *check, size_t object)
         return json_null();
     const LeakCount *leaks = &check->leaks[object];
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "leaks", fault_json(leaks->leaks), "rays",
-                     integer(leaks->rays), "aims", integer(leaks->total), "aimed_at",
-                     integer(leaks->aimed), "hidden", integer(leaks->hidden), "cap",
-                     integer(LEAKS_AIMS));
+                     json_count(leaks->rays), "aims", json_count(leaks->total), "aimed_at",
+                     json_count(leaks->aimed), "hidden", json_count(leaks->hidden), "cap",
+                     json_count(LEAKS_AIMS));
 }
 
 // The result of the leak test follows elsewhere.
@@ -125,16 +114,17 @@ static json_t *mesh_json(const Check *check, size_t object)
     const Mesh *mesh = &check->scene.objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "path",
-        json_file_path(mesh_path(check, object)), "triangles", integer(mesh->triangle_count),
-        "vertices", integer(mesh->vertex_count), "edges", integer(census->closedness.edge_count),
-        "closed", census->closedness.is_closed, "inside_out", census->closedness.is_inside_out,
-        "unused_vertices", integer(census->unused_vertices), "repeated_vertices",
-        integer(census->repeated_vertices), "faults", faults_json(check, object), "shortest_edge",
-        feature_json(&features->edge), "lowest_height", feature_json(&features->height),
-        "shortest_written_edge", feature_json(&features->written_edge), "leak_test",
-        leaks_json(check, object), "holds_floats", features->holds_floats);
+    return json_pack("{s:o, s:o, s:o, s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}",
+                     "path", json_file_path(mesh_path(check, object)), "triangles",
+                     json_count(mesh->triangle_count), "vertices", json_count(mesh->vertex_count),
+                     "edges", json_count(census->closedness.edge_count), "closed",
+                     census->closedness.is_closed, "inside_out", census->closedness.is_inside_out,
+                     "unused_vertices", json_count(census->unused_vertices), "repeated_vertices",
+                     json_count(census->repeated_vertices), "faults", faults_json(check, object),
+                     "shortest_edge", feature_json(&features->edge), "lowest_height",
+                     feature_json(&features->height), "shortest_written_edge",
+                     feature_json(&features->written_edge), "leak_test", leaks_json(check, object),
+                     "holds_floats", features->holds_floats);
 }
 
 static json_t *meshes_json(const Check *check)
@@ -154,8 +144,8 @@ static json_t *findings_json(const Check *check)
             list,
             json_pack("{s:s, s:b, s:o, s:o, s:s}", "kind", finding->kind, "fails", finding->fails,
                       "mesh",
-                      finding->object == FINDING_SCENE ? json_null() : integer(finding->object),
-                      "count", integer(finding->count), "text", finding->text));
+                      finding->object == FINDING_SCENE ? json_null() : json_count(finding->object),
+                      "count", json_count(finding->count), "text", finding->text));
     }
     return list;
 }
@@ -164,13 +154,14 @@ static json_t *scene_json(const Check *check)
 {
     const Scene *scene = &check->scene;
     const Census *census = &check->census;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "path", json_file_path(check->scene_path),
-        "lights", integer(scene->lights.count), "spheres", integer(scene->spheres.count),
-        "empty_meshes", integer(census->empty_meshes), "duplicate_meshes",
-        integer(census->duplicate_meshes), "duplicate_spheres", integer(census->duplicate_spheres),
-        "duplicate_lights", integer(census->duplicate_lights), "unused_materials",
-        integer(census->unused_materials));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "path",
+                     json_file_path(check->scene_path), "lights", json_count(scene->lights.count),
+                     "spheres", json_count(scene->spheres.count), "empty_meshes",
+                     json_count(census->empty_meshes), "duplicate_meshes",
+                     json_count(census->duplicate_meshes), "duplicate_spheres",
+                     json_count(census->duplicate_spheres), "duplicate_lights",
+                     json_count(census->duplicate_lights), "unused_materials",
+                     json_count(census->unused_materials));
 }
 
 bool check_report_write_json(const Check *check, const char *path, Error *error)

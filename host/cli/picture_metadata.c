@@ -3,24 +3,21 @@
 // the same picture are equal.
 #include "cli/picture.h"
 
+#include "image/json_file.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
-static json_t *integer(uint32_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
 static json_t *pair_json(uint32_t one, uint32_t other)
 {
-    return json_pack("[oo]", integer(one), integer(other));
+    return json_pack("[oo]", json_count(one), json_count(other));
 }
 
 static json_t *samples_json(const Run *run)
 {
     return options_are_adaptive(run->options) ? json_string("adaptive")
-                                              : integer(run->settings.samples);
+                                              : json_count(run->settings.samples);
 }
 
 // Test counts depend on the tree; colors do not.
@@ -38,12 +35,13 @@ static json_t *settings_json(const Run *run)
     const RenderSettings *settings = &run->settings;
     const Options *options = run->options;
     const bool is_unfinished = !run->report.complete && !options_are_adaptive(options);
-    json_t *json = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(run->report.view), "width",
-        integer(render_whole_width(settings)), "height", integer(render_whole_height(settings)),
-        "samples", samples_json(run), "max_level", integer(settings->max_level), "encode",
-        options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
-        kernel_precision_name(run->async_device.setup.source.choice.precision));
+    json_t *json =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(run->report.view),
+                  "width", json_count(render_whole_width(settings)), "height",
+                  json_count(render_whole_height(settings)), "samples", samples_json(run),
+                  "max_level", json_count(settings->max_level), "encode",
+                  options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
+                  kernel_precision_name(run->async_device.setup.source.choice.precision));
     add_tree(json, run);
     if (options->exposure != 0)
         json_object_set_new(json, "exposure", json_real(options->exposure));
@@ -58,8 +56,7 @@ static json_t *settings_json(const Run *run)
     if (settings->parts > 0 || is_unfinished)
         json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
     if (is_unfinished)
-        json_object_set_new(json, "tiles_done",
-                            json_integer((json_int_t)run->renderer.progress.tiles_done));
+        json_object_set_new(json, "tiles_done", json_count(run->renderer.progress.tiles_done));
     return json;
 }
 

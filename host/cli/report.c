@@ -96,29 +96,26 @@ void report_write_error(const Run *run, FILE *stream)
             result->samples, result->own_error, result->seconds);
 }
 
-static json_t *integer(uint64_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
 static json_t *rays_json(const Run *run)
 {
     const uint64_t *tallies = run->renderer.progress.tallies;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o}", "camera", integer(tallies[TALLY_CAMERA_RAYS]),
-        "camera_hits", integer(tallies[TALLY_CAMERA_HITS]), "shadow",
-        integer(tallies[TALLY_SHADOW_RAYS]), "reflected", integer(tallies[TALLY_REFLECTED_RAYS]),
-        "total", integer(ray_count(run)), "shaded_points", integer(tallies[TALLY_SHADED_POINTS]));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "camera",
+                     json_count(tallies[TALLY_CAMERA_RAYS]), "camera_hits",
+                     json_count(tallies[TALLY_CAMERA_HITS]), "shadow",
+                     json_count(tallies[TALLY_SHADOW_RAYS]), "reflected",
+                     json_count(tallies[TALLY_REFLECTED_RAYS]), "total", json_count(ray_count(run)),
+                     "shaded_points", json_count(tallies[TALLY_SHADED_POINTS]));
 }
 
 static json_t *tests_json(const Run *run)
 {
     const uint64_t *tallies = run->renderer.progress.tallies;
     return json_pack(
-        "{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle", integer(tallies[TALLY_TRIANGLE_TESTS]), "box",
-        integer(tallies[TALLY_BOX_TESTS]), "sphere", integer(tallies[TALLY_SPHERE_TESTS]),
-        "triangle_per_ray", per_ray(run, TALLY_TRIANGLE_TESTS), "box_per_ray",
-        per_ray(run, TALLY_BOX_TESTS), "sphere_per_ray", per_ray(run, TALLY_SPHERE_TESTS));
+        "{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle", json_count(tallies[TALLY_TRIANGLE_TESTS]),
+        "box", json_count(tallies[TALLY_BOX_TESTS]), "sphere",
+        json_count(tallies[TALLY_SPHERE_TESTS]), "triangle_per_ray",
+        per_ray(run, TALLY_TRIANGLE_TESTS), "box_per_ray", per_ray(run, TALLY_BOX_TESTS),
+        "sphere_per_ray", per_ray(run, TALLY_SPHERE_TESTS));
 }
 
 static json_t *seconds_json(const Run *run)
@@ -145,11 +142,12 @@ static json_t *scene_json(const Run *run)
     char hash[SCENE_HASH_SIZE], mesh_hash[SCENE_HASH_SIZE];
     scene_hash_name(run->scene.hash, hash);
     scene_hash_name(run->scene.mesh_hash, mesh_hash);
-    return json_pack(
-        "{s:o, s:s, s:s, s:o, s:o, s:o, s:o}", "path", json_file_path(run->options->scene_path),
-        "hash", hash, "mesh_hash", mesh_hash, "lights", integer(run->scene.lights.count), "spheres",
-        integer(run->scene.spheres.count), "triangles", integer(scene_triangle_count(&run->scene)),
-        "dropped_triangles", integer(report_dropped_triangles(run)));
+    return json_pack("{s:o, s:s, s:s, s:o, s:o, s:o, s:o}", "path",
+                     json_file_path(run->options->scene_path), "hash", hash, "mesh_hash", mesh_hash,
+                     "lights", json_count(run->scene.lights.count), "spheres",
+                     json_count(run->scene.spheres.count), "triangles",
+                     json_count(scene_triangle_count(&run->scene)), "dropped_triangles",
+                     json_count(report_dropped_triangles(run)));
 }
 
 static json_t *inner_nodes_json(const Run *run)
@@ -157,7 +155,7 @@ static json_t *inner_nodes_json(const Run *run)
     const Report *report = &run->report;
     json_t *list = json_array();
     for (uint32_t depth = 0; depth + 1 < report->bvh_depth; depth++)
-        json_array_append_new(list, integer(report->bvh_inner[depth]));
+        json_array_append_new(list, json_count(report->bvh_inner[depth]));
     return list;
 }
 
@@ -165,33 +163,33 @@ static json_t *tree_json(const Run *run)
 {
     const Report *report = &run->report;
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", report_tree_name(run), "nodes",
-                     integer(report->bvh_nodes), "leaves", integer(report->bvh_leaves), "depth",
-                     integer(report->bvh_depth), "inner_nodes", inner_nodes_json(run),
-                     "largest_leaf", integer(report->bvh_largest_leaf));
+                     json_count(report->bvh_nodes), "leaves", json_count(report->bvh_leaves),
+                     "depth", json_count(report->bvh_depth), "inner_nodes", inner_nodes_json(run),
+                     "largest_leaf", json_count(report->bvh_largest_leaf));
 }
 
 static json_t *settings_json(const Run *run)
 {
     const Report *report = &run->report;
     const RenderSettings *settings = &run->settings;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}",
-                     "view", integer(report->view), "width", integer(render_whole_width(settings)),
-                     "height", integer(render_whole_height(settings)), "crop", crop_json(settings),
-                     "samples", integer(settings->samples), "max_level",
-                     integer(settings->max_level), "truncation_bound", report->truncation, "tile",
-                     integer(settings->tile_width), integer(settings->tile_height), "work_group",
-                     integer(settings->group_width), integer(settings->group_height), "specialized",
-                     run->renderer.is_special, "kernel",
-                     kernel_family_name(run->async_device.setup.source.choice.family), "nodes",
-                     kernel_nodes_name(run->async_device.setup.source.choice.nodes), "lanes",
-                     integer(run->async_device.setup.source.choice.lanes), "precision",
-                     kernel_precision_name(run->async_device.setup.source.choice.precision));
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
+        json_count(report->view), "width", json_count(render_whole_width(settings)), "height",
+        json_count(render_whole_height(settings)), "crop", crop_json(settings), "samples",
+        json_count(settings->samples), "max_level", json_count(settings->max_level),
+        "truncation_bound", report->truncation, "tile", json_count(settings->tile_width),
+        json_count(settings->tile_height), "work_group", json_count(settings->group_width),
+        json_count(settings->group_height), "specialized", run->renderer.is_special, "kernel",
+        kernel_family_name(run->async_device.setup.source.choice.family), "nodes",
+        kernel_nodes_name(run->async_device.setup.source.choice.nodes), "lanes",
+        json_count(run->async_device.setup.source.choice.lanes), "precision",
+        kernel_precision_name(run->async_device.setup.source.choice.precision));
 }
 
 static json_t *samples_json(const Run *run)
 {
     const Report *report = &run->report;
-    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", integer(report->samples),
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", json_count(report->samples),
                      "per_pixel", samples_per_pixel(run), "contrast", run->options->contrast,
                      "error_estimate", report->estimate, "error_bound", report->bound,
                      "goal_reached", !report->goal_missed);
@@ -203,8 +201,9 @@ static json_t *tiles_json(const Run *run)
     const uint64_t found = run->settings.ready_tiles;
     if (options_are_adaptive(run->options))
         return json_null();
-    return json_pack("{s:o, s:o, s:o}", "total", integer(tile_count(&run->settings)), "found",
-                     integer(found), "drawn", integer(run->renderer.progress.tiles_done - found));
+    return json_pack("{s:o, s:o, s:o}", "total", json_count(tile_count(&run->settings)), "found",
+                     json_count(found), "drawn",
+                     json_count(run->renderer.progress.tiles_done - found));
 }
 
 static json_t *reference_json(const Run *run)
@@ -214,7 +213,7 @@ static json_t *reference_json(const Run *run)
     const double pixels = (double)difference->pixels;
     if (result->samples == 0)
         return json_null();
-    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", integer(result->samples),
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", json_count(result->samples),
                      "rmse", difference->rmse, "own_error", result->own_error, "maximum",
                      difference->maximum, "share_off_by_1", (double)difference->off_by_1 / pixels,
                      "share_off_by_4", (double)difference->off_by_4 / pixels, "seconds",
@@ -227,9 +226,9 @@ static json_t *certainty_json(const Run *run)
     const uint64_t *pixels = report->certainty.pixels;
     if (!aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY))
         return json_null();
-    return json_pack("{s:o, s:o, s:o, s:f}", "certified", integer(pixels[CERTAINTY_CERTIFIED]),
-                     "repaired", integer(pixels[CERTAINTY_REPAIRED]), "open",
-                     integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
+    return json_pack("{s:o, s:o, s:o, s:f}", "certified", json_count(pixels[CERTAINTY_CERTIFIED]),
+                     "repaired", json_count(pixels[CERTAINTY_REPAIRED]), "open",
+                     json_count(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
 }
 
 static void add_parts(json_t *json, const Run *run)
@@ -256,8 +255,8 @@ static json_t *report_json(const Run *run)
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema", SCHEMA_VERSION, "version",
         CLRT_VERSION, "complete", report->complete, "pixel_hash", report->pixel_hash, "device",
         "name", run->async_device.device.name, "driver", run->async_device.device.version, "bytes",
-        "uploaded", integer(run->renderer.upload_size), "peak_memory",
-        integer((uint64_t)usage.ru_maxrss * 1024));
+        "uploaded", json_count(run->renderer.upload_size), "peak_memory",
+        json_count((uint64_t)usage.ru_maxrss * 1024));
     if (json != NULL)
         add_parts(json, run);
     return json;

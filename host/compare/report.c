@@ -81,15 +81,9 @@ void comparison_write_text(const Comparison *comparison, FILE *stream)
     write_limits(comparison, stream);
 }
 
-// Returns null if `value` is not finite, because JSON has no infinity.
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *count_json(const Comparison *comparison, uint64_t count)
 {
-    return json_pack("{s:o, s:f}", "pixels", json_integer((json_int_t)count), "share",
+    return json_pack("{s:o, s:f}", "pixels", json_count(count), "share",
                      (double)count / (double)comparison->difference.pixels);
 }
 
@@ -106,9 +100,8 @@ static json_t *causes_json(const Comparison *comparison)
     json_t *all = causes->known ? json_object() : json_null();
     for (int i = 0; causes->known && i < CAUSE_KINDS; i++)
         json_object_set_new(all, cause_names[i],
-                            json_pack("{s:o, s:f, s:f}", "pixels",
-                                      json_integer((json_int_t)causes->pixels[i]), "mean_square",
-                                      causes->squares[i], "share",
+                            json_pack("{s:o, s:f, s:f}", "pixels", json_count(causes->pixels[i]),
+                                      "mean_square", causes->squares[i], "share",
                                       share_of(comparison, (CauseKind)i)));
     return all;
 }
@@ -122,7 +115,7 @@ static json_t *limits_json(const Comparison *comparison)
                 all, limit_names[kind],
                 json_pack(
                     "{s:f, s:o, s:b}", "limit", comparison->limits->values[kind], "measured",
-                    number(limit_measured((LimitKind)kind, &comparison->difference)), "kept",
+                    json_finite(limit_measured((LimitKind)kind, &comparison->difference)), "kept",
                     limit_is_kept(comparison->limits, (LimitKind)kind, &comparison->difference)));
     return all;
 }
@@ -137,7 +130,7 @@ bool comparison_write_json(const Comparison *comparison, const char *path, Error
         SCHEMA_VERSION, "version", CLRT_VERSION, "files", json_file_path(comparison->pair.paths[0]),
         json_file_path(comparison->pair.paths[1]), "width", (int)difference->width, "height",
         (int)difference->height, "rmse", difference->rmse, "psnr",
-        number(difference_psnr(difference)), "maximum", maximum_json(difference), "off_by_1",
+        json_finite(difference_psnr(difference)), "maximum", maximum_json(difference), "off_by_1",
         count_json(comparison, difference->off_by_1), "off_by_4",
         count_json(comparison, difference->off_by_4), "wrong_hits", hits, "causes",
         causes_json(comparison), "limits", limits_json(comparison), "kept",
