@@ -72,9 +72,11 @@ static void count_samples(Run *run)
 {
     Report *report = &run->report;
     const RenderSettings *settings = &run->settings;
-    report->pixels = options_are_adaptive(run->options) ? tile_pixels(settings) : 0;
-    if (report->pixels > 0)
+    if (options_are_adaptive(run->options)) {
+        report->pixels = (uint64_t)settings->width * settings->height;
         return;
+    }
+    report->pixels = 0;
     const uint64_t tiles_done = run->renderer.progress.tiles_done;
     for (uint64_t number = settings->ready_tiles; number < tiles_done; number++) {
         const Tile tile = tile_at(settings, number);

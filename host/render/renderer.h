@@ -121,9 +121,6 @@ Tile tile_at(const RenderSettings *settings, uint64_t number);
 // Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
-// Returns the number of pixels in all tiles to draw.
-uint64_t tile_pixels(const RenderSettings *settings);
-
 // Sets the tile that the frame draws.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
 
