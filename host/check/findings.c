@@ -40,22 +40,23 @@ static const struct {
                        "at triangle", false},
 };
 
-__attribute__((format(printf, 3, 4))) static bool add(Check *check, Finding finding,
+// Adds a finding unless its count is 0.
+__attribute__((format(printf, 3, 4))) static void add(Check *check, Finding finding,
                                                       const char *format, ...)
 {
-    Error unused = {0};
+    Error error = {0};
+    if (finding.count == 0)
+        return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(finding.text, sizeof finding.text, format, arguments);
     va_end(arguments);
-    return array_push(&check->findings, finding, &unused);
+    check->is_cut |= !array_push(&check->findings, finding, &error);
 }
 
-static bool add_fault(Check *check, size_t object, FaultKind kind, MeshFault fault)
+static Finding note(const char *kind, size_t object, size_t count)
 {
-    const Finding finding = {faults[kind].kind, object, faults[kind].fails, fault.count, ""};
-    return fault.count == 0 || add(check, finding, "%zu %s, the first %s %zu", fault.count,
-                                   faults[kind].text, faults[kind].place, fault.first);
+    return (Finding){.kind = kind, .object = object, .count = count};
 }
 
 const char *fault_name(FaultKind kind)
@@ -82,65 +83,60 @@ void check_count_faults(const Check *check, size_t object, MeshFault counts[FAUL
     counts[FAULT_PINCHED] = closed->pinched;
 }
 
-static bool add_mesh_faults(Check *check, size_t object)
+static void add_mesh_faults(Check *check, size_t object)
 {
     MeshFault counts[FAULT_KINDS];
     check_count_faults(check, object, counts);
-    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
-        if (!add_fault(check, object, kind, counts[kind]))
-            return false;
-    return true;
+    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
+        const Finding finding = {faults[kind].kind, object, faults[kind].fails, counts[kind].count,
+                                 ""};
+        add(check, finding, "%zu %s, the first %s %zu", counts[kind].count, faults[kind].text,
+            faults[kind].place, counts[kind].first);
+    }
 }
 
-static bool add_shape(Check *check, size_t object)
+static void add_shape(Check *check, size_t object)
 {
     const MeshObject *mesh = &check->scene.objects.data[object];
     const MeshCensus *census = &check->census.meshes[object];
-    const Finding empty = {"empty_mesh", object, false, 1, ""};
-    const Finding inside = {"inside_out", object, false, 1, ""};
-    const Finding unused = {"unused_vertices", object, false, census->unused_vertices, ""};
-    if (mesh->mesh.triangle_count == 0 && !add(check, empty, "the mesh has no triangles"))
-        return false;
-    if (census->closedness.is_inside_out && !mesh->two_sided &&
-        !add(check, inside, "its fronts face inwards: seen from outside it shows its far side"))
-        return false;
-    return census->unused_vertices == 0 ||
-           add(check, unused, "%zu vertices that no triangle uses", census->unused_vertices);
+    add(check, note("empty_mesh", object, mesh->mesh.triangle_count == 0),
+        "the mesh has no triangles");
+    add(check, note("inside_out", object, census->closedness.is_inside_out && !mesh->two_sided),
+        "its fronts face inwards: seen from outside it shows its far side");
+    add(check, note("unused_vertices", object, census->unused_vertices),
+        "%zu vertices that no triangle uses", census->unused_vertices);
 }
 
 // Adds at most one finding. Steps are the spacing of floats. Tracing cannot restore details that
 // were lost when the file was written.
-static bool add_advice(Check *check, size_t object)
+static void add_advice(Check *check, size_t object)
 {
     const Features *features = &check->census.meshes[object].features;
     const double scene_size = 2 / check->normalization.scale;
     const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
-    const Finding recenter = {"advice_recenter", object, false, 1, ""};
-    const Finding scale = {"advice_scale", object, false, 1, ""};
-    const Finding thin = {"advice_thin", object, false, 1, ""};
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)
-        return add(check, recenter,
-                   "recenter it before it is written: its coordinates, %.3g from the origin, are "
-                   "floats, and its shortest edge is %.3g of their steps there",
-                   features->offset, features->written_edge.steps);
-    if (features->edge.steps < FEW_STEPS && ratio > MUCH)
-        return add(check, scale,
-                   "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
-                   "shortest edge is %.3g steps of float there; draw them apart",
-                   ratio, features->edge.steps);
-    if (features->edge.steps < FEW_STEPS)
-        return add(check, thin,
-                   "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
-                   "that lie so close",
-                   features->edge.triangle, features->edge.steps);
-    return features->height.steps >= 1 ||
-           add(check, thin,
-               "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
-               features->height.triangle, features->height.steps);
+        add(check, note("advice_recenter", object, 1),
+            "recenter it before it is written: its coordinates, %.3g from the origin, are "
+            "floats, and its shortest edge is %.3g of their steps there",
+            features->offset, features->written_edge.steps);
+    else if (features->edge.steps < FEW_STEPS && ratio > MUCH)
+        add(check, note("advice_scale", object, 1),
+            "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
+            "shortest edge is %.3g steps of float there; draw them apart",
+            ratio, features->edge.steps);
+    else if (features->edge.steps < FEW_STEPS)
+        add(check, note("advice_thin", object, 1),
+            "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
+            "that lie so close",
+            features->edge.triangle, features->edge.steps);
+    else if (features->height.steps < 1)
+        add(check, note("advice_thin", object, 1),
+            "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
+            features->height.triangle, features->height.steps);
 }
 
-static bool add_scene(Check *check)
+static void add_scene(Check *check)
 {
     const Census *census = &check->census;
     const struct {
@@ -159,25 +155,24 @@ static bool add_scene(Check *check)
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         const Finding finding = {counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count,
                                  ""};
-        if (counts[i].count > 0 && !add(check, finding, "%zu %s", counts[i].count, counts[i].text))
-            return false;
+        add(check, finding, "%zu %s", counts[i].count, counts[i].text);
     }
     const MissingPart missing = scene_missing(&check->scene);
-    const Finding note = {missing.kind, FINDING_SCENE, false, 1, ""};
-    if (missing.kind != NULL && !add(check, note, "%s", missing.text))
-        return false;
-    const Finding fault = {"scale", FINDING_SCENE, true, 1, ""};
-    return check->frame_fault.text[0] == '\0' ||
-           add(check, fault, "it cannot be drawn: %s", check->frame_fault.text);
+    if (missing.kind != NULL)
+        add(check, note(missing.kind, FINDING_SCENE, 1), "%s", missing.text);
+    const Finding fault = {"scale", FINDING_SCENE, true, check->frame_fault.text[0] != '\0', ""};
+    add(check, fault, "it cannot be drawn: %s", check->frame_fault.text);
 }
 
 bool check_find(Check *check, Error *error)
 {
-    bool ok = true;
-    for (size_t object = 0; ok && object < check->scene.objects.count; object++)
-        ok =
-            add_mesh_faults(check, object) && add_shape(check, object) && add_advice(check, object);
-    return (ok && add_scene(check)) || error_set(error, "out of memory for the findings");
+    for (size_t object = 0; object < check->scene.objects.count; object++) {
+        add_mesh_faults(check, object);
+        add_shape(check, object);
+        add_advice(check, object);
+    }
+    add_scene(check);
+    return !check->is_cut || error_set(error, "out of memory for the findings");
 }
 
 size_t check_count_failing(const Check *check)

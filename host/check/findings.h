@@ -28,6 +28,7 @@ typedef struct {
     Error frame_fault;  // why the scene cannot be drawn; empty if it can
     Error device_fault; // why there is no device
     ARRAY(Finding) findings;
+    bool is_cut; // memory ran out for a finding
     double seconds;
 } Check;
 
