@@ -14,7 +14,6 @@
 #include "scene/scn.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 // The truncation of reflections may use this fraction of the error goal. The fraction is small
 // because more levels cost less than more samples.
@@ -96,17 +95,6 @@ bool run_load_scene(Run *run, Error *error)
     return ok;
 }
 
-bool run_await_device(Run *run, Error *error)
-{
-    AsyncDevice *async = &run->async_device;
-    if (!async_device_wait(async, error))
-        return false;
-    async_device_choose(async, &run->settings, scene_triangle_count(&run->scene));
-    run->settings.group_width = async->group[0];
-    run->settings.group_height = async->group[1];
-    return true;
-}
-
 // Returns whether to build a tree. An explicit --bvh always builds one.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
@@ -145,18 +133,6 @@ bool run_build_scene(Run *run, Error *error)
     return ok;
 }
 
-void run_begin(Run *run)
-{
-    const Options *options = run->options;
-    const KernelEntry entry = options->contrast > 0           ? KERNEL_SAMPLES
-                              : options_are_adaptive(options) ? KERNEL_LADDER
-                                                              : KERNEL_TILE;
-    const RendererSetup setup = {
-        .cache = &run->cache,
-        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
-    async_device_begin(&run->async_device, run->options, setup);
-}
-
 ExitCode run_start(Run *run, Error *error)
 {
     run_begin(run);
@@ -181,7 +157,7 @@ void run_free(Run *run)
 {
     if (CLRT_TIDY_EXIT)
         renderer_close(&run->renderer);
-    async_device_free(&run->async_device);
+    run_close_device(run);
     flat_free(&run->flat);
     scene_free(&run->scene);
 }

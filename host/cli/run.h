@@ -11,33 +11,17 @@
 
 #include <pthread.h>
 
-// A device, which a background thread opens while the caller reads the scene.
+// The device of a run, which a background thread opens. Until run_await_device has returned true,
+// other threads may use no member.
 typedef struct {
     RendererSetup setup; // setup.device is `device`
     Device device;
     double device_seconds;
-    uint32_t group[2]; // the sides of work-groups
-    bool is_quick;     // async_device_choose has selected kernels that compile faster
-    // Internal members:
-    const Options *options;
+    bool is_quick; // the setup has kernels that compile faster than the device's usual ones
     Error error;
     pthread_t thread;
     bool is_open, is_running;
 } AsyncDevice;
-
-// Starts the thread. The caller must set the cache and the kernels' source in setup. Until
-// async_device_wait returns true, the caller may use no member.
-void async_device_begin(AsyncDevice *async, const Options *options, RendererSetup setup);
-
-// Waits for the device. Returns false with the reason if the device cannot be opened.
-bool async_device_wait(AsyncDevice *async, Error *error);
-
-// Selects faster-compiling kernels if they save time and the options allow them. It has no effect
-// if the cache holds the kernels chosen first.
-void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uint64_t triangles);
-
-// Waits for the thread and closes the device.
-void async_device_free(AsyncDevice *async);
 
 // The difference between a picture and its reference.
 typedef struct {
@@ -102,6 +86,9 @@ ExitCode run_start(Run *run, Error *error);
 // Waits for the device and chooses the kernels for device and scene. The kernels determine the
 // layout of nodes.
 bool run_await_device(Run *run, Error *error);
+
+// Waits for the thread of run_begin and closes the device.
+void run_close_device(Run *run);
 
 // Builds the tree and flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);

@@ -9,8 +9,9 @@ static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, E
 {
     ReadyKernel ready;
     const AsyncDevice *async = &run->async_device;
+    const uint32_t group[2] = {run->settings.group_width, run->settings.group_height};
     const KernelChoice *choice = &async->setup.source.choice;
-    if (!ready_kernel_make(&ready, &async->setup, traits, async->group, error))
+    if (!ready_kernel_make(&ready, &async->setup, traits, group, error))
         return false;
     if (!run->options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
