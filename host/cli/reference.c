@@ -38,6 +38,7 @@ typedef struct {
     Progress progress;
     uint32_t passes, exact_passes; // even numbers, at least 2
     uint32_t passes_done;
+    uint32_t draws_done; // passes in either precision
     bool stopped;
 } Reference;
 
@@ -84,9 +85,10 @@ static bool open_run(PassRun *pass, Precision precision, const Run *original, Er
 static bool tile_done(void *context, const RenderProgress *progress)
 {
     Reference *reference = context;
-    const RenderProgress whole = {.tiles_done = reference->passes_done * progress->tiles +
+    const uint32_t draws = reference->passes + reference->exact_passes;
+    const RenderProgress whole = {.tiles_done = reference->draws_done * progress->tiles +
                                                 progress->tiles_done,
-                                  .tiles = reference->passes * progress->tiles};
+                                  .tiles = draws * progress->tiles};
     reference->stopped = !progress_tile_done(&reference->progress, &whole);
     return !reference->stopped;
 }
@@ -105,6 +107,7 @@ static bool add_pass(Reference *reference, Run *run, const Viewpoint *viewpoint,
     const RenderObserver observer = {tile_done, reference};
     if (!renderer_draw(&run->renderer, &camera, &observer, &reference->pass, error))
         return false;
+    reference->draws_done++;
     const size_t pixels = (size_t)reference->pass.width * reference->pass.height;
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++)
@@ -118,7 +121,7 @@ static bool draw_pass(Reference *reference, const Viewpoint *viewpoint, Error *e
     const bool is_exact = reference->passes_done < reference->exact_passes;
     const double exact = is_exact ? 2.0 / reference->exact_passes : 0;
     const double fast = 2.0 / reference->passes - exact;
-    return (fast == 0 || add_pass(reference, &reference->fast.run, viewpoint, fast, error)) &&
+    return add_pass(reference, &reference->fast.run, viewpoint, fast, error) &&
            (!is_exact || add_pass(reference, &reference->exact.run, viewpoint, exact, error));
 }
 
