@@ -14,19 +14,19 @@
 //      two roundings are below u (|inner| + |outer|) per component. The eye is stored.
 //   2. Corners relative to the origin, sheared to (X - S Z, ., Z), |S| <= 1: u for the differences,
 //      2u for S, u for the fma of its small result. Together: 4u |S Z| + 2u |X - S Z| on each of
-//      two axes. For a corner at depth z, l aside of a ray at an angle of sine w to the longest
-//      axis, the sum is below 4u w z + 10u l. The edge functions' signs are exact (vector.inc.cl),
-//      so the tracer decides exactly about corners shifted by this much (blur_at). If the axis
-//      passes all three edges by more than the blur, no shift of the corners within the blur moves
-//      an edge across the axis. The triangle then winds around the axis as often as before, in the
-//      same direction.
+//      two axes. Let z be the corner's depth, l its distance from the ray, and w the sine of the
+//      angle between the ray and the longest axis. The sum is then below 4u w z + 10u l. The edge
+//      functions' signs are exact (vector.inc.cl), so the tracer decides exactly about corners
+//      shifted by this much (blur_at). If the axis passes all three edges by more than the blur, no
+//      shift of the corners within the blur moves an edge across the axis. The triangle then winds
+//      around the axis as often as before, in the same direction.
 //   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
 //      are common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
 //      longest axis, hence 25u of the size of the triangle's farthest corner along the ray. The
 //      tracer's own `error` (pair.cl) is below 64u of that size.
 //   4. Point of a triangle: 5u common to all weights, 3u per weight, 3u for the interpolation. Off
 //      the plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane
-//      the point slides by the blur over the sine at which the ray arrives.
+//      the point slides by the blur divided by the sine of the angle between ray and plane.
 //   5. Triangle normal: edges carry u and their products 2u each: 4u E + 3u |n_k| per axis, where E
 //      is the product of the largest edge components. In all: 7u E + 3u |n|. Unit vectors add 4u.
 //   6. Interpolated normal: 3u per weight, 3u for the interpolation, and the change of the weights
@@ -50,7 +50,7 @@ typedef struct {
 } UncertainPoint;
 
 typedef struct {
-    Real3 origin, along, right, up; // unit and perpendicular; right and up span the plane across
+    Real3 origin, along, right, up; // all but origin are of length 1 and perpendicular
     Real around;         // bound on the distance of the cone's rays from the origin at their start
     Real spread;         // bound on the tangent of their angle to `along`
     Real tilt;           // lower bound of the sine between them and the longest axis

@@ -9,7 +9,8 @@
 #define CLRT_SEARCH_CL
 #include "ray.cl"
 
-// The ray's longest axis, which the shear maps it to, and the two axes that follow.
+// z is the ray's longest axis. The shear turns the ray parallel to it. x and y are the two axes
+// that follow z cyclically.
 typedef struct {
     UInt x, y, z;
 } ShearAxes;

@@ -46,7 +46,7 @@ typedef struct {
     float price;
 } Plane;
 
-// Returns the number of leaf tests for each weight.
+// Returns the number of leaf tests for each number of triangles in `weights`.
 static Float4 units_of(const Costs *costs, Uint4 weights)
 {
     const Uint4 units = (weights + (costs->unit - 1)) >> costs->unit_bits;
@@ -61,7 +61,7 @@ static Binning binning_of(const Bounds *centers, uint32_t count)
         const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
-    binning.origin[3] = 1; // BuildItem keeps integers there: denormals, which 1 outweighs
+    binning.origin[3] = 1; // avoids slow denormals: BuildItem stores integers there
     return binning;
 }
 

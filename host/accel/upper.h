@@ -24,7 +24,7 @@ void upper_free(Upper *upper);
 // levels by moving cells instead of triangles.
 typedef struct {
     BuildItem *items;  // bounds, index and triangle count of each nonempty cell
-    uint32_t *starts;  // by cell: where its triangles begin in numbers; the last is the end
+    uint32_t *starts;  // by cell: where its triangles begin in numbers; then the end of numbers
     uint32_t *numbers; // triangle indices, cell by cell
     uint32_t count;
 } Cells;

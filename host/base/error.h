@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first cause of a failure, as one sentence for the user. Faults of the world return false and
-// fill an Error; our own faults assert. A function that makes, opens or reads a value and fails
-// leaves nothing to free, though freeing the value is harmless. The header names the exceptions.
+// fill an Error; our own faults assert. If a function that makes, opens or reads a value fails,
+// there is nothing to free, and freeing the value is harmless. Headers name the exceptions.
 #pragma once
 
 #include <stdbool.h>

@@ -146,7 +146,8 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
-// Fails if the object has triangles with the fault. text completes the message.
+// Returns whether no triangle of the object has the fault. Otherwise fills error; text ends the
+// message.
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {

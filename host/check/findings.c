@@ -9,10 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Rounding visibly distorts an edge of fewer float steps, by a thirtieth of its length or more.
+// If an edge is shorter than this number of float steps, rounding can change its length by a
+// thirtieth or more, which is visible.
 #define FEW_STEPS 16.0
 
-// Advice blames the offset or the scene's size if it exceeds the mesh's size by this factor.
+// Advice names the mesh's offset or the scene's size as the cause if that is this many times the
+// mesh's size.
 #define MUCH 4.0
 
 static const struct {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a check -> findings, each with whether it fails the check -> text and JSON.
+// Measurements of a check -> findings -> text and JSON. A finding says whether it fails the check.
 #pragma once
 
 #include "check/census.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// These switches and the scene's traits (accel/flat.h) specialize a program.
+// KernelChoice -> compiler switches. A program is specialized by these switches and by the scene's
+// traits (accel/flat.h).
 #include "device/kernel_choice.h"
 
 #include <assert.h>
@@ -46,8 +47,8 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
     return true;
 }
 
-// CPU platforms where compiling or tracing packets takes longer than compiling and tracing single
-// rays together. docs/devices.md has the measurements.
+// CPU platforms on which packets compile or trace so slowly that a run with single rays is faster.
+// docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes second differences along rows, columns and both diagonals.
+// The bend of a pixel is the largest second difference of its colors along the row, the column and
+// both diagonals.
 #include "refine/ladder.h"
 
 #include <math.h>
@@ -21,8 +22,9 @@ static float larger(float one, float other)
     return one > other ? one : other;
 }
 
-// Raises `most` to the second differences along a direction of pixels first to end - 1 of a row,
-// for each channel. The values of pixel 0 of `colors` and `most` belong together.
+// Raises each value of `most` to the second difference of its pixel and channel, if that is larger.
+// Both arrays begin at the same pixel. `step` leads to the next pixel of the direction, and `range`
+// holds the first pixel and the end.
 static void raise_bends(float *most, const float *colors, ptrdiff_t step, const uint32_t range[2])
 {
     for (ptrdiff_t i = 3 * (ptrdiff_t)range[0]; i < 3 * (ptrdiff_t)range[1]; i++)

@@ -29,8 +29,8 @@ uint64_t ladder_hash(uint32_t pixel, uint64_t seed)
 }
 
 // Converts the strata's fractions into limits. If a stratum's fraction and pixels have not
-// changed, it has no new pixel to select. Skipping it avoids most hashes. Returns whether any
-// stratum has one.
+// changed, it has no new pixel to select. Skipping it avoids most hashes. Returns false if all
+// strata are skipped.
 static bool set_limits(Choosing *choosing)
 {
     bool is_any = false;
@@ -64,7 +64,7 @@ static uint32_t *choose_run(const Choosing *choosing, uint32_t first, uint32_t e
     return chosen;
 }
 
-// Returns whether a pixel among those of a block's row may be selected.
+// Returns whether any pixel in a row of a block may be selected.
 static bool row_selects(const Choosing *choosing, const uint8_t strata[CHOICE_SIDE])
 {
     uint32_t selects = 0;

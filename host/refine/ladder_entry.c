@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assigns all pixels to strata of rung 0 by the bends of their centers. Each task adds up its
+// Assigns each pixel to a stratum of rung 0 by its bend (ladder_bends.c). Each task adds up its
 // pixels in order, and the tasks' sums are added in order. The sums therefore do not depend on
 // threads.
 #include "refine/ladder.h"

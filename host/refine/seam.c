@@ -32,7 +32,7 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
             2 * seam_difference(sample, end) < seam_difference(sample, other));
 }
 
-// If the sample at the border resembles the cell, the line has no step in this gap.
+// If the sample at the border resembles the cell, the color does not change between the two.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     if (is_like(sample, &seam->ends[SEAM_END_LAST - seam->assumed], &seam->ends[seam->assumed]))

@@ -6,7 +6,8 @@
 // cell of that level that a thin triangle touches is subdivided, unless the triangle's mesh piece
 // is wide at the cell. A piece is wide at a cell if it contains all four samples around some corner
 // of the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and contrast
-// finds its outline. Below pixels, only triangles that are searched in the same pixel count.
+// finds its outline. Below pixels, only triangles that are searched in the same pixel are
+// considered.
 //
 // A sample therefore hits each sphere and each triangle whose incircle is at least 1/57 pixel
 // across, except

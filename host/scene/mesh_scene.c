@@ -88,8 +88,8 @@ static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
     return next;
 }
 
-// Returns the field of view of which planes of this slope enclose the part FILLED. Newton's method
-// starts above the result, where the tangent is convex, and stays above.
+// Returns the field of view in degrees. Planes of this slope enclose the part FILLED of it.
+// Newton's method starts above the result, where the tangent is convex, and stays above.
 static double field_of_view(double slope)
 {
     double half = 45;

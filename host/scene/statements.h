@@ -10,8 +10,8 @@
 // Reads the rest of a define statement and adds the material to scene.
 bool materials_define(Scene *scene, Tokens *tokens);
 
-// The selection of `material own`: the materials of mesh files, or the course's material 0 without
-// any.
+// The selection of `material own`: each mesh has the materials of its file. An object without a
+// material in a file has the course's material 0.
 #define MATERIAL_OWN UINT32_MAX
 
 // Reads the argument of `material`: a number of the course, a defined name, or own. As in the

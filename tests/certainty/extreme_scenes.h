@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes at the edges of what float arithmetic bears: slivers, places far away, spheres as large as
-// planets, contacts, crossing planes, mirrors that face each other.
+// Scenes at the limits of float arithmetic: slivers, distant objects, spheres as large as planets,
+// contacts, crossing planes, mirrors that face each other.
 #pragma once
 
 #include "scene/scene.h"

@@ -24,11 +24,11 @@ typedef struct {
 } Sum;
 
 typedef struct {
-    uint64_t compared;  // pixels, certified or repaired
-    uint64_t first;     // of those: another first hit, or another light seen there
-    uint64_t deeper;    // of those: any other decision of the ray tree
-    uint64_t unsettled; // of those: not even 113 bits settle the first hit and its lights
-    uint64_t in_113;    // of those: 64 bits did not settle the ray tree
+    uint64_t compared;  // certified or repaired pixels; the other members count some of these
+    uint64_t first;     // the first hit or the lights that reach it differ
+    uint64_t deeper;    // only another decision of the ray tree differs
+    uint64_t unsettled; // not even 113 bits settle the first hit and its lights
+    uint64_t in_113;    // 64 bits did not settle the ray tree
 } Comparison;
 
 typedef struct {

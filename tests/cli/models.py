@@ -83,7 +83,7 @@ def obj(points, triangles, head="", groups=None):
 
 
 def stl(points, triangles):
-    """Binary, with normals that are wrong, as those of many programs are."""
+    """Returns a binary STL file with wrong normals, as many programs write them."""
     facets = b"".join(struct.pack("<12fH", 0, 0, 1, *points[a], *points[b], *points[c], 0) for a, b, c in triangles)
     return b"\0" * 80 + struct.pack("<I", len(triangles)) + facets
 

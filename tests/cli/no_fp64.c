@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Preloaded, makes every OpenCL device say that it has no double arithmetic.
+// If preloaded, makes every OpenCL device report that it has no double arithmetic.
 #include <CL/cl.h>
 #include <dlfcn.h>
 

@@ -97,7 +97,7 @@ def read_channels(data):
 
 
 def unpack_chunk(packed, size):
-    """Undoes ZIP: bytes are halved into even and odd ones, each the difference to the last."""
+    """Undoes EXR's ZIP compression: inflates, adds up the differences, and interleaves the two halves."""
     if len(packed) == size:
         return packed
     steps = bytearray(zlib.decompress(packed))

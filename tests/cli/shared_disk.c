@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Preload this so that clrt finds every folder on NFS.
+// If preloaded, makes every folder appear to be on NFS.
 #include <sys/vfs.h>
 
 int statfs(const char *path, struct statfs *disk)

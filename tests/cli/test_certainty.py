@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# --aov certainty: the channel, the counts, and what it changes in the picture.
-# Usage: test_certainty.py CLRT NO_FP64, as tests/cli/no_fp64.c is built
+# Tests --aov certainty: the channel, the counts, and the repaired pixels of the picture.
+# Usage: test_certainty.py CLRT NO_FP64, with the library of tests/cli/no_fp64.c
 import sys
 
 from pictures import read_exr
@@ -18,7 +18,7 @@ class Certainty(SharedWork):
         self.clrt(*PICTURE, "certain.exr", *CERTAIN, "--stats=certain.json")
 
     def pixels(self, name):
-        """Returns the colors, and the certainty of each."""
+        """Returns the color and the certainty of each pixel."""
         channels = read_exr(self.work / name)[1]
         return list(zip(*(channels[color] for color in "RGB"))), channels.get("certainty")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# clrt check and --bad-geometry: findings as text and JSON, exit statuses, and what pictures leave out.
+# Tests clrt check and --bad-geometry: findings as text and JSON, exit statuses, and dropped triangles.
 # Usage: test_check.py CLRT
 from models import knot, ply
 from work import NO_OPENCL, ROOT, SharedWork, main
@@ -17,7 +17,7 @@ MESHES = {"closed": (CORNERS, CLOSED), "open": (CORNERS, CLOSED[:3]), "turned": 
           "inside": (CORNERS, [(a, c, b) for a, b, c in CLOSED])}
 KNOT, TUBE = knot()  # a closed tube, whose parts hide behind others
 A, B, C = TUBE[200]
-# Off the middle of an edge of one of two triangles, by a fiftieth of its height.
+# A point off the middle of the edge AC, moved into triangle ABC by a fiftieth of its height.
 CRACK = tuple(0.49 * a + 0.49 * b + 0.02 * c for a, b, c in zip(KNOT[A], KNOT[B], KNOT[C]))
 MESHES |= {"knot": (KNOT, TUBE), "gap": (KNOT, TUBE[:-1]),
            "crack": ([*KNOT, CRACK], [*TUBE[:200], (A, len(KNOT), C), (len(KNOT), B, C), *TUBE[201:]]),
@@ -54,7 +54,7 @@ class Meshes(SharedWork):
             (self.work / f"{name}.ply").write_bytes(ply(*mesh))
         for name, text in SCENES.items():
             (self.work / f"{name}.scn").write_text(text)
-        # Announces more vertices than there are; noise.
+        # One file announces more vertices than it contains. The other is noise.
         self.write(lie_ply="ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n",
                    noise_ply=b"\0\xffply")
 

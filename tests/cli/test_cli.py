@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# The command line: usage, devices, pictures that no option changes, samples, statistics, compiled kernels.
+# Tests the command line: usage, devices, pictures that no option changes, samples, statistics, compiled kernels.
 # Usage: test_cli.py CLRT FORMATS WINDOW NO_FP64, the third ON for a build with a window
 import os
 import subprocess
@@ -56,7 +56,7 @@ REFUSALS = [
     (3, f"{ROOT}: cannot be read: it is not a file", [str(ROOT), "-o", "a.pfm"]),
     (3, "bad.scn:1:1: unknown statement (did you mean 'sphere'?): found 'spheer'", ["bad.scn", "-o", "a.pfm"]),
     (3, f"{SCENE} has 6 viewpoints, so there is no view 7", [*FILE, "--view", "7"]),
-    # Before any work, such as reading the scene.
+    # clrt checks outputs before any work, such as reading the scene.
     (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
@@ -257,7 +257,7 @@ class Compiled(Work):
         expected = self.run_clrt(*SMALL, "b.pfm", "--kernel", "packet")
         self.assertEqual(expected.returncode, 0)
         self.assert_same_bytes("a.pfm", "b.pfm")
-        # No run changes the kernels of the next, unless it compiles the same ones.
+        # A run does not affect the next run's choice, unless it compiles the same kernels.
         self.draws_by("ray, pair")
         self.draws_by("packet, wide", "--stats")
         self.draws_by("ray, pair")

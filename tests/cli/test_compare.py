@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# clrt compare: report, JSON, map, limits, causes, every format, and files made to harm.
+# Tests clrt compare: report, JSON, map, limits, causes, every format, and hostile files.
 # Usage: test_compare.py CLRT FORMATS
 import os
 import random
@@ -80,7 +80,7 @@ class Rows(SharedWork):
 
     def test_the_map_shows_the_difference(self):
         self.clrt(*BOTH, "-o", "map.png")
-        # Its brightness is the root of the difference, and is full from 64/255 on.
+        # The map's brightness is the root of the difference, and is full from 64/255 on.
         self.clrt("compare", "map.png", "brightness.pfm", "--fail", "max=0.002")
         self.clrt(*BOTH, "-o", "map.pfm", "-q")
         self.assert_same_bytes("map.pfm", "expected.pfm")
@@ -146,7 +146,7 @@ class Formats(SharedWork):
 
 @needs_exr
 class Causes(SharedWork):
-    """Pictures with the channels that clrt compare finds causes by. tests/unit/test_causes.c has each cause."""
+    """Pictures with the channels from which clrt compare derives causes. tests/unit/test_causes.c has each cause."""
 
     def prepare(self):
         scene = (ROOT / "scenes/reflections.scn").read_text().replace("ply_file ", f"ply_file {ROOT}/scenes/")

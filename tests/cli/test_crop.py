@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# A crop has the bits of that part of the whole picture, regardless of how it is rendered.
+# Tests that a crop has the same bits as that part of the whole picture, for all kinds of rendering.
 # Usage: test_crop.py CLRT FORMATS
 import struct
 

@@ -45,8 +45,8 @@ def vim_roles(text):
 
 
 def textmate_roles(text):
-    """The same as an editor with TextMate grammars colors the text: the leftmost match counts, and of
-    several the first pattern's."""
+    """Returns the role of every character as an editor with TextMate grammars colors the text. The leftmost
+    match counts. If several matches begin there, the first pattern counts."""
     patterns = json.loads(TEXTMATE.read_text())["patterns"]
 
     def roles(line):

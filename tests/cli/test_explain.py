@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# --explain-pixel and --explain: text, JSON, the picture's color, and what is compiled and uploaded.
+# Tests --explain-pixel and --explain: text, JSON, the pixel's color, compiled features and uploaded data.
 # Usage: test_explain.py CLRT
 from models import ply
 from pictures import read_pfm

@@ -12,7 +12,7 @@ import unittest
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
 
 FAIL_MEMORY, FAIL_DEVICE = (os.path.abspath(word) for word in sys.argv[3:5])
-# In every format more than a disk holds here; with kernels that are the same each time.
+# The file does not fit on a disk of DISK_SIZE in any format. The kernels are the same in every run.
 LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
 DISK_SIZE = 8192
 
@@ -23,7 +23,7 @@ class Faults(Work):
         self.target = self.work / "target"
         self.target.mkdir()
 
-    # On a disk of its own, mounted at target for that one process, whose listing follows.
+    # Runs clrt with a new disk, mounted at target for this process alone. Then lists the disk's files.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \

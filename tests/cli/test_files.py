@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Picture files: their pixels, that they depend on nothing else, channels, and devices that take no more.
+# Tests picture files: their pixels, identical bytes of identical runs, channels, and output to devices.
 # Usage: test_files.py CLRT FORMATS
 import math
 import unittest

@@ -91,7 +91,7 @@ class Upright(Random):
         self.assertEqual(self.mesh_of("a.ply"), self.bytes_of("a.ply"), self.seed)
 
     def test_a_mesh_that_stands_only_with_y_up_has_y_up(self):
-        """Returns to y up from z up, and stays once it is upright."""
+        """A mesh that lies on its side, with y up, is turned to z up. An upright mesh stays as it is."""
         points, triangles = tripod(self.random.uniform(0.9, 1.1))
         points = [tuple(map(models.rounded, point)) for point in points]
         upright = models.ply(points, triangles, [(0.0, 0.0, 1.0)] * len(points))

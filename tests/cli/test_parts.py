@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Parts of a picture, drawn apart and merged, are the whole one, to the byte; what does not fit
-# together is refused.
+# Tests that merged parts equal the whole picture, byte for byte, and that clrt merge rejects parts that
+# do not fit together.
 # Usage: test_parts.py CLRT
 import os
 import random
@@ -58,7 +58,7 @@ class Parts(SharedWork):
         self.expect_whole(self.thirds[::-1])
 
     def test_compressed_tiles_are_copied(self):
-        """Parts with tiles of a whole file's size are not decoded, others are."""
+        """clrt merge decodes a part only if its tiles are smaller or larger than those of a whole file."""
         for more in ([], ["--aov", "depth,primitive,boxtests", "--aa"], ["--crop", "30,20,290,190"],
                      ["--no-metadata"]):
             words, of = [SCENE, "-s", "300x200"], 3

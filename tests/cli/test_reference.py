@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# --reference: the errors that it measures, of pictures whose error is known to fall, and of itself.
+# Tests --reference: the errors that it measures for pictures of known error, and its own error.
 # Usage: test_reference.py CLRT FORMATS
 from pictures import read_exr
 from work import EVERY_FEATURE, SCENE, SharedWork, Work, main, needs_exr
@@ -113,7 +113,7 @@ class Reference(SharedWork):
 @needs_exr
 class Channel(Work):
     def expect_errors(self, *words):
-        """Compares every pixel's error with the statistics that sum it up; returns the channels."""
+        """Compares the errors of all pixels with the statistics, and returns the channels."""
         found = self.statistics(*COLORED, *words)["reference"]
         types, channels = read_exr(self.work / "a.exr")
         errors = channels["error"]

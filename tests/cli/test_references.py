@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# The course's pictures and counts of rays. Its tracer uses floats and another triangle test, so a few
-# pixels on edges differ. tests/image/test_oracle.c compares the same scenes pixel by pixel.
+# Compares clrt with the course's pictures and counts of rays. The course's tracer uses floats and another
+# triangle test, so a few pixels on edges differ. tests/image/test_oracle.c compares the same scenes pixel by pixel.
 # Usage: test_references.py CLRT FORMATS
 import os
 import pathlib

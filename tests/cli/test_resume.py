@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Pictures that were killed or stopped and go on: the same file in the end, whenever it was, and
-# never a half one under the final name.
+# Tests runs that are killed or stopped at any moment and then resumed. They must write the same file in
+# the end, and never an incomplete file under the final name.
 # Usage: [CLRT_KILLS=N] test_resume.py CLRT FORMATS [TEST...]
 import ctypes
 import fcntl

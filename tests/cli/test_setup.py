@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# tools/setup, tools/render and tools/test with stubs in place of apt-get, dpkg-query, sudo, cmake and ctest.
+# Tests tools/setup, tools/render and tools/test with stubs in place of apt-get, dpkg-query, sudo, cmake and ctest.
 # Usage: test_setup.py
 import os
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# --part auto/N and --frames auto/N with the variables of job arrays and of MPI.
+# Tests --part auto/N and --frames auto/N with the variables of job arrays and of MPI.
 # Usage: test_shares.py CLRT FORMATS
 from work import SCENE, Work, main
 
@@ -8,7 +8,7 @@ SMALL = [SCENE, "-s", "32x24"]
 FROM_ZERO = ["AWS_BATCH_JOB_ARRAY_INDEX", "JOB_COMPLETION_INDEX", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"]
 NAMES = ["SLURM_ARRAY_TASK_ID", *FROM_ZERO]
 UNSET = dict.fromkeys(NAMES)
-# Variables as the engines set them, and the number of the task of 3, from 1.
+# The variables of each scheduler for one of three tasks, and the number of this task, from 1.
 TASKS = [
     ({"SLURM_ARRAY_TASK_ID": "2", "SLURM_ARRAY_TASK_COUNT": "1", "SLURM_PROCID": "0"}, 2),
     ({"AWS_BATCH_JOB_ARRAY_INDEX": "2", "AWS_BATCH_JOB_ID": "6c7a:2"}, 3),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Words that a command line must not contain together, and notes on what a user may not have meant.
+# Tests the messages for contradictory options, and the notes on probable mistakes.
 # Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
 import os
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A folder for each test and runs of clrt in it, for tests whose first word is CLRT.
+# Gives each test a folder, and runs clrt in it. The first argument of these tests is CLRT.
 import json
 import os
 import pathlib
@@ -13,7 +13,7 @@ CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
-# The second word of tests that depend on them; empty for other tests.
+# The formats of this build, the second argument of tests that depend on them; empty for other tests.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
 HAS_EXR = "jpg" in FORMATS  # OpenImageIO reads EXR files
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
@@ -22,12 +22,12 @@ needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")
 
 
 def main(words):
-    """Runs the tests that the words after the test's own words name, or all."""
+    """Runs the tests that the command line names after the other arguments, or all."""
     unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[words + 1 :]], verbosity=2)
 
 
 def no_fp64(library):
-    """The environment of a device without double arithmetic; library is tests/cli/no_fp64.c, built."""
+    """Returns the environment of a device without doubles. library is the path of the built tests/cli/no_fp64.c."""
     # AddressSanitizer accepts libraries that are preloaded before its own.
     sanitizer = "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")
     return {"LD_PRELOAD": os.path.abspath(library), "ASAN_OPTIONS": sanitizer}
@@ -80,7 +80,7 @@ class Work(unittest.TestCase):
             time.sleep(0.002)
 
     def run_clrt(self, *words, before=(), content="", **environment):
-        """Runs clrt, by the program before it if there is one, with content as its standard input.
+        """Runs clrt with content as its standard input. `before` holds a program that runs clrt, and its arguments.
         Variables of the environment that are None are unset."""
         text = isinstance(content, str)
         environment = {**os.environ, **environment}
@@ -89,7 +89,7 @@ class Work(unittest.TestCase):
                               capture_output=True, timeout=600)
 
     def clrt(self, *words, code=0, **environment):
-        """Returns standard output or, if clrt shall fail with that code, standard error."""
+        """Returns standard output or, if code is not 0, standard error. clrt must exit with code."""
         done = self.run_clrt(*words, **environment)
         self.assertEqual(done.returncode, code, (words, done.stderr))
         return done.stderr if code else done.stdout
@@ -105,7 +105,7 @@ class Work(unittest.TestCase):
         return self.json_of("stats.json")
 
     def expect(self, report, **values):
-        """Compares parts of a report, in whose names two underscores stand between the keys."""
+        """Compares parts of a report. In the names of arguments, two underscores separate nested keys."""
         for name, expected in values.items():
             found = report
             for key in name.split("__"):
@@ -118,7 +118,7 @@ class Work(unittest.TestCase):
         return self.bytes_of("picture.pfm")
 
     def expect_same(self, one, other, *words):
-        """Two scenes give the same picture."""
+        """Expects that two scenes give the same picture."""
         self.assertTrue(self.picture(one, *words) == self.picture(other, *words), (one, other, words))
 
     def refuses(self, code, sentence, *words, **environment):
@@ -130,7 +130,7 @@ class Work(unittest.TestCase):
 
 
 class SharedWork(Work):
-    """All tests of a class work in one folder, in which prepare() first writes files that they read."""
+    """All tests of a class share one folder. prepare() writes the files that they read."""
 
     @classmethod
     def setUpClass(cls):
@@ -140,4 +140,4 @@ class SharedWork(Work):
         cls("prepare").prepare()
 
     def setUp(self):
-        """The folder is there."""
+        """Does nothing, because the folder exists already."""

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# tools/farm on this machine, and with a stub of Slurm's commands.
+# Tests tools/farm on this machine, and with stubs of Slurm's commands.
 # Usage: test_tool.py CLRT
 import os
 import pathlib
@@ -41,7 +41,7 @@ class Tool(unittest.TestCase):
         return self.run_program(ROOT / "tools/farm", *SMALL, *words, **more)
 
     def submissions(self):
-        """Returns the words of each submission, and forgets them."""
+        """Returns the arguments of each submission since the last call."""
         found = [line.split("|")[:-1] for line in self.log.read_text().splitlines()]
         self.log.unlink()
         return found

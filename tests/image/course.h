@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the course's scenes are. They are no part of clrt; the environment
-// variable CLRT_COURSE names their folder, beside the sources where it is unset.
+// Finds the course's scenes, which are not part of clrt. Their folder is in the environment
+// variable CLRT_COURSE. The default is a folder beside the sources.
 #pragma once
 
 #include <stdbool.h>

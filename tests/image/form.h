@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which form of the kernels the tests run: CLRT_TEST_KERNEL in the environment names one of "pair",
-// "wide", "packet", "packet8", "packet4" and "fp64", of which the last draws another picture.
-// Unset, it is the one that the program takes without options on the device that CLRT_DEVICE names.
+// The environment variable CLRT_TEST_KERNEL selects the form of the kernels that tests run: "pair",
+// "wide", "packet", "packet8", "packet4" or "fp64". The default is clrt's choice for the device in
+// CLRT_DEVICE. All forms but "fp64" draw the same picture.
 #pragma once
 
 #include "device/kernel_choice.h"
@@ -11,8 +11,8 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
-// Ends the process where there is no form of that name.
+// Returns the selected form. Ends the process if no form has that name.
 KernelChoice form_choice(void);
 
-// Work-items along the sides of a work-group, as the program has them.
+// Returns the number of work-items along each side of a work-group, as clrt chooses it.
 uint32_t form_group(const KernelChoice *choice);

@@ -14,27 +14,28 @@ void rendered_require(bool ok, const Error *error);
 // Reads a scene file. The caller frees the scene.
 Scene rendered_scene(const char *path);
 
-// The caller frees the picture.
+// Draws a picture. The caller frees it.
 Framebuffer rendered(const PictureRequest *request);
 
-// Also draws the listed channels. The caller frees layers.
+// Draws a picture and the listed channels. The caller frees both.
 Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *layers);
 
-// Returns the request for one of form_all.
+// Returns the request with another form of the kernels, one of form_all.
 PictureRequest rendered_in_form(PictureRequest request, const KernelChoice *form);
 
-// Returns the floats that a channel of floats stores.
+// Return the floats with these bits. Channels store floats as bits.
 double layer_float(uint32_t bits);
 Vec3 layer_vector(const uint32_t bits[3]);
 
-// Fails the test unless all others, count of them, are the same bits as the expected picture.
+// Draws `expected` and `count` other pictures. Fails the test unless all have the same bits.
 void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
                           size_t count);
 
-// The same for one picture in every form in fp32, with other threads, trees and programs.
+// Draws a picture in every form in fp32, and with other threads, trees and programs. Fails the test
+// unless all have the same bits.
 void rendered_expect_same_in_every_form(const PictureRequest *usual);
 
-// The root mean square difference of the values of two pictures of one size.
+// Returns the root mean square difference of the values of two pictures of the same size.
 double rendered_error(const Framebuffer *one, const Framebuffer *other);
 
 #define TEMPORARY_PATH 64

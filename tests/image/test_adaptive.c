@@ -38,8 +38,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 #define SIDE 240
 
-// The requirement for a contrast: the error of side x side samples per pixel, with `times` times
-// fewer samples.
+// The requirement for a contrast: at most the error of side x side samples per pixel, and at most a
+// `times`-th of their number.
 typedef struct {
     float contrast;
     uint32_t side, times;

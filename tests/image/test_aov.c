@@ -191,7 +191,7 @@ static double sum_of(const Layers *layers, uint32_t channel)
     return sum;
 }
 
-// Compares the sums of channels with the picture's counts of rays of that kind and of tests.
+// Compares the sums of channels with the picture's counts of rays and of tests.
 static void check_sums(const char *channels, uint32_t samples, int kind)
 {
     FREED_BY(layers_free) Layers layers;

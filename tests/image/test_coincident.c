@@ -60,7 +60,7 @@ static void write_pairs(char path[TEMPORARY_PATH], bool second)
                                  .triangle_count = PAIRS});
 }
 
-// Whether the first and the second mesh are two-sided.
+// True for a two-sided mesh.
 typedef struct {
     bool first, second;
 } Sides;

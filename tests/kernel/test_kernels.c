@@ -100,7 +100,8 @@ static void store_vector(float values[3], Vec3 vector)
     values[2] = (float)vector.z;
 }
 
-// The half vector is the normal, or beside it, across it, or at any angle.
+// Returns a case whose half vector equals the normal, is near it, is perpendicular to it, or is at
+// any angle to it.
 static Highlight highlight_case(int number, double shininess, uint64_t *random)
 {
     Material material = {0};

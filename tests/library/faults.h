@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls that must fail with a message.
+// Checks calls that must fail with a message.
 #pragma once
 
 #include "unit/cmocka_all.h"
@@ -7,7 +7,8 @@
 #include <clrt.h>
 #include <string.h>
 
-// Returns an error that is filled with other bytes, so that bytes that a call leaves would show.
+// Returns an error filled with arbitrary bytes, so that tests notice bytes that a call does not
+// set.
 static inline ClrtError faults_blank(void)
 {
     ClrtError error;
@@ -15,7 +16,7 @@ static inline ClrtError faults_blank(void)
     return error;
 }
 
-// Fails the test unless ok is false and error has that fault and a message that contains words.
+// Fails the test unless ok is false, error has the fault, and its message contains `words`.
 static inline void faults_assert(bool ok, const ClrtError *error, ClrtFault fault,
                                  const char *words)
 {
@@ -26,7 +27,7 @@ static inline void faults_assert(bool ok, const ClrtError *error, ClrtFault faul
         fail_msg("'%s' does not say '%s'", error->text, words);
 }
 
-// The call, which fills `error`, must find an invalid argument.
+// Fails the test unless the call, which fills `error`, reports an invalid argument.
 #define REFUSES(call, words)                                                                       \
     do {                                                                                           \
         ClrtError error = faults_blank();                                                          \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene of everything that clrt.h can fill in. filled.scn and its meshes have the same numbers.
+// A scene that uses everything that clrt.h can add to a scene. filled.scn and its meshes describe
+// the same scene.
 #pragma once
 
 #include <clrt.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cmocka.h, the headers it wants before it, and tests that register themselves. A program that
+// Includes cmocka.h and the headers that it requires. Tests register themselves. A program that
 // defines its tests by TEST() gets its main() from unit/tests.c, or calls tests_run().
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes from text for tests, beside the project's scenes.
+// Parses scene text in tests. Paths in the text are relative to the folder scenes/.
 #pragma once
 
 #include "scene/scn.h"
@@ -13,7 +13,7 @@ static inline bool parse(Scene *scene, const char *text, Error *error)
     return scn_parse(scene, text, strlen(text), CLRT_SOURCE_FOLDER "/scenes/inline.scn", error);
 }
 
-// A fault of the text fails the test.
+// Returns the scene of a valid text. Invalid text fails the test.
 static inline Scene parsed(const char *text)
 {
     Scene scene;
@@ -23,7 +23,7 @@ static inline Scene parsed(const char *text)
     return scene;
 }
 
-// The same for a text that format and its arguments make.
+// Formats the text like printf, and returns its scene.
 __attribute__((format(printf, 1, 2))) static inline Scene parsed_format(const char *format, ...)
 {
     char text[1024];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A child process answers, has no terminal, and takes nobody with it when it dies; it dies with its
-// parent.
+// Tests that a child process answers and has no terminal, that its end does not end other
+// processes, and that it ends with its parent.
 #include "base/child_process.h"
 
 #include "unit/cmocka_all.h"
@@ -109,7 +109,7 @@ static void sleep_long(int socket, const void *context)
     sleep(60);
 }
 
-// The pipe's writing end stays open as long as any of the two processes lives.
+// The pipe's writing end stays open until both processes have ended.
 TEST(a_child_ends_with_its_parent)
 {
     int ends[2];

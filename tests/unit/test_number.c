@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares base/number with known bit patterns, and with the C library's strtod in the C locale.
-// Compares the fixed sine and cosine with its long double functions.
+// Compares sine_of_degrees and cosine_of_degrees with the C library's long double functions.
 #include "base/number.h"
 #include "base/vec.h"
 

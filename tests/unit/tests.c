@@ -46,7 +46,7 @@ int tests_run(void)
     return _cmocka_run_group_tests("tests", tests, test_count, set_up_all, tear_down_all);
 }
 
-// Programs with arguments have their own.
+// Programs with arguments have their own main().
 __attribute__((weak)) int main(void)
 {
     return tests_run();

@@ -215,13 +215,13 @@ def is_blue(red, green, blue):
 
 
 def is_test(function):
-    """Tests take a screen or a window, and perhaps a temporary folder."""
+    """The arguments of a test are a screen or a window, and perhaps a temporary folder."""
     taken = set(inspect.signature(function).parameters)
     return taken - {"folder"} in ({"screen"}, {"window"}, {"screen", "window"})
 
 
 def run_test(test, screen):
-    """Gives a test what it takes, and closes the windows that it leaves open. A test's window shows
+    """Calls a test with its arguments, and closes the windows that it leaves open. A test's window shows
     SCENE, and runs in the test's folder."""
     with tempfile.TemporaryDirectory() as name:
         given = {"screen": lambda: screen, "folder": lambda: pathlib.Path(name),

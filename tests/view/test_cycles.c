@@ -18,13 +18,14 @@
 #endif
 #define WARMING_UP 20 // after these cycles, drivers keep no more memory
 
-// Three times the memory that PoCL keeps for each kernel. A picture here is six times as large.
+// The allowed growth of memory per cycle, in bytes: three times what PoCL keeps for each kernel. A
+// leaked picture would take six times as much.
 #define BYTES_A_CYCLE 32768
 
 static Cache cache;
 
-// Drivers stay loaded, so that the sanitizer can attribute their blocks. They find this function
-// only if it is exported.
+// Replaces dlclose, so that drivers stay loaded and the sanitizer can attribute their blocks. The
+// loader binds calls to this function only if it is exported.
 __attribute__((visibility("default"))) int dlclose(void *handle)
 {
     (void)handle;

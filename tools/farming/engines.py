@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs stages one after another: a stage is a script and the numbers of its tasks."""
+"""Runs stages one after another. A stage is a script and the numbers of its tasks."""
 
 import collections
 import shlex
@@ -36,7 +36,7 @@ def are_queued(jobs):
 
 
 def run_slurm(folder, stages):
-    """Submits each stage, to start when the one before has succeeded."""
+    """Submits each stage. It starts when the previous stage has succeeded."""
     record, jobs = folder / "jobs", []
     if record.exists() and are_queued(record.read_text()):
         print(f"still queued or running: squeue -j {record.read_text()}")

@@ -41,7 +41,7 @@ status=0
 "$CLRT" {words} --frames "{frames}$task/{parts}" --resume -o {output} || status=$?
 """
 
-# Slurm starts the task again later, on any host. Until Slurm ends this run, it waits.
+# Slurm starts the task again later, on any host. Slurm also ends this script; until then, it sleeps.
 END = """\
 # Status 75: a host that is cut off from the cluster still draws this.
 if [ $status = 75 ] && [ -n "${SLURM_JOB_ID-}" ]; then
@@ -57,7 +57,7 @@ MERGE = """\
 
 
 def write(folder, command, scripts):
-    """Writes the scripts to the folder: (name, name of the log, where it runs, its lines)."""
+    """Writes the scripts to the folder. A script is (name, name of its log, folder in which it runs, lines)."""
     first = folder / f"{scripts[0][0]}.sh"
     if first.exists():
         if f"\n# {command}\n" not in first.read_text():

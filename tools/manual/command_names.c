@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In the order of the table, which is that of --help.
+// Writes the names in the order of --help.
 #include "command_names.h"
 
 #include "cli/options/option.h"

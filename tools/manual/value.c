@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words come from the table of options, except names in capitals, which stand for any value.
+// The words come from the table of options. Names in capitals stand for any value and are skipped.
 // The words of --format are the formats that this build writes.
 #include "value.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bundle of cables: long thin triangles that lie across the axes, which boxes hold badly.
+// A bundle of cables: long thin triangles oblique to the axes, around which boxes are mostly empty.
 #pragma once
 
 #include "surface.h"

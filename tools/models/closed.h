@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Proof that a surface is closed.
+// Checks that a surface is closed.
 #pragma once
 
 #include "surface.h"
 
-// True when every directed edge of the triangles has exactly one twin in the opposite direction
-// and the volume enclosed is positive; false with a sentence if not, or when memory runs out.
+// Returns whether every directed edge of the triangles has exactly one twin in the opposite
+// direction and the enclosed volume is positive. Otherwise, or if memory runs out, fills error.
 bool closed_check(const Surface *surface, const char *name, Error *error);

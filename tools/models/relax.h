@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Better places for the vertices of a surface.
+// Improves the positions of a surface's vertices.
 #pragma once
 
 #include "surface.h"

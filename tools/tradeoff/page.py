@@ -77,8 +77,8 @@ def png_of_pfm(path):
 
 
 def shown_rows(rows):
-    """Returns the rows whose pictures are shown: the fastest, the base, a goal, and the most
-    accurate row. The most accurate row as fast as the base is also shown."""
+    """Returns the rows whose pictures are shown: the fastest row, the row of grid.BASE, the most
+    accurate row that takes no longer than it, the second row of --error, and the most accurate row."""
     best = front.front(rows)
     base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
     rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]

@@ -34,7 +34,7 @@ static void aim_at_joint(Rays rays, const Stage *stage, const Vec3 axes[3], Rand
     }
 }
 
-// How many rays pass: with each tracer, and in exact arithmetic.
+// The numbers of rays that pass: with each tracer, and in exact arithmetic.
 typedef struct {
     const Triangles *triangles;
     size_t leaks[TRACERS], true_leaks;

@@ -34,7 +34,7 @@ static AxisRay axis_ray(size_t number)
     const float length = lengths[number / 6 % 3], distance = distances[number / 18 % 4];
     const int zeros = (int)(number / 72 % 4), position = (int)(number / 288);
     AxisRay made = {.ray = {.own = NOTHING, .kind = RAY_CAMERA}, .axis = axis};
-    // From outside the nearer face comes first, from inside the only one ahead.
+    // A ray from outside meets the nearer face first. A ray from inside meets the face ahead of it.
     made.plane = distance > 2 * HALF ? -sign * HALF : sign * HALF;
     made.ray.origin[axis] = sign * (HALF - distance);
     made.ray.origin[x] = (float)(position % STEPS - STEPS / 2) / 16;

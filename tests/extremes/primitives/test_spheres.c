@@ -50,7 +50,7 @@ static double exact_distance(const SphereData *sphere, const TestRay *ray)
     return (double)(near > 0 ? near : far);
 }
 
-// How many hits differ from the exact ones.
+// The numbers of hits that differ from the exact ones.
 typedef struct {
     size_t sides;   // hits for misses or misses for hits
     size_t inexact; // distances

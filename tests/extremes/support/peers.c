@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces single rays, which Embree's documentation calls the reference for its other calls.
+// Traces the rays with Embree's call for single rays, because Embree's documentation calls it the
+// reference for its other calls.
 #include "peers.h"
 
 #include "shapes.h"

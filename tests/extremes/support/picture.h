@@ -39,10 +39,10 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings);
 // Draws the scene's first viewpoint. The caller frees the picture.
 Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings);
 
-// The same, and frees the scene.
+// Draws like picture_draw, and frees the scene.
 Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings);
 
-// The same as picture_draw, and fills progress with the tallies if settings ask for statistics.
+// Draws like picture_draw. If settings enable statistics, stores the tallies in progress.
 Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
                                  const PictureSettings *settings, RenderProgress *progress);
 
@@ -56,7 +56,7 @@ Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer 
 Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
                       const PictureSettings *settings);
 
-// The same, but the oracle draws `exact` instead of the scene. Frees both.
+// Judges like picture_judge, but the oracle draws `exact` instead of the scene. Frees both.
 Outcome picture_judge_beside(const char *test, const Studio *studio, Scene scene, Scene exact,
                              const PictureSettings *settings);
 

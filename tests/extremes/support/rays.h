@@ -19,15 +19,15 @@ bool rays_move_origin(size_t i, size_t bundle);
 // Returns a camera ray between two points. Rounds both to float, and then the direction.
 TestRay ray_between(Vec3 from, Vec3 to);
 
-// The same between two points in scene coordinates.
+// Returns a camera ray between two points in scene coordinates, rounded like ray_between's.
 TestRay ray_between_in(const Stage *stage, Vec3 from, Vec3 to);
 
-// Where rays go from random points of a room.
+// The targets of rays that start at random points of a room.
 typedef enum {
     AIM_RANDOM,
     AIM_EDGES,            // random points of random edges
     AIM_VERTICES,         // random vertices
-    AIM_VERTICES_EXACTLY, // the same without rounding: origin + direction is the vertex
+    AIM_VERTICES_EXACTLY, // vertices that origin + direction equals exactly
     AIM_KINDS
 } Aim;
 

@@ -28,7 +28,7 @@ double distance_to_triangle(const Triangles *triangles, size_t triangle, Vec3 po
     const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
     const double outline =
         fmin(segment_distance(a, b), fmin(segment_distance(b, c), segment_distance(c, a)));
-    // Whether the foot of the perpendicular is on the inner side of all edges.
+    // True if the foot of the perpendicular is on the inner side of all edges.
     const bool inside = vec3_dot(normal, vec3_cross(a, b)) > 0 &&
                         vec3_dot(normal, vec3_cross(b, c)) > 0 &&
                         vec3_dot(normal, vec3_cross(c, a)) > 0;

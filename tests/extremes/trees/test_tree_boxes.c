@@ -16,8 +16,8 @@ typedef struct {
     size_t triangles, boxes, violations; // so far
 } Walk;
 
-// Checks the planes of one child against the box of what is below, and adds the box to all. The
-// next plane is as many floats away as the node can have children.
+// Checks the planes of one child against `box`, the box of the triangles below it, and extends
+// `all` by this box. `children`, the most children of a node, is the step from plane to plane.
 static void check_child(Walk *walk, const float *planes, size_t children, const Box *box, Box *all)
 {
     double largest = 0;
@@ -78,7 +78,7 @@ static Box block_box(Walk *walk, uint32_t number)
     return box;
 }
 
-// The same for a wide node.
+// Checks the children of a wide node.
 static Box check_wide(Walk *walk, uint32_t number)
 {
     Box all = box_empty();
