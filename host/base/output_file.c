@@ -3,6 +3,7 @@
 #include "base/output_file.h"
 
 #include "base/array.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -63,36 +64,14 @@ static char *temporary_file(const char *path, bool beside, Error *error)
     return NULL;
 }
 
-// Returns whether a file can be created in the folder of path. The test file has no name, so a
-// signal leaves nothing behind. Returns -1 if the file system does not support unnamed files.
-static int probe_folder(const char *path, Error *error)
-{
-    const char *slash = strrchr(path, '/');
-    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    char *folder = memory_raw(length + 2, 1, error);
-    if (folder == NULL)
-        return false;
-    snprintf(folder, length + 2, "%.*s.", (int)length, path);
-    const int file = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-    free(folder);
-    if (file >= 0)
-        return close(file) == 0;
-    if (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)
-        return -1;
-    return error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-}
-
 static bool check_folder(const char *path, Error *error)
 {
-    const int probed = probe_folder(path, error);
-    if (probed >= 0)
-        return probed;
-    char *temporary = temporary_file(path, true, error);
-    if (temporary == NULL)
-        return false;
-    unlink(temporary);
-    free(temporary);
-    return true;
+    char *folder = file_path_beside(path, ".", error);
+    const bool ok =
+        folder != NULL && (access(folder, W_OK | X_OK) == 0 ||
+                           error_set(error, "%s: cannot be written: %s", path, strerror(errno)));
+    free(folder);
+    return ok;
 }
 
 bool output_file_check(const char *path, Error *error)
@@ -156,4 +135,21 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause)
     free(file->temporary);
     *file = (OutputFile){0};
     return ok;
+}
+
+// The stream is buffered, so fclose may report the failure.
+bool output_file_write(const char *path, WriteStream *write, void *context, Error *error)
+{
+    OutputFile file;
+    Error cause = {0};
+    if (!output_file_begin(&file, path, error))
+        return false;
+    FILE *stream = fopen(file.temporary, "wbe");
+    bool ok = stream != NULL && write(context, stream, &cause);
+    if (!ok)
+        error_set(&cause, "%s", strerror(errno));
+    if (stream != NULL && fclose(stream) != 0)
+        ok = error_set(&cause, "%s", strerror(errno));
+    return output_file_end(&file, ok, &cause) ||
+           error_set(error, "%s: cannot be written: %s", path, cause.text);
 }

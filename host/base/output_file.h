@@ -21,6 +21,11 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error);
 // false or the move fails. If the move fails, cause holds the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
+// Calls write with a stream and creates the file from what it writes. write returns false if it
+// fails, and then cause or errno has the reason. The error message names the path.
+typedef bool WriteStream(void *context, FILE *stream, Error *cause);
+bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
+
 // Returns whether path seems writable. Callers check this before long work.
 bool output_file_check(const char *path, Error *error);
 

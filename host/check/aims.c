@@ -299,36 +299,16 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     return best;
 }
 
-// Chooses an eye for each aim. Stores in starts[eye] the number of rays before that eye's rays.
-static void choose_eyes(Aims *aims, const Vec3 eyes[EYES], size_t starts[EYES + 2])
-{
-    AimRay unused;
-    for (size_t i = 0; i < aims->count; i++) {
-        Aim *aim = &aims->aims[i];
-        aim->eye = best_eye(aim, eyes);
-        if (!shoot(aim, eyes[aim->eye], FACING_FROM_AFAR, &unused))
-            aim->eye = EYES;
-        starts[aim->eye + 1]++;
-    }
-    for (int eye = 0; eye < EYES; eye++)
-        starts[eye + 1] += starts[eye];
-}
-
 size_t aims_shoot_from_afar(Aims *aims, AimRay *rays, uint32_t *targets)
 {
     Vec3 eyes[EYES];
-    size_t starts[EYES + 2] = {0};
+    size_t count = 0;
     for (int eye = 0; eye < EYES; eye++)
         eyes[eye] = rounded(eye_at(aims, eye));
-    choose_eyes(aims, eyes, starts);
-    const size_t count = starts[EYES];
     for (size_t i = 0; i < aims->count; i++) {
         Aim *aim = &aims->aims[i];
-        if (aim->eye == EYES)
-            continue;
-        const size_t place = starts[aim->eye]++;
-        shoot(aim, eyes[aim->eye], FACING_FROM_AFAR, &rays[place]);
-        targets[place] = (uint32_t)i;
+        if (shoot(aim, eyes[best_eye(aim, eyes)], FACING_FROM_AFAR, &rays[count]))
+            targets[count++] = (uint32_t)i;
     }
     return count;
 }

@@ -28,7 +28,6 @@ typedef struct {
     uint32_t triangle; // one of the triangles around the aim
     float tolerance;   // error bound of t for the latest ray
     AimState state;
-    uint32_t eye; // index of the eye of its first ray; EYES (aims.c) if no eye sees the aim
 } Aim;
 
 typedef struct {
@@ -53,7 +52,7 @@ bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
 // Store rays, and the index of each ray's aim in targets. Return the number of rays, at most
-// aims->count. Rays from one eye are consecutive.
+// aims->count.
 size_t aims_shoot_from_afar(Aims *aims, AimRay *rays, uint32_t *targets);
 size_t aims_shoot_from_close(Aims *aims, AimRay *rays, uint32_t *targets);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Visits each edge once and joins its triangles into fans. A point with several fans is pinched.
-#include "check/closedness.h"
+#include "check/census.h"
 
 #include "base/array.h"
 

@@ -17,21 +17,6 @@
 // mesh's size.
 #define MUCH 4.0
 
-typedef enum {
-    FAULT_BAD_POSITIONS,
-    FAULT_BAD_NORMALS,
-    FAULT_LOST_CORNERS,
-    FAULT_EQUAL_CORNERS,
-    FAULT_FLAT,
-    FAULT_DUPLICATES,
-    FAULT_LEAKS,
-    FAULT_OPEN,
-    FAULT_CROWDED,
-    FAULT_TURNED,
-    FAULT_PINCHED,
-    FAULT_KINDS
-} FaultKind;
-
 static const struct {
     const char *kind, *text;
     const char *place; // printed before the number of the first fault
@@ -57,100 +42,105 @@ static const struct {
                        "at triangle", false},
 };
 
-__attribute__((format(printf, 3, 4))) static bool add(Findings *findings, Finding finding,
+// Adds a finding unless its count is 0.
+__attribute__((format(printf, 3, 4))) static void add(Check *check, Finding finding,
                                                       const char *format, ...)
 {
-    Error unused = {0};
+    Error error = {0};
+    if (finding.count == 0)
+        return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(finding.text, sizeof finding.text, format, arguments);
     va_end(arguments);
-    return array_push(&findings->list, finding, &unused);
+    check->is_cut |= !array_push(&check->findings, finding, &error);
 }
 
-static bool add_fault(Findings *findings, size_t object, FaultKind kind, MeshFault fault)
+static Finding note(const char *kind, size_t object, size_t count)
 {
-    const Finding finding = {faults[kind].kind, object, faults[kind].fails, fault.count, ""};
-    return fault.count == 0 || add(findings, finding, "%zu %s, the first %s %zu", fault.count,
-                                   faults[kind].text, faults[kind].place, fault.first);
+    return (Finding){.kind = kind, .object = object, .count = count};
 }
 
-static bool add_mesh_faults(Findings *findings, const CheckResult *result, size_t object)
+const char *fault_name(FaultKind kind)
 {
-    const Mesh *mesh = &result->scene->objects.data[object].mesh;
-    const MeshCensus *census = &result->census->meshes[object];
+    return faults[kind].kind;
+}
+
+void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS])
+{
+    const Mesh *mesh = &check->scene.objects.data[object].mesh;
+    const MeshCensus *census = &check->census.meshes[object];
     const Closedness *closed = &census->closedness;
-    const bool leaks = result->leaks != NULL && closed->is_closed;
-    const MeshFault counts[FAULT_KINDS] = {
-        [FAULT_BAD_POSITIONS] = mesh->bad_positions,
-        [FAULT_BAD_NORMALS] = mesh->bad_normals,
-        [FAULT_LOST_CORNERS] = mesh->lost_corners,
-        [FAULT_EQUAL_CORNERS] = mesh->equal_corners,
-        [FAULT_FLAT] = census->features.flat,
-        [FAULT_DUPLICATES] = closed->duplicates,
-        [FAULT_LEAKS] = leaks ? result->leaks[object].leaks : (MeshFault){0},
-        [FAULT_OPEN] = closed->open,
-        [FAULT_CROWDED] = closed->crowded,
-        [FAULT_TURNED] = closed->turned,
-        [FAULT_PINCHED] = closed->pinched,
-    };
-    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
-        if (!add_fault(findings, object, kind, counts[kind]))
-            return false;
-    return true;
+    const bool leaks = check->leaks != NULL && closed->is_closed;
+    counts[FAULT_BAD_POSITIONS] = mesh->bad_positions;
+    counts[FAULT_BAD_NORMALS] = mesh->bad_normals;
+    counts[FAULT_LOST_CORNERS] = mesh->lost_corners;
+    counts[FAULT_EQUAL_CORNERS] = mesh->equal_corners;
+    counts[FAULT_FLAT] = census->features.flat;
+    counts[FAULT_DUPLICATES] = closed->duplicates;
+    counts[FAULT_LEAKS] = leaks ? check->leaks[object].leaks : (MeshFault){0};
+    counts[FAULT_OPEN] = closed->open;
+    counts[FAULT_CROWDED] = closed->crowded;
+    counts[FAULT_TURNED] = closed->turned;
+    counts[FAULT_PINCHED] = closed->pinched;
 }
 
-static bool add_shape(Findings *findings, const CheckResult *result, size_t object)
+static void add_mesh_faults(Check *check, size_t object)
 {
-    const MeshObject *mesh = &result->scene->objects.data[object];
-    const MeshCensus *census = &result->census->meshes[object];
-    const Finding empty = {"empty_mesh", object, false, 1, ""};
-    const Finding inside = {"inside_out", object, false, 1, ""};
-    const Finding unused = {"unused_vertices", object, false, census->unused_vertices, ""};
-    if (mesh->mesh.triangle_count == 0 && !add(findings, empty, "the mesh has no triangles"))
-        return false;
-    if (census->closedness.is_inside_out && !mesh->two_sided &&
-        !add(findings, inside, "its fronts face inwards: seen from outside it shows its far side"))
-        return false;
-    return census->unused_vertices == 0 ||
-           add(findings, unused, "%zu vertices that no triangle uses", census->unused_vertices);
+    MeshFault counts[FAULT_KINDS];
+    check_count_faults(check, object, counts);
+    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
+        const Finding finding = {faults[kind].kind, object, faults[kind].fails, counts[kind].count,
+                                 ""};
+        add(check, finding, "%zu %s, the first %s %zu", counts[kind].count, faults[kind].text,
+            faults[kind].place, counts[kind].first);
+    }
+}
+
+static void add_shape(Check *check, size_t object)
+{
+    const MeshObject *mesh = &check->scene.objects.data[object];
+    const MeshCensus *census = &check->census.meshes[object];
+    add(check, note("empty_mesh", object, mesh->mesh.triangle_count == 0),
+        "the mesh has no triangles");
+    add(check, note("inside_out", object, census->closedness.is_inside_out && !mesh->two_sided),
+        "its fronts face inwards: seen from outside it shows its far side");
+    add(check, note("unused_vertices", object, census->unused_vertices),
+        "%zu vertices that no triangle uses", census->unused_vertices);
 }
 
 // Adds at most one finding. Steps are the spacing of floats. Tracing cannot restore details that
 // were lost when the file was written.
-static bool add_advice(Findings *findings, const CheckResult *result, size_t object)
+static void add_advice(Check *check, size_t object)
 {
-    const Features *features = &result->census->meshes[object].features;
-    const double scene_size = 2 / result->normalization->scale;
+    const Features *features = &check->census.meshes[object].features;
+    const double scene_size = 2 / check->normalization.scale;
     const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
-    const Finding recenter = {"advice_recenter", object, false, 1, ""};
-    const Finding scale = {"advice_scale", object, false, 1, ""};
-    const Finding thin = {"advice_thin", object, false, 1, ""};
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)
-        return add(findings, recenter,
-                   "recenter it before it is written: its coordinates, %.3g from the origin, are "
-                   "floats, and its shortest edge is %.3g of their steps there",
-                   features->offset, features->written_edge.steps);
-    if (features->edge.steps < FEW_STEPS && ratio > MUCH)
-        return add(findings, scale,
-                   "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
-                   "shortest edge is %.3g steps of float there; draw them apart",
-                   ratio, features->edge.steps);
-    if (features->edge.steps < FEW_STEPS)
-        return add(findings, thin,
-                   "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
-                   "that lie so close",
-                   features->edge.triangle, features->edge.steps);
-    return features->height.steps >= 1 ||
-           add(findings, thin,
-               "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
-               features->height.triangle, features->height.steps);
+        add(check, note("advice_recenter", object, 1),
+            "recenter it before it is written: its coordinates, %.3g from the origin, are "
+            "floats, and its shortest edge is %.3g of their steps there",
+            features->offset, features->written_edge.steps);
+    else if (features->edge.steps < FEW_STEPS && ratio > MUCH)
+        add(check, note("advice_scale", object, 1),
+            "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
+            "shortest edge is %.3g steps of float there; draw them apart",
+            ratio, features->edge.steps);
+    else if (features->edge.steps < FEW_STEPS)
+        add(check, note("advice_thin", object, 1),
+            "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
+            "that lie so close",
+            features->edge.triangle, features->edge.steps);
+    else if (features->height.steps < 1)
+        add(check, note("advice_thin", object, 1),
+            "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
+            features->height.triangle, features->height.steps);
 }
 
-static bool add_scene(Findings *findings, const CheckResult *result)
+static void add_scene(Check *check)
 {
-    const Census *census = result->census;
+    const Census *census = &check->census;
     const struct {
         const char *kind, *text;
         size_t count;
@@ -167,42 +157,30 @@ static bool add_scene(Findings *findings, const CheckResult *result)
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         const Finding finding = {counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count,
                                  ""};
-        if (counts[i].count > 0 &&
-            !add(findings, finding, "%zu %s", counts[i].count, counts[i].text))
-            return false;
+        add(check, finding, "%zu %s", counts[i].count, counts[i].text);
     }
-    const MissingPart missing = scene_missing(result->scene);
-    const Finding note = {missing.kind, FINDING_SCENE, false, 1, ""};
-    if (missing.kind != NULL && !add(findings, note, "%s", missing.text))
-        return false;
-    const Finding fault = {"scale", FINDING_SCENE, true, 1, ""};
-    return result->frame_fault[0] == '\0' ||
-           add(findings, fault, "it cannot be drawn: %s", result->frame_fault);
+    const MissingPart missing = scene_missing(&check->scene);
+    if (missing.kind != NULL)
+        add(check, note(missing.kind, FINDING_SCENE, 1), "%s", missing.text);
+    const Finding fault = {"scale", FINDING_SCENE, true, check->frame_fault.text[0] != '\0', ""};
+    add(check, fault, "it cannot be drawn: %s", check->frame_fault.text);
 }
 
-bool findings_make(Findings *findings, const CheckResult *result, Error *error)
+bool check_find(Check *check, Error *error)
 {
-    *findings = (Findings){0};
-    bool ok = true;
-    for (size_t object = 0; ok && object < result->scene->objects.count; object++)
-        ok = add_mesh_faults(findings, result, object) && add_shape(findings, result, object) &&
-             add_advice(findings, result, object);
-    ok = ok && add_scene(findings, result);
-    if (!ok)
-        findings_free(findings);
-    return ok || error_set(error, "out of memory for the findings");
+    for (size_t object = 0; object < check->scene.objects.count; object++) {
+        add_mesh_faults(check, object);
+        add_shape(check, object);
+        add_advice(check, object);
+    }
+    add_scene(check);
+    return !check->is_cut || error_set(error, "out of memory for the findings");
 }
 
-void findings_free(Findings *findings)
-{
-    free(findings->list.memory);
-    *findings = (Findings){0};
-}
-
-size_t findings_count_failing(const Findings *findings)
+size_t check_count_failing(const Check *check)
 {
     size_t count = 0;
-    for (size_t i = 0; i < findings->list.count; i++)
-        count += findings->list.data[i].fails;
+    for (size_t i = 0; i < check->findings.count; i++)
+        count += check->findings.data[i].fails;
     return count;
 }

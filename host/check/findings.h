@@ -9,18 +9,6 @@
 
 #define FINDING_SCENE SIZE_MAX // the object index of findings about the whole scene
 
-// All measurements of a check.
-typedef struct {
-    const Scene *scene;
-    const Census *census;
-    const Normalization *normalization;
-    const LeakCount *leaks;   // by object; NULL without a device
-    const char *frame_fault;  // why the scene cannot be drawn; empty if it can
-    const char *device_name;  // the device that traced the rays; NULL without one
-    const char *device_fault; // why there is no device
-    double seconds;
-} CheckResult;
-
 typedef struct {
     const char *kind; // identifier in JSON
     size_t object;
@@ -29,22 +17,49 @@ typedef struct {
     char text[320];
 } Finding;
 
-typedef struct {
-    ARRAY(Finding) list;
-} Findings;
-
-bool findings_make(Findings *findings, const CheckResult *result, Error *error);
-void findings_free(Findings *findings);
-
-size_t findings_count_failing(const Findings *findings);
-
+// The measurements and findings of a check.
 typedef struct {
     const char *scene_path;
-    const CheckResult *result;
-    const Findings *findings;
-} CheckReport;
+    Scene scene;
+    Normalization normalization;
+    Census census;
+    Device device;      // closed without leaks
+    LeakCount *leaks;   // by object; NULL without a device; owned
+    Error frame_fault;  // why the scene cannot be drawn; empty if it can
+    Error device_fault; // why there is no device
+    ARRAY(Finding) findings;
+    bool is_cut; // memory ran out for a finding
+    double seconds;
+} Check;
 
-void check_report_write_text(const CheckReport *report, FILE *stream);
+// Adds the findings on the measurements.
+bool check_find(Check *check, Error *error);
+
+size_t check_count_failing(const Check *check);
+
+void check_report_write_text(const Check *check, FILE *stream);
 
 // Writes versioned JSON with sorted keys to path ("-": standard output).
-bool check_report_write_json(const CheckReport *report, const char *path, Error *error);
+bool check_report_write_json(const Check *check, const char *path, Error *error);
+
+// The faults of a mesh that findings and JSON name.
+typedef enum {
+    FAULT_BAD_POSITIONS,
+    FAULT_BAD_NORMALS,
+    FAULT_LOST_CORNERS,
+    FAULT_EQUAL_CORNERS,
+    FAULT_FLAT,
+    FAULT_DUPLICATES,
+    FAULT_LEAKS,
+    FAULT_OPEN,
+    FAULT_CROWDED,
+    FAULT_TURNED,
+    FAULT_PINCHED,
+    FAULT_KINDS
+} FaultKind;
+
+// Returns the fault's identifier in JSON.
+const char *fault_name(FaultKind kind);
+
+// Counts an object's faults. Leaks count only in closed meshes.
+void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS]);

@@ -60,8 +60,9 @@ static bool make_room(RayCaster *caster, Error *error)
            device_buffer(caster->device, LAUNCH_RAYS * sizeof(float), &caster->distances, error);
 }
 
-static bool make_kernel(RayCaster *caster, Error *error)
+static bool make_kernel(void *context, Error *error)
 {
+    RayCaster *caster = context;
     cl_int status;
     caster->kernel = clCreateKernel(caster->program.handle, "trace_rays", &status);
     return cl_succeeded(status, "create the kernel trace_rays", error) &&
@@ -69,28 +70,17 @@ static bool make_kernel(RayCaster *caster, Error *error)
            cl_succeeded(clFinish(caster->device->queue), "finish the first run", error);
 }
 
-static bool build(RayCaster *caster, const RendererSetup *setup, Error *error)
-{
-    char key[PROGRAM_KEY_SIZE];
-    CacheCheck build;
-    const SceneTraits traits = traits_general(false);
-    ProgramSource source = setup->source;
-    source.appended = rays_source;
-    program_key(caster->device, &source, &traits, key);
-    cache_check_begin(&build, setup->cache, key);
-    const bool ok = program_build(&caster->program, caster->device, &source, &traits, error) &&
-                    make_kernel(caster, error);
-    cache_check_end(&build, ok);
-    return ok;
-}
-
 bool ray_caster_open(RayCaster *caster, const RendererSetup *setup, Error *error)
 {
     const NodeLayout nodes = setup->source.choice.nodes;
     const FlatScene nothing = {.layout = nodes};
     *caster = (RayCaster){.device = setup->device, .nodes = nodes};
+    const SceneTraits traits = traits_general(false);
+    const FirstRun first = {make_kernel, caster};
+    RendererSetup with_rays = *setup;
+    with_rays.source.appended = rays_source;
     const bool ok = make_room(caster, error) && ray_caster_load(caster, &nothing, error) &&
-                    build(caster, setup, error);
+                    program_make(&caster->program, &with_rays, &traits, &first, error);
     if (!ok)
         ray_caster_close(caster);
     return ok;

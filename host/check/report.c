@@ -8,25 +8,24 @@
 
 #define SCHEMA_VERSION 1
 
-static const char *mesh_path(const CheckReport *report, size_t object)
+static const char *mesh_path(const Check *check, size_t object)
 {
-    const Scene *scene = report->result->scene;
+    const Scene *scene = &check->scene;
     return scene->inputs.data[scene->objects.data[object].input];
 }
 
-static void write_findings(const CheckReport *report, size_t object, FILE *stream)
+static void write_findings(const Check *check, size_t object, FILE *stream)
 {
-    const Findings *findings = report->findings;
-    for (size_t i = 0; i < findings->list.count; i++) {
-        const Finding *finding = &findings->list.data[i];
+    for (size_t i = 0; i < check->findings.count; i++) {
+        const Finding *finding = &check->findings.data[i];
         if (finding->object == object)
             fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
     }
 }
 
-static void write_leaks(const CheckReport *report, size_t object, FILE *stream)
+static void write_leaks(const Check *check, size_t object, FILE *stream)
 {
-    const LeakCount *leaks = &report->result->leaks[object];
+    const LeakCount *leaks = &check->leaks[object];
     fprintf(stream, "  %zu rays at %zu of its %zu edges and points", leaks->rays, leaks->aimed,
             leaks->total);
     if (leaks->total > LEAKS_AIMS)
@@ -35,157 +34,143 @@ static void write_leaks(const CheckReport *report, size_t object, FILE *stream)
             leaks->leaks.count);
 }
 
-static void write_mesh(const CheckReport *report, size_t object, FILE *stream)
+static void write_mesh(const Check *check, size_t object, FILE *stream)
 {
-    const Mesh *mesh = &report->result->scene->objects.data[object].mesh;
-    const MeshCensus *census = &report->result->census->meshes[object];
+    const Mesh *mesh = &check->scene.objects.data[object].mesh;
+    const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
     const Closedness *closedness = &census->closedness;
-    fprintf(stream, "%s: %zu triangles, %zu vertices, %s\n", mesh_path(report, object),
+    fprintf(stream, "%s: %zu triangles, %zu vertices, %s\n", mesh_path(check, object),
             mesh->triangle_count, mesh->vertex_count,
             closedness->is_closed ? "closed" : "not closed");
     if (mesh->triangle_count > 0)
         fprintf(stream, "  shortest edge %.3g, lowest height %.3g: %.3g and %.3g steps of float\n",
                 features->edge.size, features->height.size, features->edge.steps,
                 features->height.steps);
-    if (mesh->triangle_count > 0 && report->result->leaks != NULL)
-        write_leaks(report, object, stream);
-    write_findings(report, object, stream);
+    if (mesh->triangle_count > 0 && check->leaks != NULL)
+        write_leaks(check, object, stream);
+    write_findings(check, object, stream);
 }
 
-void check_report_write_text(const CheckReport *report, FILE *stream)
+void check_report_write_text(const Check *check, FILE *stream)
 {
-    const CheckResult *result = report->result;
-    const Scene *scene = result->scene;
+    const Scene *scene = &check->scene;
     for (size_t object = 0; object < scene->objects.count; object++)
-        write_mesh(report, object, stream);
-    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", report->scene_path,
+        write_mesh(check, object, stream);
+    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
             scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
             scene->lights.count);
-    write_findings(report, FINDING_SCENE, stream);
-    if (result->device_name != NULL)
-        fprintf(stream, "  rays were traced on %s\n", result->device_name);
-    else if (result->device_fault[0] != '\0')
-        fprintf(stream, "  leaks were not looked for: %s\n", result->device_fault);
-    const size_t failing = findings_count_failing(report->findings);
+    write_findings(check, FINDING_SCENE, stream);
+    if (check->leaks != NULL)
+        fprintf(stream, "  rays were traced on %s\n", check->device.name);
+    else if (check->device_fault.text[0] != '\0')
+        fprintf(stream, "  leaks were not looked for: %s\n", check->device_fault.text);
+    const size_t failing = check_count_failing(check);
     if (failing == 0)
         fputs("fine\n", stream);
     else
-        fprintf(stream, "%zu of %zu findings are faults\n", failing, report->findings->list.count);
-}
-
-static json_t *integer(uint64_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
-// Returns null if `value` is not finite, because JSON has no infinity.
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
+        fprintf(stream, "%zu of %zu findings are faults\n", failing, check->findings.count);
 }
 
 static json_t *fault_json(MeshFault fault)
 {
-    return json_pack("{s:o, s:o}", "count", integer(fault.count), "first",
-                     fault.count > 0 ? integer(fault.first) : json_null());
+    return json_pack("{s:o, s:o}", "count", json_count(fault.count), "first",
+                     fault.count > 0 ? json_count(fault.first) : json_null());
 }
 
 static json_t *feature_json(const Feature *feature)
 {
     const bool found = isfinite(feature->steps);
-    return json_pack("{s:o, s:o, s:o}", "size", found ? number(feature->size) : json_null(),
-                     "steps", number(feature->steps), "triangle",
-                     found ? integer(feature->triangle) : json_null());
+    return json_pack("{s:o, s:o, s:o}", "size", found ? json_finite(feature->size) : json_null(),
+                     "steps", json_finite(feature->steps), "triangle",
+                     found ? json_count(feature->triangle) : json_null());
 }
 
-static json_t *leaks_json(const CheckReport *report, size_t object)
+static json_t *leaks_json(const Check *check, size_t object)
 {
-    if (report->result->leaks == NULL)
+    if (check->leaks == NULL)
         return json_null();
-    const LeakCount *leaks = &report->result->leaks[object];
+    const LeakCount *leaks = &check->leaks[object];
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "leaks", fault_json(leaks->leaks), "rays",
-                     integer(leaks->rays), "aims", integer(leaks->total), "aimed_at",
-                     integer(leaks->aimed), "hidden", integer(leaks->hidden), "cap",
-                     integer(LEAKS_AIMS));
+                     json_count(leaks->rays), "aims", json_count(leaks->total), "aimed_at",
+                     json_count(leaks->aimed), "hidden", json_count(leaks->hidden), "cap",
+                     json_count(LEAKS_AIMS));
 }
 
-static json_t *faults_json(const Mesh *mesh, const MeshCensus *census)
+// The result of the leak test follows elsewhere.
+static json_t *faults_json(const Check *check, size_t object)
 {
-    const Closedness *closedness = &census->closedness;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "not_finite_positions",
-        fault_json(mesh->bad_positions), "not_finite_normals", fault_json(mesh->bad_normals),
-        "lost_triangles", fault_json(mesh->lost_corners), "equal_corners",
-        fault_json(mesh->equal_corners), "zero_area", fault_json(census->features.flat),
-        "duplicate_triangles", fault_json(closedness->duplicates), "open_edges",
-        fault_json(closedness->open), "crowded_edges", fault_json(closedness->crowded),
-        "turned_edges", fault_json(closedness->turned), "pinched_points",
-        fault_json(closedness->pinched));
+    MeshFault counts[FAULT_KINDS];
+    json_t *all = json_object();
+    check_count_faults(check, object, counts);
+    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
+        if (kind != FAULT_LEAKS)
+            json_object_set_new(all, fault_name(kind), fault_json(counts[kind]));
+    return all;
 }
 
-static json_t *mesh_json(const CheckReport *report, size_t object)
+static json_t *mesh_json(const Check *check, size_t object)
 {
-    const Mesh *mesh = &report->result->scene->objects.data[object].mesh;
-    const MeshCensus *census = &report->result->census->meshes[object];
+    const Mesh *mesh = &check->scene.objects.data[object].mesh;
+    const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "path",
-        json_file_path(mesh_path(report, object)), "triangles", integer(mesh->triangle_count),
-        "vertices", integer(mesh->vertex_count), "edges", integer(census->closedness.edge_count),
-        "closed", census->closedness.is_closed, "inside_out", census->closedness.is_inside_out,
-        "unused_vertices", integer(census->unused_vertices), "repeated_vertices",
-        integer(census->repeated_vertices), "faults", faults_json(mesh, census), "shortest_edge",
-        feature_json(&features->edge), "lowest_height", feature_json(&features->height),
-        "shortest_written_edge", feature_json(&features->written_edge), "leak_test",
-        leaks_json(report, object), "holds_floats", features->holds_floats);
+    return json_pack("{s:o, s:o, s:o, s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}",
+                     "path", json_file_path(mesh_path(check, object)), "triangles",
+                     json_count(mesh->triangle_count), "vertices", json_count(mesh->vertex_count),
+                     "edges", json_count(census->closedness.edge_count), "closed",
+                     census->closedness.is_closed, "inside_out", census->closedness.is_inside_out,
+                     "unused_vertices", json_count(census->unused_vertices), "repeated_vertices",
+                     json_count(census->repeated_vertices), "faults", faults_json(check, object),
+                     "shortest_edge", feature_json(&features->edge), "lowest_height",
+                     feature_json(&features->height), "shortest_written_edge",
+                     feature_json(&features->written_edge), "leak_test", leaks_json(check, object),
+                     "holds_floats", features->holds_floats);
 }
 
-static json_t *meshes_json(const CheckReport *report)
+static json_t *meshes_json(const Check *check)
 {
     json_t *list = json_array();
-    for (size_t object = 0; object < report->result->scene->objects.count; object++)
-        json_array_append_new(list, mesh_json(report, object));
+    for (size_t object = 0; object < check->scene.objects.count; object++)
+        json_array_append_new(list, mesh_json(check, object));
     return list;
 }
 
-static json_t *findings_json(const CheckReport *report)
+static json_t *findings_json(const Check *check)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < report->findings->list.count; i++) {
-        const Finding *finding = &report->findings->list.data[i];
+    for (size_t i = 0; i < check->findings.count; i++) {
+        const Finding *finding = &check->findings.data[i];
         json_array_append_new(
             list,
             json_pack("{s:s, s:b, s:o, s:o, s:s}", "kind", finding->kind, "fails", finding->fails,
                       "mesh",
-                      finding->object == FINDING_SCENE ? json_null() : integer(finding->object),
-                      "count", integer(finding->count), "text", finding->text));
+                      finding->object == FINDING_SCENE ? json_null() : json_count(finding->object),
+                      "count", json_count(finding->count), "text", finding->text));
     }
     return list;
 }
 
-static json_t *scene_json(const CheckReport *report)
+static json_t *scene_json(const Check *check)
 {
-    const Scene *scene = report->result->scene;
-    const Census *census = report->result->census;
-    return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "path", json_file_path(report->scene_path),
-        "lights", integer(scene->lights.count), "spheres", integer(scene->spheres.count),
-        "empty_meshes", integer(census->empty_meshes), "duplicate_meshes",
-        integer(census->duplicate_meshes), "duplicate_spheres", integer(census->duplicate_spheres),
-        "duplicate_lights", integer(census->duplicate_lights), "unused_materials",
-        integer(census->unused_materials));
+    const Scene *scene = &check->scene;
+    const Census *census = &check->census;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "path",
+                     json_file_path(check->scene_path), "lights", json_count(scene->lights.count),
+                     "spheres", json_count(scene->spheres.count), "empty_meshes",
+                     json_count(census->empty_meshes), "duplicate_meshes",
+                     json_count(census->duplicate_meshes), "duplicate_spheres",
+                     json_count(census->duplicate_spheres), "duplicate_lights",
+                     json_count(census->duplicate_lights), "unused_materials",
+                     json_count(census->unused_materials));
 }
 
-bool check_report_write_json(const CheckReport *report, const char *path, Error *error)
+bool check_report_write_json(const Check *check, const char *path, Error *error)
 {
-    const CheckResult *result = report->result;
-    json_t *device =
-        result->device_name != NULL ? json_file_path(result->device_name) : json_null();
+    json_t *device = check->leaks != NULL ? json_file_path(check->device.name) : json_null();
     json_t *root =
         json_pack("{s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:f}", "schema", SCHEMA_VERSION, "version",
-                  CLRT_VERSION, "fine", findings_count_failing(report->findings) == 0, "device",
-                  device, "scene", scene_json(report), "meshes", meshes_json(report), "findings",
-                  findings_json(report), "seconds", result->seconds);
+                  CLRT_VERSION, "fine", check_count_failing(check) == 0, "device", device, "scene",
+                  scene_json(check), "meshes", meshes_json(check), "findings", findings_json(check),
+                  "seconds", check->seconds);
     return json_file_write(root, path, error);
 }

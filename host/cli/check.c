@@ -13,19 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-    const Options *options;
-    Scene scene;
-    Normalization normalization;
-    Census census;
-    Device device;
-    LeakCount *leaks; // one per object; NULL without a device
-    Error frame_fault, device_fault;
-} Check;
-
-static bool count_leaks(Check *check, RayCaster *caster, Error *error)
+static bool count_leaks(Check *check, const Options *options, RayCaster *caster, Error *error)
 {
-    const Options *options = check->options;
     ThreadPool *pool = thread_pool_open(threads_allowed(options->threads));
     bool ok = true;
     for (size_t object = 0; ok && object < check->scene.objects.count; object++) {
@@ -44,34 +33,34 @@ static bool count_leaks(Check *check, RayCaster *caster, Error *error)
     return ok;
 }
 
-static bool trace_leaks(Check *check, const Cache *cache, Error *error)
+static bool trace_leaks(Check *check, const Run *run, Error *error)
 {
-    const KernelChoice choice = kernel_choose(&check->options->kernel, &check->device);
+    const KernelChoice choice = kernel_choose(&run->options->kernel, &check->device);
     const RendererSetup setup = {
         .device = &check->device,
-        .cache = cache,
+        .cache = &run->cache,
         .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = choice}};
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
     if (check->leaks == NULL || !kernel_check_device(&choice, &check->device, error) ||
         !ray_caster_open(&caster, &setup, error))
         return false;
-    const bool ok = count_leaks(check, &caster, error);
+    const bool ok = count_leaks(check, run->options, &caster, error);
     ray_caster_close(&caster);
     return ok;
 }
 
 // A missing device is an error only if the options name a device or fp64. Otherwise the report
 // contains the other checks.
-static bool find_leaks(Check *check, const Cache *cache, Error *error)
+static bool find_leaks(Check *check, const Run *run, Error *error)
 {
+    const Options *options = run->options;
     if (scene_triangle_count(&check->scene) == 0)
         return true;
     Error cause = {0};
-    if (device_open(&check->device, check->options->device, &cause) &&
-        trace_leaks(check, cache, &cause))
+    if (device_open(&check->device, options->device, &cause) && trace_leaks(check, run, &cause))
         return true;
-    if (check->options->device != NULL || check->options->kernel.precision == PRECISION_FP64)
+    if (options->device != NULL || options->kernel.precision == PRECISION_FP64)
         return error_set(error, "%s", cause.text);
     free(check->leaks);
     check->leaks = NULL;
@@ -79,34 +68,15 @@ static bool find_leaks(Check *check, const Cache *cache, Error *error)
     return true;
 }
 
-static ExitCode write_report(const CheckReport *report, const Options *options, Error *error)
+static ExitCode report(Check *check, const Options *options, Error *error)
 {
-    if (options->json_path != NULL && !check_report_write_json(report, options->json_path, error))
+    if (!check_find(check, error))
+        return EXIT_SCENE;
+    if (options->json_path != NULL && !check_report_write_json(check, options->json_path, error))
         return EXIT_OUTPUT;
     if (!options->quiet && !options_print_json(options))
-        check_report_write_text(report, stdout);
-    return findings_count_failing(report->findings) > 0 ? EXIT_FAULTS : EXIT_DONE;
-}
-
-static ExitCode report(const Check *check, double start, Error *error)
-{
-    Findings findings;
-    const CheckResult result = {
-        .scene = &check->scene,
-        .census = &check->census,
-        .normalization = &check->normalization,
-        .leaks = check->leaks,
-        .frame_fault = check->frame_fault.text,
-        .device_name = check->leaks != NULL ? check->device.name : NULL,
-        .device_fault = check->device_fault.text,
-        .seconds = clock_seconds() - start,
-    };
-    const CheckReport whole = {check->options->scene_path, &result, &findings};
-    if (!findings_make(&findings, &result, error))
-        return EXIT_SCENE;
-    const ExitCode outcome = write_report(&whole, check->options, error);
-    findings_free(&findings);
-    return outcome;
+        check_report_write_text(check, stdout);
+    return check_count_failing(check) > 0 ? EXIT_FAULTS : EXIT_DONE;
 }
 
 static void print_notes(const Options *options, const Scene *scene)
@@ -115,27 +85,30 @@ static void print_notes(const Options *options, const Scene *scene)
         fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
 }
 
-static ExitCode run(Check *check, const Cache *cache, Error *error)
+static ExitCode perform(Check *check, const Run *run, Error *error)
 {
+    const Options *options = run->options;
     const double start = clock_seconds();
-    if (!scene_source_load(&check->scene, check->options, ply_parse_tolerantly, error))
+    if (!scene_source_load(&check->scene, options, ply_parse_tolerantly, error))
         return EXIT_SCENE;
-    if (!command_files_check(check->options, &check->scene, error))
+    if (!command_files_check(options, &check->scene, error))
         return EXIT_OUTPUT;
     check->normalization = normalization_of(&check->scene);
     normalization_check(&check->normalization, &check->scene, &check->frame_fault);
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
-    print_notes(check->options, &check->scene);
-    if (!find_leaks(check, cache, error))
+    print_notes(options, &check->scene);
+    if (!find_leaks(check, run, error))
         return EXIT_DEVICE;
-    return report(check, start, error);
+    check->seconds = clock_seconds() - start;
+    return report(check, options, error);
 }
 
-ExitCode check_scene(const Options *options, const Cache *cache, Error *error)
+ExitCode check_scene(Run *run, Error *error)
 {
-    Check check = {.options = options};
-    const ExitCode outcome = run(&check, cache, error);
+    Check check = {.scene_path = run->options->scene_path};
+    const ExitCode outcome = perform(&check, run, error);
+    free(check.findings.data);
     free(check.leaks);
     device_close(&check.device);
     census_free(&check.census);

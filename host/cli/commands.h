@@ -12,7 +12,7 @@
 ExitCode picture_make(Run *run, Error *error);
 
 // clrt SCENE: shows the scene in a window until the user closes it.
-ExitCode show_scene(const Options *options, const Cache *cache, Error *error);
+ExitCode show_scene(Run *run, Error *error);
 
 // Prints the window's keys; prints nothing in a build without a window.
 void show_write_keys(FILE *stream);
@@ -31,7 +31,7 @@ ExitCode device_report_write(bool as_json, Error *error);
 
 // clrt check: reports faults of a scene's geometry. A missing device is an error only if the
 // options name a device or fp64.
-ExitCode check_scene(const Options *options, const Cache *cache, Error *error);
+ExitCode check_scene(Run *run, Error *error);
 
 // For commands other than check. With --bad-geometry=fail, it rejects triangles without area.
 // Otherwise it prints how many triangles the reader dropped.

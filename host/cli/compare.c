@@ -10,33 +10,14 @@
 
 #include <string.h>
 
-typedef struct {
-    const Options *options;
-    StoredImage images[2];
-    ImagePair pair;
-    Difference difference;
-    Causes causes;
-} Comparison;
-
-static bool read_both(Comparison *comparison, Error *error)
-{
-    ImagePair *pair = &comparison->pair;
-    for (int side = 0; side < 2; side++) {
-        pair->images[side] = &comparison->images[side];
-        pair->paths[side] =
-            side == 0 ? comparison->options->scene_path : comparison->options->other_path;
-        if (!image_read(&comparison->images[side], pair->paths[side], error))
-            return false;
-    }
-    return image_pair_check(pair, error);
-}
-
 static bool measure(Comparison *comparison, Error *error)
 {
-    const ImagePair *pair = &comparison->pair;
+    ImagePair *pair = &comparison->pair;
+    if (!image_pair_check(pair, error))
+        return false;
     difference_measure(&comparison->difference, pair);
     causes_find(&comparison->causes, pair);
-    if (comparison->options->limits.given[LIMIT_HITS] && !comparison->difference.has_hits)
+    if (comparison->limits->given[LIMIT_HITS] && !comparison->difference.has_hits)
         return error_set(
             error,
             "%s and %s do not both have a channel '%s', so that a limit on hits cannot "
@@ -45,10 +26,9 @@ static bool measure(Comparison *comparison, Error *error)
     return true;
 }
 
-static bool write_map(const Comparison *comparison, Error *error)
+static bool write_map(const Comparison *comparison, const Options *options, Error *error)
 {
     Framebuffer map = {0};
-    const Options *options = comparison->options;
     if (options->output_path == NULL)
         return true;
     const ImageSettings settings = {.format = options->format};
@@ -59,35 +39,35 @@ static bool write_map(const Comparison *comparison, Error *error)
     return ok;
 }
 
-static ExitCode report(const Comparison *comparison, Error *error)
+static ExitCode report(const Comparison *comparison, const Options *options, Error *error)
 {
-    const Options *options = comparison->options;
-    const CompareReport whole = {&comparison->pair, &comparison->difference, &comparison->causes,
-                                 &options->limits};
-    if (options->json_path != NULL && !compare_report_write_json(&whole, options->json_path, error))
+    if (options->json_path != NULL && !comparison_write_json(comparison, options->json_path, error))
         return EXIT_OUTPUT;
     if (!options->quiet && !options_print_json(options))
-        compare_report_write_text(&whole, stdout);
-    return compare_report_is_kept(&whole) ? EXIT_DONE : EXIT_FAULTS;
+        comparison_write_text(comparison, stdout);
+    return comparison_is_kept(comparison) ? EXIT_DONE : EXIT_FAULTS;
 }
 
-static ExitCode run(Comparison *comparison, Error *error)
+static ExitCode run(StoredImage images[2], const Options *options, Error *error)
 {
-    const Options *options = comparison->options;
+    const char *const paths[] = {options->scene_path, options->other_path};
+    Comparison comparison = {.pair = {{&images[0], &images[1]}, {paths[0], paths[1]}, {{0}}},
+                             .limits = &options->limits};
     if (options->output_path != NULL && !output_file_check(options->output_path, error))
         return EXIT_OUTPUT;
-    if (!read_both(comparison, error) || !measure(comparison, error))
+    if (!image_read(&images[0], paths[0], error) || !image_read(&images[1], paths[1], error) ||
+        !measure(&comparison, error))
         return EXIT_SCENE;
-    if (!write_map(comparison, error))
+    if (!write_map(&comparison, options, error))
         return EXIT_OUTPUT;
-    return report(comparison, error);
+    return report(&comparison, options, error);
 }
 
 ExitCode compare_files(const Options *options, Error *error)
 {
-    Comparison comparison = {.options = options};
-    const ExitCode outcome = run(&comparison, error);
-    for (int side = 0; side < 2; side++)
-        stored_image_free(&comparison.images[side]);
+    StoredImage images[2] = {0};
+    const ExitCode outcome = run(images, options, error);
+    stored_image_free(&images[0]);
+    stored_image_free(&images[1]);
     return outcome;
 }

@@ -8,7 +8,6 @@
 #include "mesh/ply.h"
 #include "scene/scn.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,49 +19,21 @@ typedef struct {
     char **mesh_names; // point to the file names in mesh_paths; the array is owned
 } Conversion;
 
-typedef bool WriteContent(const Conversion *conversion, const void *content, FILE *stream);
-
-// Writes to the temporary file. The stream is buffered, so fclose may report the error.
-static bool write_stream(const Conversion *conversion, const OutputFile *file, WriteContent *write,
-                         const void *content)
+static bool write_ply(void *context, FILE *stream, Error *cause)
 {
-    FILE *stream = fopen(file->temporary, "wb");
-    if (stream == NULL)
-        return false;
-    const bool ok = write(conversion, content, stream);
-    return fclose(stream) == 0 && ok;
+    (void)cause;
+    return ply_write(context, stream);
 }
 
-static bool write_file(const Conversion *conversion, const char *path, WriteContent *write,
-                       const void *content, Error *error)
+static bool write_scn(void *context, FILE *stream, Error *cause)
 {
-    OutputFile file;
-    Error cause = {0};
-    if (!output_file_begin(&file, path, error))
-        return false;
-    const bool ok =
-        write_stream(conversion, &file, write, content) || error_set(&cause, "%s", strerror(errno));
-    return output_file_end(&file, ok, &cause) ||
-           error_set(error, "%s: cannot be written: %s", path, cause.text);
+    const Conversion *conversion = context;
+    return scn_write(&conversion->scene, conversion->mesh_names, stream, cause);
 }
 
-static bool write_ply(const Conversion *conversion, const void *content, FILE *stream)
+static bool write_mesh(const Conversion *conversion, Mesh *mesh, const char *path, Error *error)
 {
-    (void)conversion;
-    return ply_write(content, stream);
-}
-
-static bool write_scn(const Conversion *conversion, const void *content, FILE *stream)
-{
-    (void)content;
-    Error unused = {0};
-    return scn_write(&conversion->scene, conversion->mesh_names, stream, &unused);
-}
-
-static bool write_mesh(const Conversion *conversion, const Mesh *mesh, const char *path,
-                       Error *error)
-{
-    if (!write_file(conversion, path, write_ply, mesh, error))
+    if (!output_file_write(path, write_ply, mesh, error))
         return false;
     if (conversion->options->verbose)
         fprintf(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
@@ -149,10 +120,11 @@ static bool write_meshes(const Conversion *conversion, Error *error)
     return ok;
 }
 
-static ExitCode write_text(const Conversion *conversion, Error *error)
+static ExitCode write_text(Conversion *conversion, Error *error)
 {
-    const bool ok = write_meshes(conversion, error) &&
-                    write_file(conversion, conversion->options->other_path, write_scn, NULL, error);
+    const bool ok =
+        write_meshes(conversion, error) &&
+        output_file_write(conversion->options->other_path, write_scn, conversion, error);
     return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
 

@@ -19,22 +19,7 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-typedef struct {
-    int number;
-    const char *of_driver, *of_clrt;
-} Crash;
-
-#define CRASH(name)                                                                                \
-    {                                                                                              \
-        name,                                                                                      \
-            "clrt: a driver crashed (" #name                                                       \
-            "): run clrt again, and with another --device if that is "                             \
-            "no better\n",                                                                         \
-            "clrt: an error of clrt's own (" #name "): please report it\n"                         \
-    }
-
-static const Crash crashes[] = {CRASH(SIGSEGV), CRASH(SIGBUS), CRASH(SIGILL), CRASH(SIGFPE),
-                                CRASH(SIGABRT)};
+static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
 // The linker defines the bounds of the executable's code.
 extern const char __executable_start[], etext[];
@@ -71,15 +56,18 @@ static _Noreturn void end(const char *message)
 // Processes that read or write pictures are forks of this process, and print nothing.
 static void handle(int number, siginfo_t *info, void *context)
 {
-    const Crash *crash = crashes;
-    while (crash->number != number)
-        crash++;
+    char message[160];
     const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
     const bool is_own = is_own_code(context);
+    char *next = stpcpy(message, is_own ? "clrt: an error of clrt's own (SIG"
+                                        : "clrt: a driver crashed (SIG");
+    next = stpcpy(next, sigabbrev_np(number));
+    stpcpy(next, is_own ? "): please report it\n"
+                        : "): run clrt again, and with another --device if that is no better\n");
     if (getpid() == watcher && !is_sent && !is_own)
-        end(crash->of_driver);
+        end(message);
     if (getpid() == watcher && !is_sent)
-        print_message(crash->of_clrt);
+        print_message(message);
     signal(number, SIG_DFL);
     raise(number); // takes effect once this function has returned
 }
@@ -111,7 +99,7 @@ void crash_watch(void)
     struct sigaction action = {.sa_sigaction = handle, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
-        sigaction(crashes[i].number, &action, NULL);
+        sigaction(crashes[i], &action, NULL);
     watcher = getpid();
     atexit(handle_exit);
 }

@@ -48,10 +48,8 @@ ExitCode explain_pixel(Run *run, Error *error)
     ExitCode code = run_start(run, error);
     if (code != EXIT_DONE)
         return code;
-    if (!has_pixel(run, error)) {
-        async_device_decide(&run->async_device, false);
+    if (!has_pixel(run, error))
         return EXIT_USAGE;
-    }
     run->settings.specialization = SPECIALIZE_NEVER; // too few rays to repay compiling
     code = run_prepare(run, error);
     if (code != EXIT_DONE)

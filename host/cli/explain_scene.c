@@ -6,16 +6,9 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
-typedef enum {
-    PART_SPHERES,
-    PART_TRIANGLES,
-    PART_TREE,
-    PART_LIGHTS,
-    PART_MIRRORS,
-    PART_STATISTICS,
-    SCENE_PARTS
-} ScenePartKind;
+#define SCENE_PARTS 6
 
 // A kernel feature that can be omitted at compile time.
 typedef struct {
@@ -54,26 +47,25 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
 {
     const FlatScene *flat = &run->flat;
     const SceneTraits needed = traits_of(flat, run->options->statistics);
-    const bool is_special = run->renderer.is_special;
-    parts[PART_SPHERES] = needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
-                                         : part("spheres", false, "there are none");
-    parts[PART_TRIANGLES] = needed.triangles
-                                ? part("triangles", true, "%u of them", flat->triangle_count)
-                                : part("triangles", false, "there are none");
-    parts[PART_TREE] = tree_part(run, needed.bvh);
-    parts[PART_LIGHTS] =
+    const ScenePart list[SCENE_PARTS] = {
+        needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
+                       : part("spheres", false, "there are none"),
+        needed.triangles ? part("triangles", true, "%u of them", flat->triangle_count)
+                         : part("triangles", false, "there are none"),
+        tree_part(run, needed.bvh),
         needed.shaded
             ? part("lights", true, "%u of them on materials that they shade", flat->light_count)
-            : part("lights", false, "all materials in use are silhouettes: no shadow rays");
-    parts[PART_MIRRORS] =
+            : part("lights", false, "all materials in use are silhouettes: no shadow rays"),
         needed.mirrors
             ? part("mirrors", true, "a material in use reflects")
-            : part("mirrors", false, "no material in use reflects: no ray is followed on");
-    parts[PART_STATISTICS] = needed.statistics
-                                 ? part("statistics", true, "--stats counts rays and tests")
-                                 : part("statistics", false, "not requested: no --stats");
+            : part("mirrors", false, "no material in use reflects: no ray is followed on"),
+        needed.statistics ? part("statistics", true, "--stats counts rays and tests")
+                          : part("statistics", false, "not requested: no --stats")};
+    memcpy(parts, list, sizeof list);
+    // General programs contain all features but the last.
     for (int i = 0; i < SCENE_PARTS; i++)
-        parts[i].is_compiled = parts[i].is_needed || (!is_special && i != PART_STATISTICS);
+        parts[i].is_compiled =
+            parts[i].is_needed || (!run->renderer.is_special && i < SCENE_PARTS - 1);
 }
 
 static const char *scene_family_reason(const Run *run)
@@ -115,29 +107,15 @@ static void write_kernels(const Run *run)
            scene_program_reason(run));
 }
 
-// Prints the compiled features whose is_needed equals the argument.
-static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed)
+// Prints the features with these properties below the heading, if there are any.
+static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed,
+                        bool is_compiled)
 {
-    bool is_headed = false;
     for (int i = 0; i < SCENE_PARTS; i++) {
-        if (parts[i].is_needed != is_needed || !parts[i].is_compiled)
+        if (parts[i].is_needed != is_needed || parts[i].is_compiled != is_compiled)
             continue;
-        if (!is_headed)
-            printf("%s\n", heading);
-        is_headed = true;
-        printf("  %-11s %s\n", parts[i].name, parts[i].reason);
-    }
-}
-
-static void write_omissions(const ScenePart parts[SCENE_PARTS])
-{
-    bool is_headed = false;
-    for (int i = 0; i < SCENE_PARTS; i++) {
-        if (parts[i].is_compiled)
-            continue;
-        printf("%s", is_headed ? "" : "left out\n");
-        is_headed = true;
-        printf("  %-11s %s\n", parts[i].name, parts[i].reason);
+        printf("%s  %-11s %s\n", heading, parts[i].name, parts[i].reason);
+        heading = "";
     }
 }
 
@@ -162,9 +140,9 @@ static void write_text(const Run *run)
     ScenePart parts[SCENE_PARTS];
     scene_parts_list(run, parts);
     write_kernels(run);
-    write_parts(parts, "compiled in", true);
-    write_parts(parts, "compiled in and idle, since the program is general", false);
-    write_omissions(parts);
+    write_parts(parts, "compiled in\n", true, true);
+    write_parts(parts, "compiled in and idle, since the program is general\n", false, true);
+    write_parts(parts, "left out\n", false, false);
     write_arrays(run);
 }
 

@@ -10,16 +10,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static ExitCode show(Run *run, Error *error)
-{
-    return show_scene(run->options, &run->cache, error);
-}
-
-static ExitCode check(Run *run, Error *error)
-{
-    return check_scene(run->options, &run->cache, error);
-}
-
 // Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
 // control group's quota, which PoCL ignores. The user's environment variables take precedence
 // unless count is given. PoCL 3.1 and 6.0 read different variables.
@@ -38,8 +28,6 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
                             Error *error)
 {
     Run run = {.options = options};
-    run.report.options = options;
-    run.report.settings = &run.settings;
     cache_open(&run.cache);
     if (progress_on_terminal() && !options->quiet)
         run.cache.announce = progress_show_compiling;
@@ -64,9 +52,9 @@ static ExitCode perform(const Options *options, Error *error)
     case ACTION_WARM:
         return perform_run(options, warm_kernels, error);
     case ACTION_VIEW:
-        return perform_run(options, show, error);
+        return perform_run(options, show_scene, error);
     case ACTION_CHECK:
-        return perform_run(options, check, error);
+        return perform_run(options, check_scene, error);
     case ACTION_COMPARE:
         return compare_files(options, error);
     case ACTION_MERGE:
@@ -97,7 +85,7 @@ typedef struct {
     ExitCode code;
 } CommandLine;
 
-static void run(void *context)
+static void *run(void *context)
 {
     CommandLine *line = context;
     Error error = {0};
@@ -108,6 +96,7 @@ static void run(void *context)
     }
     if (error.text[0] != '\0')
         fprintf(stderr, "clrt: %s\n", error.text);
+    return NULL;
 }
 
 int main(int count, char **arguments)

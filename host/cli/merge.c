@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/report.h"
+#include "cli/picture.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
 #include "render/renderer.h"
@@ -185,25 +185,23 @@ static bool visit_parts(Merging *merging, FILE *stream, Error *error)
     return true;
 }
 
-static bool write_joined(Merging *merging, const ImageSettings *settings, Error *error)
+typedef struct {
+    Merging *merging;
+    const ImageSettings *settings;
+    Error *error; // about a part
+} Joining;
+
+// Leaves errno 0 if a part cannot be used.
+static bool write_joined(void *context, FILE *stream, Error *cause)
 {
-    OutputFile file;
-    Error cause = {0};
-    const char *path = merging->options->output_path;
-    if (!output_file_begin(&file, path, error))
+    Joining *joining = context;
+    Merging *merging = joining->merging;
+    (void)cause;
+    if (!exr_join_write_head(&merging->join, joining->settings, &merging->first.settings, stream))
         return false;
-    FILE *stream = fopen(file.temporary, "wbe");
-    bool ok = stream != NULL &&
-              exr_join_write_head(&merging->join, settings, &merging->first.settings, stream);
-    if (ok && !visit_parts(merging, stream, error)) {
-        ok = false;
-        errno = merging->join.write_error;
-    }
-    ok = (stream == NULL || fclose(stream) == 0) && ok;
-    if (!ok)
-        error_set(&cause, "%s", strerror(errno));
-    return output_file_end(&file, ok, &cause) ||
-           error_set(error, "%s: cannot be written: %s", path, cause.text);
+    const bool ok = visit_parts(merging, stream, joining->error);
+    errno = merging->join.write_error;
+    return ok;
 }
 
 static bool write_whole(Merging *merging, Error *error)
@@ -226,8 +224,9 @@ static bool write_whole(Merging *merging, Error *error)
         .whole_height = place->whole_height,
         .layers = merging->layers.count > 0 ? &merging->layers : NULL,
     };
+    Joining joining = {merging, &settings, error};
     if (merging->joins)
-        return write_joined(merging, &settings, error);
+        return output_file_write(options->output_path, write_joined, &joining, error);
     return image_write(&merging->framebuffer, options->output_path, &settings, error);
 }
 

@@ -6,7 +6,6 @@
 #include "base/output_file.h"
 #include "cli/picture.h"
 #include "cli/process.h"
-#include "cli/report.h"
 #include "image/image_file.h"
 #include "jobs/stored_tiles.h"
 #include "refine/refine_tree.h"
@@ -73,10 +72,13 @@ static void count_samples(Run *run)
 {
     Report *report = &run->report;
     const RenderSettings *settings = &run->settings;
-    report->pixels = options_are_adaptive(run->options) ? tile_pixels(settings) : 0;
-    if (report->pixels > 0)
+    if (options_are_adaptive(run->options)) {
+        report->pixels = (uint64_t)settings->width * settings->height;
         return;
-    for (uint64_t number = settings->ready_tiles; number < report->tiles_done; number++) {
+    }
+    report->pixels = 0;
+    const uint64_t tiles_done = run->renderer.progress.tiles_done;
+    for (uint64_t number = settings->ready_tiles; number < tiles_done; number++) {
         const Tile tile = tile_at(settings, number);
         report->pixels += (uint64_t)tile.width * tile.height;
     }
@@ -91,12 +93,8 @@ static bool draw(Picture *picture, Error *error)
     for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < run->options->repeat;
          frame++)
         ok = draw_frame(picture, &camera, error);
-    run->report.trace = run->report.frame_seconds[0];
     const RenderProgress *done = &run->renderer.progress;
-    run->report.tiles_done = done->tiles_done;
     run->report.complete = ok && done->tiles_done == done->tiles;
-    for (int kind = 0; kind < TALLY_KINDS; kind++)
-        run->report.tallies[kind] = done->tallies[kind];
     count_samples(run);
     return ok;
 }
@@ -156,7 +154,7 @@ static bool measure_error(Picture *picture, Error *error)
         return true;
     const bool ok = reference_measure(picture, error);
     if (ok && !run->options->quiet)
-        report_write_error(&run->report, stderr);
+        report_write_error(run, stderr);
     return ok;
 }
 
@@ -200,7 +198,7 @@ static bool write_picture(Picture *picture, Error *error)
     const uint32_t film_frames = is_film ? add_to_film(picture) : 0;
     if (is_film && film_frames < frames_count(&options->frames) && picture->stopped_by == 0)
         return true;
-    report_fill_provenance(&provenance, &run->report);
+    report_fill_provenance(&provenance, run);
     provenance_list(&provenance);
     ImageSettings settings = {.format = options->format,
                               .encoding = options->encoding,
@@ -218,7 +216,7 @@ static bool write_picture(Picture *picture, Error *error)
         settings.part = &part;
         if (!stored_tiles_list(&run->settings, &part, error))
             return false;
-        part.tile_count = run->report.tiles_done;
+        part.tile_count = run->renderer.progress.tiles_done;
     }
     const bool ok = image_write(is_film ? &picture->film : &picture->framebuffer, picture->path,
                                 &settings, error);
@@ -236,10 +234,10 @@ static bool write_statistics(Run *run, double start, Error *error)
     if (!options->statistics)
         return true;
     if (options->statistics_path == NULL) {
-        report_write_text(&run->report, stderr);
+        report_write_text(run, stderr);
         return true;
     }
-    return report_write_json(&run->report, options->statistics_path, error);
+    return report_write_json(run, options->statistics_path, error);
 }
 
 // Reports invalid dates and unwritable outputs before any work, and looks for an earlier run.
@@ -301,7 +299,7 @@ static bool begin_picture(Picture *picture, Error *error)
     Provenance own;
     RenderSettings *settings = &run->settings;
     uint32_t width, height;
-    report_fill_provenance(&own, &run->report);
+    report_fill_provenance(&own, run);
     tile_frame_size(settings, &width, &height);
     const bool ok = framebuffer_make(&picture->framebuffer, width, height, error) &&
                     resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cli/run.h"
+#include "image/provenance.h"
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
@@ -63,3 +64,27 @@ bool refined_picture_draw(Picture *picture, const CameraData *camera,
 // Computes the certainty of each pixel of a finished picture, repairs pixels in fp64, and stores
 // the counts in the report. A stopped picture stays unchanged, without certified pixels.
 bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error);
+
+// Reports of a run's costs and results, as text and as JSON.
+
+// Returns the builder's name in --bvh, or "none" without a tree.
+const char *report_tree_name(const Run *run);
+
+// Returns the number of triangles that the scene's reader dropped.
+uint64_t report_dropped_triangles(const Run *run);
+
+// Prints the error against the reference, if one was drawn.
+void report_write_error(const Run *run, FILE *stream);
+
+// Prints time, samples, rays and tests, like the course's program.
+void report_write_text(const Run *run, FILE *stream);
+
+// Writes versioned JSON with sorted keys to path ("-": standard output).
+bool report_write_json(const Run *run, const char *path, Error *error);
+
+// Fills the texts that the picture's file stores.
+void report_fill_provenance(Provenance *provenance, const Run *run);
+
+// Prints the hash of the pixels if the options request it. Fails if the hash differs from the
+// expected hash.
+bool report_print_hash(const Options *options, const char *hash, Error *error);

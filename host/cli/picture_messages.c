@@ -40,19 +40,20 @@ void picture_print_setup(const Run *run)
     const Report *report = &run->report;
     if (!run->options->verbose)
         return;
-    fprintf(stderr, "scene: %u triangles, %u spheres, %u lights; %llu triangles dropped\n",
-            report->triangles, report->spheres, report->lights,
-            (unsigned long long)report->dropped_triangles);
+    fprintf(stderr, "scene: %zu triangles, %zu spheres, %zu lights; %llu triangles dropped\n",
+            scene_triangle_count(&run->scene), run->scene.spheres.count, run->scene.lights.count,
+            (unsigned long long)report_dropped_triangles(run));
     fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
             report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
     const Device *device = &run->async_device.device;
     fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
             device->compute_units);
+    const KernelChoice *choice = &run->async_device.setup.source.choice;
     fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
-            kernel_family_name(report->choice->family), kernel_nodes_name(report->choice->nodes),
-            kernel_precision_name(report->choice->precision),
-            report->specialized ? "specialized" : "general", report->kernel_build,
-            report->upload_size);
+            kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
+            kernel_precision_name(choice->precision),
+            run->renderer.is_special ? "specialized" : "general", run->renderer.build_seconds,
+            run->renderer.upload_size);
 }
 
 void picture_print_beginning(const Picture *picture)
@@ -82,7 +83,7 @@ ExitCode picture_fail_goal(const Run *run, Error *error)
     const Report *report = &run->report;
     if (run->options->time_goal > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
-                  report->trace);
+                  report->frame_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
                   100 * fmax(report->bound, report->truncation));

@@ -1,63 +1,62 @@
 // SPDX-License-Identifier: MIT
 // Fills the metadata of a picture. It contains only settings that can change a pixel, so files of
 // the same picture are equal.
-#include "cli/report.h"
+#include "cli/picture.h"
+
+#include "image/json_file.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
-static json_t *integer(uint32_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
 static json_t *pair_json(uint32_t one, uint32_t other)
 {
-    return json_pack("[oo]", integer(one), integer(other));
+    return json_pack("[oo]", json_count(one), json_count(other));
 }
 
-static json_t *samples_json(const Report *report)
+static json_t *samples_json(const Run *run)
 {
-    return options_are_adaptive(report->options) ? json_string("adaptive")
-                                                 : integer(report->settings->samples);
+    return options_are_adaptive(run->options) ? json_string("adaptive")
+                                              : json_count(run->settings.samples);
 }
 
 // Test counts depend on the tree; colors do not.
-static void add_tree(json_t *json, const Report *report)
+static void add_tree(json_t *json, const Run *run)
 {
-    if (!aov_needs(report->options->aovs, AOV_NEEDS_TESTS))
+    if (!aov_needs(run->options->aovs, AOV_NEEDS_TESTS))
         return;
-    json_object_set_new(json, "bvh", json_string(report_tree_name(report)));
-    json_object_set_new(json, "nodes", json_string(kernel_nodes_name(report->choice->nodes)));
+    json_object_set_new(json, "bvh", json_string(report_tree_name(run)));
+    json_object_set_new(
+        json, "nodes", json_string(kernel_nodes_name(run->async_device.setup.source.choice.nodes)));
 }
 
-static json_t *settings_json(const Report *report)
+static json_t *settings_json(const Run *run)
 {
-    const RenderSettings *settings = report->settings;
-    const Options *options = report->options;
-    const bool is_unfinished = !report->complete && !options_are_adaptive(options);
-    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", integer(report->view),
-                             "width", integer(render_whole_width(settings)), "height",
-                             integer(render_whole_height(settings)), "samples",
-                             samples_json(report), "max_level", integer(settings->max_level),
-                             "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw",
-                             "precision", kernel_precision_name(report->choice->precision));
-    add_tree(json, report);
+    const RenderSettings *settings = &run->settings;
+    const Options *options = run->options;
+    const bool is_unfinished = !run->report.complete && !options_are_adaptive(options);
+    json_t *json =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(run->report.view),
+                  "width", json_count(render_whole_width(settings)), "height",
+                  json_count(render_whole_height(settings)), "samples", samples_json(run),
+                  "max_level", json_count(settings->max_level), "encode",
+                  options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
+                  kernel_precision_name(run->async_device.setup.source.choice.precision));
+    add_tree(json, run);
     if (options->exposure != 0)
         json_object_set_new(json, "exposure", json_real(options->exposure));
-    if (report->turned > 0)
-        json_object_set_new(json, "turned", json_real(report->turned));
+    if (run->report.turned > 0)
+        json_object_set_new(json, "turned", json_real(run->report.turned));
     if (render_is_part(settings))
         json_object_set_new(json, "crop", crop_json(settings));
     if (options_are_adaptive(options))
-        json_object_set_new(json, "contrast", json_real(report->contrast));
+        json_object_set_new(json, "contrast", json_real(run->options->contrast));
     if (settings->parts > 0)
         json_object_set_new(json, "part", pair_json(settings->part + 1, settings->parts));
     if (settings->parts > 0 || is_unfinished)
         json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
     if (is_unfinished)
-        json_object_set_new(json, "tiles_done", json_integer((json_int_t)report->tiles_done));
+        json_object_set_new(json, "tiles_done", json_count(run->renderer.progress.tiles_done));
     return json;
 }
 
@@ -66,17 +65,17 @@ static void set(Provenance *provenance, StoredText kind, const char *value)
     snprintf(provenance->texts[kind], STORED_TEXT_SIZE, "%s", value);
 }
 
-void report_fill_provenance(Provenance *provenance, const Report *report)
+void report_fill_provenance(Provenance *provenance, const Run *run)
 {
-    json_t *settings = settings_json(report);
+    json_t *settings = settings_json(run);
     set(provenance, STORED_VERSION, CLRT_VERSION);
-    scene_hash_name(report->scene_hash, provenance->texts[STORED_SCENE_HASH]);
-    scene_hash_name(report->mesh_hash, provenance->texts[STORED_MESH_HASH]);
+    scene_hash_name(run->scene.hash, provenance->texts[STORED_SCENE_HASH]);
+    scene_hash_name(run->scene.mesh_hash, provenance->texts[STORED_MESH_HASH]);
     provenance_write_settings(provenance->texts[STORED_SETTINGS], settings);
-    set(provenance, STORED_DEVICE, report->device_name);
-    set(provenance, STORED_DRIVER, report->device_version);
-    set(provenance, STORED_PIXEL_HASH, report->pixel_hash);
-    set(provenance, STORED_COMPLETE, report->complete ? "yes" : "no");
+    set(provenance, STORED_DEVICE, run->async_device.device.name);
+    set(provenance, STORED_DRIVER, run->async_device.device.version);
+    set(provenance, STORED_PIXEL_HASH, run->report.pixel_hash);
+    set(provenance, STORED_COMPLETE, run->report.complete ? "yes" : "no");
     json_decref(settings);
 }
 

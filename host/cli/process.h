@@ -55,4 +55,4 @@ void crash_watch(void);
 //
 // Calls work(context) and returns after it. If the stack limit is below the usual one, work runs on
 // a new thread, and threads that drivers start also get larger stacks.
-void stack_run(void (*work)(void *context), void *context);
+void stack_run(void *(*work)(void *context), void *context);

@@ -62,7 +62,6 @@ static bool draw_adaptively(Picture *picture, const CameraData *camera, ThreadPo
         adaptive_store(&adaptive, &picture->framebuffer);
         count_tree(picture, &adaptive.tree);
     }
-    run->report.contrast = run->options->contrast;
     run->report.samples = adaptive.samples;
     adaptive_close(&adaptive);
     return ok;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the report as text, and as JSON with Jansson.
-#include "cli/report.h"
+#include "cli/picture.h"
 
 #include "accel/bvh.h"
 #include "image/json_file.h"
@@ -12,80 +12,75 @@
 
 #define SCHEMA_VERSION 1
 
-static uint64_t ray_count(const Report *report)
+static uint64_t ray_count(const Run *run)
 {
-    return report->tallies[TALLY_CAMERA_RAYS] + report->tallies[TALLY_SHADOW_RAYS] +
-           report->tallies[TALLY_REFLECTED_RAYS];
+    const uint64_t *tallies = run->renderer.progress.tallies;
+    return tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] + tallies[TALLY_REFLECTED_RAYS];
 }
 
-static double per_ray(const Report *report, TallyKind kind)
+static double per_ray(const Run *run, TallyKind kind)
 {
-    const uint64_t rays = ray_count(report);
-    return rays == 0 ? 0 : (double)report->tallies[kind] / (double)rays;
+    const uint64_t rays = ray_count(run);
+    return rays == 0 ? 0 : (double)run->renderer.progress.tallies[kind] / (double)rays;
 }
 
-static double samples_per_pixel(const Report *report)
+static double samples_per_pixel(const Run *run)
 {
+    const Report *report = &run->report;
     return report->pixels == 0 ? 0 : (double)report->samples / (double)report->pixels;
 }
 
-const char *report_tree_name(const Report *report)
+const char *report_tree_name(const Run *run)
 {
-    if (report->bvh_nodes == 0)
+    if (run->report.bvh_nodes == 0)
         return "none";
-    return report->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
+    return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
-void report_count_scene(Report *report, const Scene *scene, const Bvh *bvh)
+uint64_t report_dropped_triangles(const Run *run)
 {
-    memcpy(report->scene_hash, scene->hash, sizeof report->scene_hash);
-    memcpy(report->mesh_hash, scene->mesh_hash, sizeof report->mesh_hash);
-    report->lights = (uint32_t)scene->lights.count;
-    report->spheres = (uint32_t)scene->spheres.count;
-    report->triangles = (uint32_t)scene_triangle_count(scene);
-    for (size_t i = 0; i < scene->objects.count; i++)
-        report->dropped_triangles += scene->objects.data[i].mesh.dropped_count;
-    report->bvh_nodes = bvh->node_count;
-    report->bvh_leaves = bvh->leaf_count;
-    report->bvh_depth = bvh->depth;
-    report->bvh_largest_leaf = bvh->largest_leaf;
-    memcpy(report->bvh_inner, bvh->inner_counts, sizeof report->bvh_inner);
+    uint64_t count = 0;
+    for (size_t i = 0; i < run->scene.objects.count; i++)
+        count += run->scene.objects.data[i].mesh.dropped_count;
+    return count;
 }
 
-void report_write_text(const Report *report, FILE *stream)
+void report_write_text(const Run *run, FILE *stream)
 {
-    if (report->options->resume)
+    const uint64_t *tallies = run->renderer.progress.tallies;
+    const Report *report = &run->report;
+    if (run->options->resume)
         fprintf(stream,
                 "%" PRIu64 " of %" PRIu64 " tiles were there: time and counts are of the others\n",
-                report->settings->ready_tiles, tile_count(report->settings));
-    fprintf(stream, "%.3f seconds\n", report->trace);
+                run->settings.ready_tiles, tile_count(&run->settings));
+    fprintf(stream, "%.3f seconds\n", report->frame_seconds[0]);
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
-            samples_per_pixel(report));
+            samples_per_pixel(run));
     if (report->estimate > 0)
         fprintf(stream,
                 "error: about %.2g %%, at most %.2g %% with 95 %% confidence, of which at most "
                 "%.2g %% for %u levels\n",
                 100 * report->estimate, 100 * report->bound, 100 * report->truncation,
-                report->settings->max_level);
+                run->settings.max_level);
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
-            ray_count(report), report->tallies[TALLY_CAMERA_RAYS],
-            report->tallies[TALLY_SHADOW_RAYS], report->tallies[TALLY_REFLECTED_RAYS]);
-    fprintf(stream, "%" PRIu64 " triangle tests, %.2f per ray\n",
-            report->tallies[TALLY_TRIANGLE_TESTS], per_ray(report, TALLY_TRIANGLE_TESTS));
-    fprintf(stream, "%" PRIu64 " box tests, %.2f per ray\n", report->tallies[TALLY_BOX_TESTS],
-            per_ray(report, TALLY_BOX_TESTS));
+            ray_count(run), tallies[TALLY_CAMERA_RAYS], tallies[TALLY_SHADOW_RAYS],
+            tallies[TALLY_REFLECTED_RAYS]);
+    fprintf(stream, "%" PRIu64 " triangle tests, %.2f per ray\n", tallies[TALLY_TRIANGLE_TESTS],
+            per_ray(run, TALLY_TRIANGLE_TESTS));
+    fprintf(stream, "%" PRIu64 " box tests, %.2f per ray\n", tallies[TALLY_BOX_TESTS],
+            per_ray(run, TALLY_BOX_TESTS));
     const uint64_t *pixels = report->certainty.pixels;
-    if (aov_needs(report->options->aovs, AOV_NEEDS_CERTAINTY))
+    if (aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY))
         fprintf(stream,
                 "%" PRIu64 " pixels certified, %" PRIu64 " repaired, %" PRIu64 " open, %.3f s\n",
                 pixels[CERTAINTY_CERTIFIED], pixels[CERTAINTY_REPAIRED], pixels[CERTAINTY_OPEN],
                 report->certainty.seconds);
 }
 
-void report_write_error(const Report *report, FILE *stream)
+void report_write_error(const Run *run, FILE *stream)
 {
-    const ReferenceResult *result = &report->reference;
+    const ReferenceResult *result = &run->report.reference;
     const Difference *difference = &result->difference;
     const double pixels = (double)difference->pixels;
     if (result->samples == 0)
@@ -101,163 +96,173 @@ void report_write_error(const Report *report, FILE *stream)
             result->samples, result->own_error, result->seconds);
 }
 
-static json_t *integer(uint64_t value)
+static json_t *rays_json(const Run *run)
 {
-    return json_integer((json_int_t)value);
+    const uint64_t *tallies = run->renderer.progress.tallies;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "camera",
+                     json_count(tallies[TALLY_CAMERA_RAYS]), "camera_hits",
+                     json_count(tallies[TALLY_CAMERA_HITS]), "shadow",
+                     json_count(tallies[TALLY_SHADOW_RAYS]), "reflected",
+                     json_count(tallies[TALLY_REFLECTED_RAYS]), "total", json_count(ray_count(run)),
+                     "shaded_points", json_count(tallies[TALLY_SHADED_POINTS]));
 }
 
-static json_t *rays_json(const Report *report)
+static json_t *tests_json(const Run *run)
 {
+    const uint64_t *tallies = run->renderer.progress.tallies;
     return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o}", "camera", integer(report->tallies[TALLY_CAMERA_RAYS]),
-        "camera_hits", integer(report->tallies[TALLY_CAMERA_HITS]), "shadow",
-        integer(report->tallies[TALLY_SHADOW_RAYS]), "reflected",
-        integer(report->tallies[TALLY_REFLECTED_RAYS]), "total", integer(ray_count(report)),
-        "shaded_points", integer(report->tallies[TALLY_SHADED_POINTS]));
+        "{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle", json_count(tallies[TALLY_TRIANGLE_TESTS]),
+        "box", json_count(tallies[TALLY_BOX_TESTS]), "sphere",
+        json_count(tallies[TALLY_SPHERE_TESTS]), "triangle_per_ray",
+        per_ray(run, TALLY_TRIANGLE_TESTS), "box_per_ray", per_ray(run, TALLY_BOX_TESTS),
+        "sphere_per_ray", per_ray(run, TALLY_SPHERE_TESTS));
 }
 
-static json_t *tests_json(const Report *report)
+static json_t *seconds_json(const Run *run)
 {
-    return json_pack("{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle",
-                     integer(report->tallies[TALLY_TRIANGLE_TESTS]), "box",
-                     integer(report->tallies[TALLY_BOX_TESTS]), "sphere",
-                     integer(report->tallies[TALLY_SPHERE_TESTS]), "triangle_per_ray",
-                     per_ray(report, TALLY_TRIANGLE_TESTS), "box_per_ray",
-                     per_ray(report, TALLY_BOX_TESTS), "sphere_per_ray",
-                     per_ray(report, TALLY_SPHERE_TESTS));
-}
-
-static json_t *seconds_json(const Report *report)
-{
+    const Report *report = &run->report;
     return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "parse", report->parse,
-                     "load", report->load, "build", report->build, "device", report->device,
-                     "upload", report->upload, "kernel_build", report->kernel_build, "trace",
-                     report->trace, "write", report->write, "total", report->total);
+                     "load", report->load, "build", report->build, "device",
+                     run->async_device.device_seconds, "upload", run->renderer.upload_seconds,
+                     "kernel_build", run->renderer.build_seconds, "trace", report->frame_seconds[0],
+                     "write", report->write, "total", report->total);
 }
 
-static json_t *frames_json(const Report *report)
+static json_t *frames_json(const Run *run)
 {
+    const Report *report = &run->report;
     json_t *list = json_array();
     for (uint32_t frame = 0; frame < report->frame_count; frame++)
         json_array_append_new(list, json_real(report->frame_seconds[frame]));
     return list;
 }
 
-static json_t *scene_json(const Report *report)
+static json_t *scene_json(const Run *run)
 {
     char hash[SCENE_HASH_SIZE], mesh_hash[SCENE_HASH_SIZE];
-    scene_hash_name(report->scene_hash, hash);
-    scene_hash_name(report->mesh_hash, mesh_hash);
+    scene_hash_name(run->scene.hash, hash);
+    scene_hash_name(run->scene.mesh_hash, mesh_hash);
     return json_pack("{s:o, s:s, s:s, s:o, s:o, s:o, s:o}", "path",
-                     json_file_path(report->options->scene_path), "hash", hash, "mesh_hash",
-                     mesh_hash, "lights", integer(report->lights), "spheres",
-                     integer(report->spheres), "triangles", integer(report->triangles),
-                     "dropped_triangles", integer(report->dropped_triangles));
+                     json_file_path(run->options->scene_path), "hash", hash, "mesh_hash", mesh_hash,
+                     "lights", json_count(run->scene.lights.count), "spheres",
+                     json_count(run->scene.spheres.count), "triangles",
+                     json_count(scene_triangle_count(&run->scene)), "dropped_triangles",
+                     json_count(report_dropped_triangles(run)));
 }
 
-static json_t *inner_nodes_json(const Report *report)
+static json_t *inner_nodes_json(const Run *run)
 {
+    const Report *report = &run->report;
     json_t *list = json_array();
     for (uint32_t depth = 0; depth + 1 < report->bvh_depth; depth++)
-        json_array_append_new(list, integer(report->bvh_inner[depth]));
+        json_array_append_new(list, json_count(report->bvh_inner[depth]));
     return list;
 }
 
-static json_t *tree_json(const Report *report)
+static json_t *tree_json(const Run *run)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", report_tree_name(report), "nodes",
-                     integer(report->bvh_nodes), "leaves", integer(report->bvh_leaves), "depth",
-                     integer(report->bvh_depth), "inner_nodes", inner_nodes_json(report),
-                     "largest_leaf", integer(report->bvh_largest_leaf));
+    const Report *report = &run->report;
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", report_tree_name(run), "nodes",
+                     json_count(report->bvh_nodes), "leaves", json_count(report->bvh_leaves),
+                     "depth", json_count(report->bvh_depth), "inner_nodes", inner_nodes_json(run),
+                     "largest_leaf", json_count(report->bvh_largest_leaf));
 }
 
-static json_t *settings_json(const Report *report)
+static json_t *settings_json(const Run *run)
 {
-    const RenderSettings *settings = report->settings;
+    const Report *report = &run->report;
+    const RenderSettings *settings = &run->settings;
     return json_pack(
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:[oo], s:[oo], s:b, s:s, s:s, s:o, s:s}", "view",
-        integer(report->view), "width", integer(render_whole_width(settings)), "height",
-        integer(render_whole_height(settings)), "crop", crop_json(settings), "samples",
-        integer(settings->samples), "max_level", integer(settings->max_level), "truncation_bound",
-        report->truncation, "tile", integer(settings->tile_width), integer(settings->tile_height),
-        "work_group", integer(settings->group_width), integer(settings->group_height),
-        "specialized", report->specialized, "kernel", kernel_family_name(report->choice->family),
-        "nodes", kernel_nodes_name(report->choice->nodes), "lanes", integer(report->choice->lanes),
-        "precision", kernel_precision_name(report->choice->precision));
+        json_count(report->view), "width", json_count(render_whole_width(settings)), "height",
+        json_count(render_whole_height(settings)), "crop", crop_json(settings), "samples",
+        json_count(settings->samples), "max_level", json_count(settings->max_level),
+        "truncation_bound", report->truncation, "tile", json_count(settings->tile_width),
+        json_count(settings->tile_height), "work_group", json_count(settings->group_width),
+        json_count(settings->group_height), "specialized", run->renderer.is_special, "kernel",
+        kernel_family_name(run->async_device.setup.source.choice.family), "nodes",
+        kernel_nodes_name(run->async_device.setup.source.choice.nodes), "lanes",
+        json_count(run->async_device.setup.source.choice.lanes), "precision",
+        kernel_precision_name(run->async_device.setup.source.choice.precision));
 }
 
-static json_t *samples_json(const Report *report)
+static json_t *samples_json(const Run *run)
 {
-    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", integer(report->samples),
-                     "per_pixel", samples_per_pixel(report), "contrast", report->contrast,
+    const Report *report = &run->report;
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", json_count(report->samples),
+                     "per_pixel", samples_per_pixel(run), "contrast", run->options->contrast,
                      "error_estimate", report->estimate, "error_bound", report->bound,
                      "goal_reached", !report->goal_missed);
 }
 
 // Returns null for refined pictures, which are drawn in several passes without tiles.
-static json_t *tiles_json(const Report *report)
+static json_t *tiles_json(const Run *run)
 {
-    const uint64_t found = report->settings->ready_tiles;
-    if (options_are_adaptive(report->options))
+    const uint64_t found = run->settings.ready_tiles;
+    if (options_are_adaptive(run->options))
         return json_null();
-    return json_pack("{s:o, s:o, s:o}", "total", integer(tile_count(report->settings)), "found",
-                     integer(found), "drawn", integer(report->tiles_done - found));
+    return json_pack("{s:o, s:o, s:o}", "total", json_count(tile_count(&run->settings)), "found",
+                     json_count(found), "drawn",
+                     json_count(run->renderer.progress.tiles_done - found));
 }
 
-static json_t *reference_json(const Report *report)
+static json_t *reference_json(const Run *run)
 {
-    const ReferenceResult *result = &report->reference;
+    const ReferenceResult *result = &run->report.reference;
     const Difference *difference = &result->difference;
     const double pixels = (double)difference->pixels;
     if (result->samples == 0)
         return json_null();
-    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", integer(result->samples),
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", json_count(result->samples),
                      "rmse", difference->rmse, "own_error", result->own_error, "maximum",
                      difference->maximum, "share_off_by_1", (double)difference->off_by_1 / pixels,
                      "share_off_by_4", (double)difference->off_by_4 / pixels, "seconds",
                      result->seconds);
 }
 
-static json_t *certainty_json(const Report *report)
+static json_t *certainty_json(const Run *run)
 {
+    const Report *report = &run->report;
     const uint64_t *pixels = report->certainty.pixels;
-    if (!aov_needs(report->options->aovs, AOV_NEEDS_CERTAINTY))
+    if (!aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY))
         return json_null();
-    return json_pack("{s:o, s:o, s:o, s:f}", "certified", integer(pixels[CERTAINTY_CERTIFIED]),
-                     "repaired", integer(pixels[CERTAINTY_REPAIRED]), "open",
-                     integer(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
+    return json_pack("{s:o, s:o, s:o, s:f}", "certified", json_count(pixels[CERTAINTY_CERTIFIED]),
+                     "repaired", json_count(pixels[CERTAINTY_REPAIRED]), "open",
+                     json_count(pixels[CERTAINTY_OPEN]), "seconds", report->certainty.seconds);
 }
 
-static void add_parts(json_t *json, const Report *report)
+static void add_parts(json_t *json, const Run *run)
 {
-    json_object_set_new(json, "scene", scene_json(report));
-    json_object_set_new(json, "bvh", tree_json(report));
-    json_object_set_new(json, "settings", settings_json(report));
-    json_object_set_new(json, "tiles", tiles_json(report));
-    json_object_set_new(json, "samples", samples_json(report));
-    json_object_set_new(json, "rays", rays_json(report));
-    json_object_set_new(json, "tests", tests_json(report));
-    json_object_set_new(json, "seconds", seconds_json(report));
-    json_object_set_new(json, "frame_seconds", frames_json(report));
-    json_object_set_new(json, "reference", reference_json(report));
-    json_object_set_new(json, "certainty", certainty_json(report));
+    json_object_set_new(json, "scene", scene_json(run));
+    json_object_set_new(json, "bvh", tree_json(run));
+    json_object_set_new(json, "settings", settings_json(run));
+    json_object_set_new(json, "tiles", tiles_json(run));
+    json_object_set_new(json, "samples", samples_json(run));
+    json_object_set_new(json, "rays", rays_json(run));
+    json_object_set_new(json, "tests", tests_json(run));
+    json_object_set_new(json, "seconds", seconds_json(run));
+    json_object_set_new(json, "frame_seconds", frames_json(run));
+    json_object_set_new(json, "reference", reference_json(run));
+    json_object_set_new(json, "certainty", certainty_json(run));
 }
 
-static json_t *report_json(const Report *report)
+static json_t *report_json(const Run *run)
 {
+    const Report *report = &run->report;
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     json_t *json = json_pack(
         "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema", SCHEMA_VERSION, "version",
         CLRT_VERSION, "complete", report->complete, "pixel_hash", report->pixel_hash, "device",
-        "name", report->device_name, "driver", report->device_version, "bytes", "uploaded",
-        integer(report->upload_size), "peak_memory", integer((uint64_t)usage.ru_maxrss * 1024));
+        "name", run->async_device.device.name, "driver", run->async_device.device.version, "bytes",
+        "uploaded", json_count(run->renderer.upload_size), "peak_memory",
+        json_count((uint64_t)usage.ru_maxrss * 1024));
     if (json != NULL)
-        add_parts(json, report);
+        add_parts(json, run);
     return json;
 }
 
-bool report_write_json(const Report *report, const char *path, Error *error)
+bool report_write_json(const Run *run, const char *path, Error *error)
 {
-    return json_file_write(report_json(report), path, error);
+    return json_file_write(report_json(run), path, error);
 }

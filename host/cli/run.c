@@ -14,11 +14,6 @@
 #include "scene/scn.h"
 
 #include <math.h>
-#include <stdlib.h>
-
-// Below this number of triangles, the background thread makes no kernel, because building the tree
-// is faster than loading a cached kernel.
-#define MANY_TRIANGLES 20000
 
 // The truncation of reflections may use this fraction of the error goal. The fraction is small
 // because more levels cost less than more samples.
@@ -97,28 +92,7 @@ bool run_load_scene(Run *run, Error *error)
     run->settings = settings_of(options, &run->scene);
     ok = ok && crop_apply(&options->crop, &run->settings, error);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
-    if (!ok)
-        async_device_decide(&run->async_device, false);
     return ok;
-}
-
-bool run_await_device(Run *run, Error *error)
-{
-    AsyncDevice *async = &run->async_device;
-    const uint64_t triangles = scene_triangle_count(&run->scene);
-    if (triangles < MANY_TRIANGLES)
-        async_device_decide(async, false);
-    if (!async_device_wait_device(async, error))
-        return false;
-    async_device_choose(async, &run->settings, triangles);
-    async_device_decide(async, true);
-    run->report.device = async->device_seconds;
-    run->report.device_name = async->device.name;
-    run->report.device_version = async->device.version;
-    run->report.choice = &async->setup.source.choice;
-    run->settings.group_width = async->group[0];
-    run->settings.group_height = async->group[1];
-    return true;
 }
 
 // Returns whether to build a tree. An explicit --bvh always builds one.
@@ -126,6 +100,15 @@ static bool wants_tree(const Options *options, NodeLayout layout, uint64_t trian
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
     return !options->no_bvh && (option_is_given(options, "bvh") || !are_few);
+}
+
+static void count_tree(Report *report, const Bvh *bvh)
+{
+    report->bvh_nodes = bvh->node_count;
+    report->bvh_leaves = bvh->leaf_count;
+    report->bvh_depth = bvh->depth;
+    report->bvh_largest_leaf = bvh->largest_leaf;
+    memcpy(report->bvh_inner, bvh->inner_counts, sizeof report->bvh_inner);
 }
 
 bool run_build_scene(Run *run, Error *error)
@@ -145,34 +128,9 @@ bool run_build_scene(Run *run, Error *error)
     thread_pool_close(source.pool);
     run->report.build += run_lap(&moment);
     if (ok)
-        report_count_scene(&run->report, &run->scene, &stages.bvh);
+        count_tree(&run->report, &stages.bvh);
     compile_stages_free(&stages);
     return ok;
-}
-
-static bool open_renderer(Run *run, Error *error)
-{
-    AsyncDevice *async = &run->async_device;
-    async_device_wait_kernel(async);
-    if (!renderer_open(&run->renderer, &async->setup, &run->flat, &run->settings, error))
-        return false;
-    run->report.upload = run->renderer.upload_seconds;
-    run->report.upload_size = run->renderer.upload_size;
-    run->report.kernel_build = run->renderer.build_seconds;
-    run->report.specialized = run->renderer.is_special;
-    return true;
-}
-
-void run_begin(Run *run)
-{
-    const Options *options = run->options;
-    const KernelEntry entry = options->contrast > 0           ? KERNEL_SAMPLES
-                              : options_are_adaptive(options) ? KERNEL_LADDER
-                                                              : KERNEL_TILE;
-    const RendererSetup setup = {
-        .cache = &run->cache,
-        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .entry = entry}};
-    async_device_begin(&run->async_device, run->options, setup);
 }
 
 ExitCode run_start(Run *run, Error *error)
@@ -189,16 +147,17 @@ ExitCode run_prepare(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!run_build_scene(run, error))
         return EXIT_SCENE;
-    return open_renderer(run, error) ? EXIT_DONE : EXIT_DEVICE;
+    return renderer_open(&run->renderer, &run->async_device.setup, &run->flat, &run->settings,
+                         error)
+               ? EXIT_DONE
+               : EXIT_DEVICE;
 }
 
 void run_free(Run *run)
 {
-    async_device_wait_kernel(&run->async_device);
-    if (CLRT_TIDY_EXIT) {
+    if (CLRT_TIDY_EXIT)
         renderer_close(&run->renderer);
-        async_device_free(&run->async_device);
-    }
+    run_close_device(run);
     flat_free(&run->flat);
     scene_free(&run->scene);
 }

@@ -7,54 +7,56 @@
 #include "accel/flat.h"
 #include "cli/options/options.h"
 #include "cli/process.h"
-#include "cli/report.h"
 #include "mesh/ply.h"
 
 #include <pthread.h>
 
-// Opens the device and makes the kernel on a background thread, while the caller reads the scene
-// and builds its tree.
-
-// Once the device is open, the caller may use the members up to is_quick, except setup.ready.
+// The device of a run, which a background thread opens. Until run_await_device has returned true,
+// other threads may use no member.
 typedef struct {
-    RendererSetup setup;
+    RendererSetup setup; // setup.device is `device`
     Device device;
     double device_seconds;
-    uint32_t group[2]; // the sides of work-groups
-    bool is_quick;     // async_device_choose has selected kernels that compile faster
-    // Internal members:
-    const Options *options;
-    ReadyKernel ready;
+    bool is_quick; // the setup has kernels that compile faster than the device's usual ones
     Error error;
     pthread_t thread;
-    pthread_mutex_t mutex; // guards is_done, is_open, is_decided and is_wanted
-    pthread_cond_t changed;
-    bool is_done, is_open;      // opening the device has finished; it succeeded
-    bool is_decided, is_wanted; // the caller has decided about the kernel; the decision
-    bool is_running, exists;    // the thread runs; the mutex and the condition exist
+    bool is_open, is_running;
 } AsyncDevice;
 
-// Starts the thread. The caller must set the cache and the kernels' source in setup.
-void async_device_begin(AsyncDevice *async, const Options *options, RendererSetup setup);
+// The difference between a picture and its reference.
+typedef struct {
+    uint32_t samples; // of the reference, per pixel; 0 without a reference
+    Difference difference;
+    double own_error; // the reference's RMSE, estimated from its two independent halves
+    double seconds;
+} ReferenceResult;
 
-// Decides whether the thread makes the kernel. Before the decision, the thread makes it only if the
-// cache holds it. Only the first call has an effect.
-void async_device_decide(AsyncDevice *async, bool wanted);
+// The number of pixels of each Certainty (kernels/shared.h).
+typedef struct {
+    uint64_t pixels[CERTAINTY_KINDS]; // zeros without --aov certainty
+    double seconds;
+} CertaintyResult;
 
-// Waits for the device. Returns false with the reason if the device cannot be opened.
-bool async_device_wait_device(AsyncDevice *async, Error *error);
-
-// Selects faster-compiling kernels if they save time and the options allow them. Call it after
-// async_device_wait_device and before async_device_decide(async, true). It has no effect if the
-// cache holds the kernels chosen first.
-void async_device_choose(AsyncDevice *async, const RenderSettings *settings, uint64_t triangles);
-
-// Waits until setup.ready holds the kernel. If making the kernel failed, setup.ready is empty, and
-// the renderer will report the reason.
-void async_device_wait_kernel(AsyncDevice *async);
-
-// Waits for the thread, closes the device and frees all resources.
-void async_device_free(AsyncDevice *async);
+// The results of a run that reports contain besides the members of Run.
+typedef struct {
+    uint32_t view; // from 1
+    double turned; // the turntable's angle in degrees
+    uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
+    uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
+    double estimate;   // of the RMSE, including truncation by --error; 0 without a goal
+    double bound;      // the RMSE is lower with 95 % confidence
+    bool goal_missed;  // the goal of --error or --time
+    double truncation; // the largest color error caused by max_level
+    uint64_t pixels;   // drawn by this process
+    uint64_t samples;  // total of these pixels
+    bool complete;
+    double parse, load, build, write, total; // seconds
+    double frame_seconds[REPEAT_MAX];        // one entry per repetition
+    uint32_t frame_count;
+    ReferenceResult reference;
+    CertaintyResult certainty;
+    char pixel_hash[FRAMEBUFFER_HASH_SIZE];
+} Report;
 
 typedef struct {
     const Options *options;
@@ -71,11 +73,10 @@ typedef struct {
 // Returns the seconds since *moment, and sets *moment to the current time.
 double run_lap(double *moment);
 
-// Starts a thread that opens the device and makes the kernel.
+// Starts a thread that opens the device.
 void run_begin(Run *run);
 
-// Reads the scene, and computes its normalized coordinate frame and the picture's settings. On
-// failure, it cancels the making of the kernel.
+// Reads the scene, and computes its normalized coordinate frame and the picture's settings.
 bool run_load_scene(Run *run, Error *error);
 
 // Calls run_begin and run_load_scene, and checks the scene's files against the outputs. Returns the
@@ -85,6 +86,9 @@ ExitCode run_start(Run *run, Error *error);
 // Waits for the device and chooses the kernels for device and scene. The kernels determine the
 // layout of nodes.
 bool run_await_device(Run *run, Error *error);
+
+// Waits for the thread of run_begin and closes the device.
+void run_close_device(Run *run);
 
 // Builds the tree and flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);

@@ -26,8 +26,9 @@ void show_write_keys(FILE *stream)
     }
 }
 
-ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
+ExitCode show_scene(Run *run, Error *error)
 {
+    const Options *options = run->options;
     static const ExitCode codes[] = {[VIEWER_CLOSED] = EXIT_DONE,
                                      [VIEWER_NO_WINDOW] = EXIT_USAGE,
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
@@ -51,7 +52,7 @@ ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
                                                 .max_level = options->max_level,
                                                 .threads = threads_allowed(options->threads),
                                                 .kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                                .cache = cache},
+                                                .cache = &run->cache},
                                      .keys = options->keys,
                                      .quit_after = options->quit_after,
                                      .statistics = options->statistics,
@@ -68,9 +69,9 @@ void show_write_keys(FILE *stream)
     (void)stream;
 }
 
-ExitCode show_scene(const Options *options, const Cache *cache, Error *error)
+ExitCode show_scene(Run *run, Error *error)
 {
-    (void)options, (void)cache;
+    (void)run;
     error_set(error, "this build has no window");
     return EXIT_USAGE;
 }

@@ -9,8 +9,9 @@ static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, E
 {
     ReadyKernel ready;
     const AsyncDevice *async = &run->async_device;
+    const uint32_t group[2] = {run->settings.group_width, run->settings.group_height};
     const KernelChoice *choice = &async->setup.source.choice;
-    if (!ready_kernel_make(&ready, &async->setup, traits, async->group, error))
+    if (!ready_kernel_make(&ready, &async->setup, traits, group, error))
         return false;
     if (!run->options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
@@ -26,14 +27,12 @@ ExitCode warm_kernels(Run *run, Error *error)
     const Options *options = run->options;
     const bool has_scene = options->scene_path != NULL;
     run_begin(run);
-    async_device_decide(&run->async_device, false);
     if (has_scene && !run_load_scene(run, error))
         return EXIT_SCENE;
     if (!run_await_device(run, error))
         return EXIT_DEVICE;
     if (has_scene && !run_build_scene(run, error))
         return EXIT_SCENE;
-    async_device_wait_kernel(&run->async_device);
     const SceneTraits general = traits_general(options->statistics);
     if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
         !warm_kernel(run, &general, "general", error))

@@ -172,23 +172,14 @@ bool limits_parse(Limits *limits, const char *text, Error *cause)
 double limit_measured(LimitKind kind, const Difference *difference)
 {
     const double pixels = (double)difference->pixels;
-    switch (kind) {
-    case LIMIT_RMSE:
-        return difference->rmse;
-    case LIMIT_MAX:
-        return difference->maximum;
-    case LIMIT_PSNR:
-        return difference_psnr(difference);
-    case LIMIT_SHARE1:
-        return (double)difference->off_by_1 / pixels;
-    case LIMIT_SHARE4:
-        return (double)difference->off_by_4 / pixels;
-    case LIMIT_HITS:
-        return difference->has_hits ? (double)difference->wrong_hits / pixels : NAN;
-    case LIMIT_KINDS:
-        break;
-    }
-    return NAN;
+    const double measured[LIMIT_KINDS] = {
+        [LIMIT_RMSE] = difference->rmse,
+        [LIMIT_MAX] = difference->maximum,
+        [LIMIT_PSNR] = difference_psnr(difference),
+        [LIMIT_SHARE1] = (double)difference->off_by_1 / pixels,
+        [LIMIT_SHARE4] = (double)difference->off_by_4 / pixels,
+        [LIMIT_HITS] = difference->has_hits ? (double)difference->wrong_hits / pixels : NAN};
+    return measured[kind];
 }
 
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference)

@@ -103,16 +103,16 @@ void causes_find(Causes *causes, const ImagePair *pair);
 extern const char *const cause_names[CAUSE_KINDS], *const cause_meanings[CAUSE_KINDS];
 
 typedef struct {
-    const ImagePair *pair;
-    const Difference *difference;
-    const Causes *causes;
+    ImagePair pair;
+    Difference difference;
+    Causes causes;
     const Limits *limits;
-} CompareReport;
+} Comparison;
 
 // Returns whether the difference is within all limits.
-bool compare_report_is_kept(const CompareReport *report);
+bool comparison_is_kept(const Comparison *comparison);
 
-void compare_report_write_text(const CompareReport *report, FILE *stream);
+void comparison_write_text(const Comparison *comparison, FILE *stream);
 
 // Writes versioned JSON with sorted keys to path ("-": standard output).
-bool compare_report_write_json(const CompareReport *report, const char *path, Error *error);
+bool comparison_write_json(const Comparison *comparison, const char *path, Error *error);

@@ -43,3 +43,11 @@ void cache_remove(const char *path);
 // locking fails. Builds are then unprotected.
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);
+
+// File systems that several machines mount at once.
+
+// Returns whether statfs reports such a file system as f_type. FUSE counts, because it may be one.
+bool disk_type_is_shared(unsigned long type);
+
+// Returns whether the folder lies on such a file system; false if the system does not know.
+bool disk_is_shared(const char *folder);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens the cache of the program clrt. Only this file sets POCL_CACHE_DIR.
 #include "device/cache.h"
-#include "device/shared_disk.h"
 
 #include <limits.h>
 #include <stdio.h>

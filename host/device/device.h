@@ -9,11 +9,14 @@
 #include <CL/cl.h>
 #include <pthread.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef struct {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
+    unsigned platform_number, number; // PLATFORM:DEVICE
+    cl_device_type type;
     char platform[256];          // name of the OpenCL platform
     char name[256];              // as the driver reports it
     char version[256];           // version of the driver
@@ -32,20 +35,22 @@ typedef struct {
 bool device_open(Device *device, const char *spec, Error *error);
 void device_close(Device *device);
 
-// Writes all devices into text as `clinfo -l` prints them. Returns false if no device exists.
-bool device_list(char *text, size_t size, Error *error);
-
 #define DEVICES_MOST 64
 
-// Describes an available device, without context and queue.
+// The available devices, without context and queue.
 typedef struct {
-    unsigned platform, number; // PLATFORM:DEVICE
-    const char *type;          // cpu, gpu, accelerator or other
-    Device device;
-} DeviceEntry;
+    Device devices[DEVICES_MOST];
+    unsigned count;
+} DeviceList;
 
-// Stores all devices in entries. Returns their number; 0, with an error, if no device exists.
-unsigned device_entries(DeviceEntry entries[DEVICES_MOST], Error *error);
+// Lists all devices. Fails if there are none.
+bool device_list(DeviceList *list, Error *error);
+
+// Writes all devices as `clinfo -l` prints them.
+void device_list_write(const DeviceList *list, FILE *stream);
+
+// Returns cpu, gpu, accelerator or other.
+const char *device_type_name(const Device *device);
 
 // Starts a thread that may build programs. OpenCL compilers recurse deeply, and the default stack
 // of a thread may be too small. Returns false if the system grants no thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "device/shared_disk.h"
+#include "device/cache.h"
 
 #include <stddef.h>
 #include <sys/vfs.h>

@@ -72,31 +72,18 @@ static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_ui
     return cl_succeeded(status, "run the kernel explain_sample", error);
 }
 
-// Runs the kernel once with no levels, because drivers finish compiling in the first run.
-static bool make_kernel(Explainer *explainer, const Device *device, Error *error)
+// Creates the kernel and runs it once with no levels.
+static bool make_kernel(void *context, Error *error)
 {
+    Explainer *explainer = context;
     cl_int status;
     FrameData nothing = explainer->frame;
     nothing.max_level = 0;
     explainer->kernel = clCreateKernel(explainer->program.handle, "explain_sample", &status);
     return cl_succeeded(status, "create the kernel explain_sample", error) &&
            run_kernel(explainer, &nothing, 0, 0, error) &&
-           cl_succeeded(clFinish(device->queue), "finish the first run", error);
-}
-
-static bool build(Explainer *explainer, const RendererSetup *setup, Error *error)
-{
-    char key[PROGRAM_KEY_SIZE];
-    CacheCheck build;
-    const SceneTraits traits = traits_general(false);
-    ProgramSource source = setup->source;
-    source.appended = explain_source;
-    program_key(setup->device, &source, &traits, key);
-    cache_check_begin(&build, setup->cache, key);
-    const bool ok = program_build(&explainer->program, setup->device, &source, &traits, error) &&
-                    make_kernel(explainer, setup->device, error);
-    cache_check_end(&build, ok);
-    return ok;
+           cl_succeeded(clFinish(explainer->renderer->device->queue), "finish the first run",
+                        error);
 }
 
 bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error)
@@ -107,7 +94,12 @@ bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *
                              .frame = source->renderer->frame,
                              .is_fp64 = source->setup->source.choice.precision == PRECISION_FP64};
     explainer->frame.camera = source->camera;
-    const bool ok = make_room(explainer, error) && build(explainer, source->setup, error);
+    const SceneTraits traits = traits_general(false);
+    const FirstRun first = {make_kernel, explainer};
+    RendererSetup setup = *source->setup;
+    setup.source.appended = explain_source;
+    const bool ok = make_room(explainer, error) &&
+                    program_make(&explainer->program, &setup, &traits, &first, error);
     if (!ok)
         explainer_close(explainer);
     return ok;

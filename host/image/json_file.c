@@ -5,6 +5,7 @@
 #include "base/output_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,24 +23,20 @@ json_t *json_file_path(const char *path)
     return json_string(shown);
 }
 
-static bool write_text(const char *text, const char *path)
+json_t *json_count(uint64_t count)
 {
-    FILE *stream = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
-    bool ok = stream != NULL && fprintf(stream, "%s\n", text) > 0 && fflush(stream) == 0;
-    if (stream != NULL && stream != stdout)
-        ok = fclose(stream) == 0 && ok;
-    return ok;
+    return json_integer((json_int_t)count);
 }
 
-static bool write_file(const char *text, const char *path, Error *error)
+json_t *json_finite(double value)
 {
-    OutputFile file;
-    Error cause = {0};
-    if (!output_file_begin(&file, path, error))
-        return false;
-    const bool ok = write_text(text, file.temporary) || error_set(&cause, "%s", strerror(errno));
-    return output_file_end(&file, ok, &cause) ||
-           error_set(error, "%s: cannot be written: %s", path, cause.text);
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static bool write_text(void *text, FILE *stream, Error *cause)
+{
+    (void)cause;
+    return fprintf(stream, "%s\n", (const char *)text) > 0 && fflush(stream) == 0;
 }
 
 bool json_file_write(json_t *root, const char *path, Error *error)
@@ -48,12 +45,11 @@ bool json_file_write(json_t *root, const char *path, Error *error)
     json_decref(root);
     if (text == NULL)
         return error_set(error, "%s: it cannot be written as JSON", path);
-    bool ok;
-    if (strcmp(path, "-") == 0)
-        ok = write_text(text, path) ||
-             error_set(error, "standard output: cannot be written: %s", strerror(errno));
-    else
-        ok = write_file(text, path, error);
+    const bool ok =
+        strcmp(path, "-") != 0
+            ? output_file_write(path, write_text, text, error)
+            : write_text(text, stdout, error) ||
+                  error_set(error, "standard output: cannot be written: %s", strerror(errno));
     free(text);
     return ok;
 }

@@ -147,7 +147,6 @@ static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const A
     const PathData *path = pixel->path;
     const Vec3 point = denormalize_point(scene->normalization, vec3_of_floats(path->point));
     const double lights = scene->light_count > 0 ? scene->light_count : 1;
-    const bool has_tests = pixel->tests != NULL;
     *values++ = float_bits((double)path->depth / scene->normalization->scale);
     take_vector(&values, vec3_of_floats(path->normal));
     take_vector(&values, path->primitive != NOTHING ? point : vec3(0, 0, 0));
@@ -156,10 +155,10 @@ static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const A
     *values++ = float_bits(path->lights / lights);
     *values++ = float_bits(path->bounces);
     *values++ = float_bits(pixel->samples);
-    *values++ = float_bits(has_tests ? pixel->tests[TALLY_BOX_TESTS] : 0);
-    *values++ = float_bits(has_tests ? pixel->tests[TALLY_TRIANGLE_TESTS] : 0);
+    *values++ = 0; // the numbers of tests and the error are known later
+    *values++ = 0;
     *values++ = float_bits(0.5 * pixel->certainty);
-    *values = 0; // the error is known later
+    *values = 0;
 }
 
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene)
@@ -170,4 +169,17 @@ void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScen
         for (uint32_t channel = 0; aov_has(set, i) && channel < channel_count(&aov_table[i]);
              channel++)
             *values++ = next[channel];
+}
+
+void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS])
+{
+    TallyKind kind = TALLY_BOX_TESTS; // the table's first
+    for (size_t i = 0; i < aov_count; i++) {
+        if (aov_has(set, i) && aov_table[i].need == AOV_NEEDS_TESTS)
+            *values = float_bits(tests[kind]);
+        if (aov_table[i].need == AOV_NEEDS_TESTS)
+            kind = TALLY_TRIANGLE_TESTS;
+        if (aov_has(set, i))
+            values += channel_count(&aov_table[i]);
+    }
 }

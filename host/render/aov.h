@@ -8,8 +8,7 @@
 
 // The input for one pixel's channels.
 typedef struct {
-    const PathData *path;  // path of the ray through the pixel's center
-    const uint32_t *tests; // TALLY_KINDS counts over all samples; NULL if no channel needs them
+    const PathData *path; // path of the ray through the pixel's center
     uint32_t samples;
     uint32_t certainty; // the pixel's Certainty, over all samples
 } AovPixel;
@@ -58,5 +57,8 @@ bool aov_needs(AovSet set, AovNeed need);
 void aov_name_layers(AovSet set, Layers *layers);
 
 // Stores one pixel's values for all channels in set, in the table's order. Floats are stored as
-// their bits.
+// their bits. Counts of tests are 0.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);
+
+// Stores the counts of tests among these values. tests holds the counts over all samples.
+void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS]);

@@ -22,9 +22,6 @@ typedef struct {
     bool counts_tests;
     Program program;
     cl_kernel trace_paths, count_tests;
-    cl_mem paths, tests; // device buffers for one tile
-    PathData *host_paths;
-    uint32_t (*host_tests)[TALLY_KINDS];
 } AovPass;
 
 // Builds the kernels for the channels in set. source must outlive the pass.

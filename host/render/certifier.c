@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Uses an fp64 renderer whose program also contains the kernel certify_tile. Tiles do not overlap,
-// because reading a pixel back is cheap compared with certifying it.
+// Uses an fp64 renderer whose program also contains the kernel certify_tile.
 #include "render/certifier.h"
 
 #include "device/buffer.h"
@@ -27,29 +26,14 @@ static bool check_device(const Device *device, Error *error)
                      device->name);
 }
 
-static bool run_kernel(const Certifier *certifier, const FrameData *frame, Error *error)
+static TilePass pass_of(const Certifier *certifier)
 {
-    const Renderer *renderer = &certifier->reference;
-    const TileLaunch launch = {
-        renderer->device->queue, certifier->kernel, {certifier->colors, certifier->marks}};
-    return renderer_launch_tile(renderer, &launch, frame, error);
+    return (TilePass){.kernel = certifier->kernel,
+                      .frame = certifier->reference.frame,
+                      .outputs = 2,
+                      .sizes = {sizeof(float[3]), sizeof(CertaintyMark)}};
 }
 
-static bool make_room(Certifier *certifier, Error *error)
-{
-    const Tile largest = tile_largest(&certifier->reference.settings);
-    const size_t count = (size_t)largest.width * largest.height;
-    const Device *device = certifier->reference.device;
-    certifier->host_colors = memory_raw(count, sizeof *certifier->host_colors, error);
-    certifier->host_marks = memory_raw(count, sizeof *certifier->host_marks, error);
-    return certifier->host_colors != NULL && certifier->host_marks != NULL &&
-           device_buffer(device, count * sizeof *certifier->host_colors, &certifier->colors,
-                         error) &&
-           device_buffer(device, count * sizeof *certifier->host_marks, &certifier->marks, error);
-}
-
-// Runs the kernel once over a tile without pixels, because drivers finish compiling in the first
-// run.
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;
@@ -61,9 +45,9 @@ static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error 
     if (!cl_succeeded(status, "create the kernel certify_tile", error))
         return false;
     program_key(setup->device, &setup->source, &traits, key);
+    const TilePass pass = pass_of(certifier);
     cache_check_begin(&build, setup->cache, key);
-    const bool ok = run_kernel(certifier, &reference->frame, error) &&
-                    cl_succeeded(clFinish(reference->device->queue), "finish the first run", error);
+    const bool ok = tile_pass_warm_up(&pass, reference, error);
     cache_check_end(&build, ok);
     return ok;
 }
@@ -82,7 +66,7 @@ bool certifier_open(Certifier *certifier, const RendererSetup *setup, const Flat
     general.group_width = general.group_height = group;
     const bool ok = check_device(setup->device, error) &&
                     renderer_open(&certifier->reference, &reference, flat, &general, error) &&
-                    make_room(certifier, error) && make_kernel(certifier, &reference, error);
+                    make_kernel(certifier, &reference, error);
     if (!ok)
         certifier_close(certifier);
     return ok;
@@ -91,10 +75,6 @@ bool certifier_open(Certifier *certifier, const RendererSetup *setup, const Flat
 void certifier_close(Certifier *certifier)
 {
     device_release_kernel(&certifier->kernel);
-    device_release(&certifier->colors);
-    device_release(&certifier->marks);
-    free(certifier->host_colors);
-    free(certifier->host_marks);
     renderer_close(&certifier->reference);
     *certifier = (Certifier){0};
 }
@@ -112,30 +92,21 @@ void certainty_map_free(CertaintyMap *map)
     *map = (CertaintyMap){0};
 }
 
-static bool certify_tile(const Certifier *certifier, const FrameData *frame, Error *error)
+static void take_tile(void *context, const Tile *tile, void *const values[2])
 {
-    const Device *device = certifier->reference.device;
-    const size_t count = (size_t)frame->tile_width * frame->tile_height;
-    return run_kernel(certifier, frame, error) &&
-           device_read(device, certifier->marks, certifier->host_marks,
-                       count * sizeof *certifier->host_marks, error) &&
-           device_read(device, certifier->colors, certifier->host_colors,
-                       count * sizeof *certifier->host_colors, error);
-}
-
-static void take_tile(const Certifier *certifier, const Tile *tile, const CertifiedPicture *picture)
-{
+    const CertifiedPicture *picture = context;
+    const float(*colors)[3] = values[0];
+    const CertaintyMark *marks = values[1];
     CertaintyMap *map = picture->map;
     float(*pixels)[3] = picture->framebuffer->pixels;
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++) {
             const size_t place = (size_t)row * tile->width + column;
             const size_t pixel = (size_t)(tile->top + row) * map->width + tile->left + column;
-            const CertaintyMark *mark = &certifier->host_marks[place];
-            map->marks[pixel] = *mark;
-            map->counts[mark->certainty]++;
-            if (mark->certainty == CERTAINTY_REPAIRED)
-                memcpy(pixels[pixel], certifier->host_colors[place], sizeof *pixels);
+            map->marks[pixel] = marks[place];
+            map->counts[marks[place].certainty]++;
+            if (marks[place].certainty == CERTAINTY_REPAIRED)
+                memcpy(pixels[pixel], colors[place], sizeof *pixels);
         }
 }
 
@@ -143,19 +114,11 @@ bool certifier_certify(const Certifier *certifier, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error)
 {
-    const RenderSettings *settings = &certifier->reference.settings;
-    RenderProgress progress = {.tiles = tile_count(settings)};
-    FrameData frame = certifier->reference.frame;
-    bool wanted = true;
-    frame.camera = *camera;
-    while (wanted && progress.tiles_done < progress.tiles) {
-        const Tile tile = tile_at(settings, progress.tiles_done);
-        tile_aim(&frame, settings, &tile);
-        if (!certify_tile(certifier, &frame, error))
-            return false;
-        take_tile(certifier, &tile, picture);
-        progress.tiles_done++;
-        wanted = render_observer_continues(observer, &progress);
-    }
-    return true;
+    CertifiedPicture target = *picture;
+    RenderProgress progress = {.tiles = tile_count(&certifier->reference.settings)};
+    TilePass pass = pass_of(certifier);
+    pass.frame.camera = *camera;
+    pass.take = take_tile;
+    pass.context = &target;
+    return tile_pass_run(&pass, &certifier->reference, observer, &progress, error);
 }

@@ -9,9 +9,6 @@
 typedef struct {
     Renderer reference; // an fp64 renderer; its program contains the kernel
     cl_kernel kernel;
-    cl_mem colors, marks; // device buffers for one tile
-    float (*host_colors)[3];
-    CertaintyMark *host_marks;
 } Certifier;
 
 // Prepares to certify fp32 pictures of this scene with these settings. setup must contain

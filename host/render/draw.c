@@ -7,39 +7,33 @@
 #include "device/buffer.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define SLOTS 2
 
 // A tile in flight.
 typedef struct {
     cl_command_queue queue; // one per slot, so that tiles overlap
-    cl_mem pixels, tallies; // device buffers
-    uint (*host_tallies)[TALLY_KINDS];
+    cl_mem outputs[2];
+    void *values[2]; // of the outputs, on the host
     cl_event done;
     Tile tile;
 } Slot;
 
-typedef struct {
-    Renderer *renderer;
-    Framebuffer *framebuffer;
-    Slot slots[SLOTS];
-} Drawing;
-
-static bool open_slot(Slot *slot, const Renderer *renderer, Error *error)
+static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
-    const RenderSettings *settings = &renderer->settings;
-    const Tile largest = tile_largest(settings);
-    const size_t count = (size_t)largest.width * largest.height;
-    const size_t tallies = settings->statistics ? count : 1;
     const Device *device = renderer->device;
+    const Tile largest = tile_largest(&renderer->settings);
+    const size_t count = (size_t)largest.width * largest.height;
     cl_int status;
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
-    if (!cl_succeeded(status, "create an OpenCL queue", error))
-        return false;
-    slot->host_tallies = memory_raw(tallies, sizeof *slot->host_tallies, error);
-    return slot->host_tallies != NULL &&
-           device_buffer(device, count * 3 * sizeof(float), &slot->pixels, error) &&
-           device_buffer(device, tallies * sizeof *slot->host_tallies, &slot->tallies, error);
+    bool ok = cl_succeeded(status, "create an OpenCL queue", error);
+    for (int i = 0; ok && i < pass->outputs; i++) {
+        const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
+        slot->values[i] = memory_raw(size, 1, error);
+        ok = slot->values[i] != NULL && device_buffer(device, size, &slot->outputs[i], error);
+    }
+    return ok;
 }
 
 // Waits until the device has finished writing, and frees the slot.
@@ -51,9 +45,10 @@ static void close_slot(Slot *slot)
     }
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
-    device_release(&slot->pixels);
-    device_release(&slot->tallies);
-    free(slot->host_tallies);
+    for (int i = 0; i < 2; i++) {
+        device_release(&slot->outputs[i]);
+        free(slot->values[i]);
+    }
     *slot = (Slot){0};
 }
 
@@ -66,128 +61,137 @@ bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameD
     return cl_succeeded(status, "set the kernel's arguments", error);
 }
 
-bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
-                          const FrameData *frame, Error *error)
+static bool launch(const Slot *slot, const TilePass *pass, const Renderer *renderer,
+                   const FrameData *frame, Error *error)
 {
     const RenderSettings *settings = &renderer->settings;
     const size_t group[2] = {settings->group_width, settings->group_height};
     cl_int status = CL_SUCCESS;
     size_t grid[2];
-    if (!renderer_set_scene(renderer, launch->kernel, frame, error))
+    if (!renderer_set_scene(renderer, pass->kernel, frame, error))
         return false;
-    for (cl_uint i = 0; i < 2 && launch->outputs[i] != NULL && status == CL_SUCCESS; i++)
-        status = clSetKernelArg(launch->kernel, FLAT_ARRAYS + 1 + i, sizeof(cl_mem),
-                                &launch->outputs[i]);
+    for (int i = 0; i < pass->outputs && status == CL_SUCCESS; i++)
+        status = clSetKernelArg(pass->kernel, FLAT_ARRAYS + 1 + (cl_uint)i, sizeof(cl_mem),
+                                &slot->outputs[i]);
     tile_grid(settings, renderer->nodes, grid);
     if (status == CL_SUCCESS)
-        status = clEnqueueNDRangeKernel(launch->queue, launch->kernel, 2, NULL, grid, group, 0,
-                                        NULL, NULL);
+        status =
+            clEnqueueNDRangeKernel(slot->queue, pass->kernel, 2, NULL, grid, group, 0, NULL, NULL);
     return cl_succeeded(status, "run the kernel", error);
 }
 
-static bool run_kernel(const Renderer *renderer, const Slot *slot, const FrameData *frame,
-                       Error *error)
-{
-    const TileLaunch launch = {slot->queue, renderer->kernel, {slot->pixels, slot->tallies}};
-    return renderer_launch_tile(renderer, &launch, frame, error);
-}
-
-bool draw_warm_up(Renderer *renderer, Error *error)
+bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *error)
 {
     Slot slot = {0};
-    const bool ok = open_slot(&slot, renderer, error) &&
-                    run_kernel(renderer, &slot, &renderer->frame, error) &&
+    const bool ok = open_slot(&slot, pass, renderer, error) &&
+                    launch(&slot, pass, renderer, &pass->frame, error) &&
                     cl_succeeded(clFinish(slot.queue), "finish the first run", error);
     close_slot(&slot);
     return ok;
 }
 
-// Starts to copy the slot's colors into the framebuffer; slot->done signals the end.
-static cl_int read_pixels(const Drawing *drawing, Slot *slot)
+// Starts the kernel for the slot's tile and the copying of its outputs. The first output is copied
+// last, and slot->done signals its end.
+static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
-    Framebuffer *framebuffer = drawing->framebuffer;
-    const Tile *tile = &slot->tile;
-    const size_t pixel = sizeof *framebuffer->pixels;
-    const size_t from[3] = {0, 0, 0}, to[3] = {tile->left * pixel, tile->top, 0};
-    const size_t region[3] = {tile->width * pixel, tile->height, 1};
-    return clEnqueueReadBufferRect(slot->queue, slot->pixels, CL_FALSE, from, to, region,
-                                   tile->width * pixel, 0, framebuffer->width * pixel, 0,
-                                   framebuffer->pixels, 0, NULL, &slot->done);
-}
-
-static bool start_tile(const Drawing *drawing, Slot *slot, FrameData frame, Error *error)
-{
-    const Renderer *renderer = drawing->renderer;
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
+    FrameData frame = pass->frame;
     tile_aim(&frame, &renderer->settings, &slot->tile);
-    if (!run_kernel(renderer, slot, &frame, error))
+    if (!launch(slot, pass, renderer, &frame, error))
         return false;
     cl_int status = CL_SUCCESS;
-    if (renderer->settings.statistics)
-        status = clEnqueueReadBuffer(slot->queue, slot->tallies, CL_FALSE, 0,
-                                     count * sizeof *slot->host_tallies, slot->host_tallies, 0,
-                                     NULL, NULL);
-    if (status == CL_SUCCESS)
-        status = read_pixels(drawing, slot);
+    for (int i = pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
+        if (pass->sizes[i] > 0)
+            status = clEnqueueReadBuffer(slot->queue, slot->outputs[i], CL_FALSE, 0,
+                                         count * pass->sizes[i], slot->values[i], 0, NULL,
+                                         i == 0 ? &slot->done : NULL);
     if (status == CL_SUCCESS)
         status = clFlush(slot->queue);
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// Waits for a tile and adds its tallies to the progress.
-static bool finish_tile(Drawing *drawing, Slot *slot, Error *error)
+static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
 {
-    Renderer *renderer = drawing->renderer;
     if (!cl_succeeded(clWaitForEvents(1, &slot->done), "trace a tile", error))
         return false;
     clReleaseEvent(slot->done);
     slot->done = NULL;
-    renderer->progress.tiles_done++;
-    const size_t count =
-        renderer->settings.statistics ? (size_t)slot->tile.width * slot->tile.height : 0;
-    for (size_t pixel = 0; pixel < count; pixel++)
-        for (int kind = 0; kind < TALLY_KINDS; kind++)
-            renderer->progress.tallies[kind] += slot->host_tallies[pixel][kind];
+    pass->take(pass->context, &slot->tile, slot->values);
     return true;
 }
 
-static bool draw_tiles(Drawing *drawing, const FrameData *frame, const RenderObserver *observer,
-                       Error *error)
+bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
+                   RenderProgress *progress, Error *error)
 {
-    Renderer *renderer = drawing->renderer;
+    Slot slots[SLOTS] = {0};
     const uint64_t tiles = tile_count(&renderer->settings);
-    const uint64_t ready = renderer->settings.ready_tiles;
-    renderer->progress =
-        (RenderProgress){.tiles_done = ready, .tiles = tiles, .tiles_ready = ready};
-    uint64_t started = ready;
-    bool wanted = true;
-    while (renderer->progress.tiles_done < (wanted ? tiles : started)) {
-        while (wanted && started < tiles && started < renderer->progress.tiles_done + SLOTS) {
-            Slot *slot = &drawing->slots[started % SLOTS];
+    uint64_t started = pass->first, finished = pass->first;
+    bool ok = true, wanted = true;
+    for (int slot = 0; slot < SLOTS; slot++)
+        ok = ok && open_slot(&slots[slot], pass, renderer, error);
+    while (ok && finished < (wanted ? tiles : started)) {
+        for (; ok && wanted && started < tiles && started < finished + SLOTS; started++) {
+            Slot *slot = &slots[started % SLOTS];
             slot->tile = tile_at(&renderer->settings, started);
-            if (!start_tile(drawing, slot, *frame, error))
-                return false;
-            started++;
+            ok = start_tile(slot, pass, renderer, error);
         }
-        Slot *oldest = &drawing->slots[renderer->progress.tiles_done % SLOTS];
-        if (!finish_tile(drawing, oldest, error))
-            return false;
-        wanted = render_observer_continues(observer, &renderer->progress) && wanted;
+        ok = ok && finish_tile(&slots[finished++ % SLOTS], pass, error);
+        progress->tiles_done += ok;
+        wanted = ok && render_observer_continues(observer, progress) && wanted;
     }
-    return true;
+    for (int slot = 0; slot < SLOTS; slot++)
+        close_slot(&slots[slot]);
+    return ok;
+}
+
+typedef struct {
+    Renderer *renderer;
+    Framebuffer *framebuffer;
+} Drawing;
+
+static void take_tile(void *context, const Tile *tile, void *const values[2])
+{
+    const Drawing *drawing = context;
+    RenderProgress *progress = &drawing->renderer->progress;
+    const float(*colors)[3] = values[0];
+    const uint(*tallies)[TALLY_KINDS] = values[1];
+    for (size_t row = 0; row < tile->height; row++)
+        memcpy(drawing->framebuffer
+                   ->pixels[(tile->top + row) * drawing->framebuffer->width + tile->left],
+               colors[row * tile->width], tile->width * sizeof *colors);
+    const size_t count =
+        drawing->renderer->settings.statistics ? (size_t)tile->width * tile->height : 0;
+    for (size_t pixel = 0; pixel < count; pixel++)
+        for (int kind = 0; kind < TALLY_KINDS; kind++)
+            progress->tallies[kind] += tallies[pixel][kind];
+}
+
+static TilePass pass_of(const Renderer *renderer)
+{
+    return (TilePass){
+        .kernel = renderer->kernel,
+        .frame = renderer->frame,
+        .outputs = 2,
+        .sizes = {sizeof(float[3]), renderer->settings.statistics ? sizeof(uint[TALLY_KINDS]) : 0},
+        .first = renderer->settings.ready_tiles,
+        .take = take_tile};
+}
+
+bool draw_warm_up(Renderer *renderer, Error *error)
+{
+    const TilePass pass = pass_of(renderer);
+    return tile_pass_warm_up(&pass, renderer, error);
 }
 
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error)
 {
-    Drawing drawing = {.renderer = renderer, .framebuffer = framebuffer};
-    FrameData frame = renderer->frame;
-    frame.camera = *camera;
-    bool ok = true;
-    for (int slot = 0; slot < SLOTS; slot++)
-        ok = ok && open_slot(&drawing.slots[slot], renderer, error);
-    ok = ok && draw_tiles(&drawing, &frame, observer, error);
-    for (int slot = 0; slot < SLOTS; slot++)
-        close_slot(&drawing.slots[slot]);
-    return ok;
+    Drawing drawing = {renderer, framebuffer};
+    TilePass pass = pass_of(renderer);
+    pass.frame.camera = *camera;
+    pass.context = &drawing;
+    renderer->progress = (RenderProgress){.tiles_done = pass.first,
+                                          .tiles = tile_count(&renderer->settings),
+                                          .tiles_ready = pass.first};
+    return tile_pass_run(&pass, renderer, observer, &renderer->progress, error);
 }

@@ -9,12 +9,37 @@
 
 #include <string.h>
 
-// Runs one work-group of the kernel over a tile without pixels, with a dummy renderer and empty
-// buffers.
-static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error *error)
+bool program_make(Program *program, const RendererSetup *setup, const SceneTraits *traits,
+                  const FirstRun *first, Error *error)
 {
+    char key[PROGRAM_KEY_SIZE];
+    CacheCheck build;
+    program_key(setup->device, &setup->source, traits, key);
+    cache_check_begin(&build, setup->cache, key);
+    const bool ok = program_build(program, setup->device, &setup->source, traits, error) &&
+                    first->run(first->context, error);
+    cache_check_end(&build, ok);
+    return ok;
+}
+
+typedef struct {
+    ReadyKernel *ready;
+    const RendererSetup *setup;
+} Making;
+
+// Creates the kernel and runs one work-group of it over a tile without pixels, with a dummy
+// renderer and empty buffers.
+static bool run_once(void *context, Error *error)
+{
+    const Making *making = context;
+    const RendererSetup *setup = making->setup;
+    ReadyKernel *ready = making->ready;
+    cl_int status;
     cl_mem nothing;
-    if (!device_buffer(setup->device, 64, &nothing, error))
+    ready->handle =
+        clCreateKernel(ready->program.handle, program_entry_name(setup->source.entry), &status);
+    if (!cl_succeeded(status, "create the kernel", error) ||
+        !device_buffer(setup->device, 64, &nothing, error))
         return false;
     Renderer renderer = {.device = setup->device,
                          .settings = {.width = 1,
@@ -35,17 +60,6 @@ static bool run_once(const ReadyKernel *ready, const RendererSetup *setup, Error
     return ok;
 }
 
-static bool make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
-                 Error *error)
-{
-    cl_int status;
-    if (!program_build(&ready->program, setup->device, &setup->source, traits, error))
-        return false;
-    const char *name = program_entry_name(setup->source.entry);
-    ready->handle = clCreateKernel(ready->program.handle, name, &status);
-    return cl_succeeded(status, "create the kernel", error) && run_once(ready, setup, error);
-}
-
 bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits)
 {
     char key[PROGRAM_KEY_SIZE];
@@ -58,14 +72,13 @@ bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *tra
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
                        const uint32_t group[2], Error *error)
 {
-    CacheCheck build;
+    Making making = {ready, setup};
+    const FirstRun first = {run_once, &making};
     const double start = clock_seconds();
     *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
     program_key(setup->device, &setup->source, traits, ready->key);
     ready->was_compiled = ready_kernel_is_compiled(setup, traits);
-    cache_check_begin(&build, setup->cache, ready->key);
-    const bool ok = make(ready, setup, traits, error);
-    cache_check_end(&build, ok);
+    const bool ok = program_make(&ready->program, setup, traits, &first, error);
     ready->seconds = clock_seconds() - start;
     if (!ok)
         ready_kernel_free(ready);

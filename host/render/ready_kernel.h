@@ -24,6 +24,17 @@ typedef struct {
     ReadyKernel *ready; // may be NULL; the renderer takes this kernel if it fits
 } RendererSetup;
 
+// Runs each kernel of a new program once, because drivers finish compiling in the first run.
+typedef struct {
+    bool (*run)(void *context, Error *error);
+    void *context;
+} FirstRun;
+
+// Builds the program of setup->source and calls first->run, both under the cache's lock. On
+// failure, the caller frees the program.
+bool program_make(Program *program, const RendererSetup *setup, const SceneTraits *traits,
+                  const FirstRun *first, Error *error);
+
 // Returns whether the cache says that an earlier process compiled the kernel for traits.
 bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits);
 

@@ -96,23 +96,12 @@ void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
 
-// Runs the kernel once over an empty tile, because some drivers finish compiling at the first run.
+// Runs the renderer's kernel once over an empty tile.
 bool draw_warm_up(Renderer *renderer, Error *error);
 
 // Sets the first arguments of a kernel: the frame and the scene's arrays.
 bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameData *frame,
                         Error *error);
-
-// A kernel that computes a tile. Its arguments are the frame, the scene's arrays and the outputs.
-typedef struct {
-    cl_command_queue queue;
-    cl_kernel kernel;
-    cl_mem outputs[2]; // the second may be NULL
-} TileLaunch;
-
-// Starts a kernel for the tile of a frame.
-bool renderer_launch_tile(const Renderer *renderer, const TileLaunch *launch,
-                          const FrameData *frame, Error *error);
 
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
 // draw. A part draws every parts-th tile of each row, and starts in another column in each row.
@@ -132,15 +121,33 @@ Tile tile_at(const RenderSettings *settings, uint64_t number);
 // Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
-// Returns the number of pixels in all tiles to draw.
-uint64_t tile_pixels(const RenderSettings *settings);
-
 // Sets the tile that the frame draws.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);
 
 // Stores in grid the number of work-items along both sides of a tile, rounded up to whole
 // work-groups. All tiles have the same grid, including clipped tiles.
 void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2]);
+
+// A kernel that computes values for each pixel of a tile. Its arguments are the frame, the scene's
+// arrays and the outputs.
+typedef struct {
+    cl_kernel kernel;
+    FrameData frame; // without a tile
+    int outputs;     // 1 or 2
+    size_t
+        sizes[2];   // of the outputs, in bytes per pixel; 0 if the kernel does not write the second
+    uint64_t first; // the number of the first tile to draw
+    // Receives the outputs of a tile, pixel by pixel, in the order of the tiles' numbers.
+    void (*take)(void *context, const Tile *tile, void *const values[2]);
+    void *context;
+} TilePass;
+
+// Runs the pass until the observer returns false, and adds each finished tile to progress.
+bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
+                   RenderProgress *progress, Error *error);
+
+// Runs the pass once over an empty tile, because some drivers finish compiling at the first run.
+bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *error);
 
 // Sample positions in a picture -> the color and signature of the camera ray at each position.
 // Signatures differ if rays hit different surfaces or different lights reach them.

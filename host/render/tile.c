@@ -81,17 +81,6 @@ Tile tile_largest(const RenderSettings *settings)
                   .height = smaller(settings->tile_height, settings->height)};
 }
 
-uint64_t tile_pixels(const RenderSettings *settings)
-{
-    uint64_t pixels = 0;
-    const uint64_t count = tile_count(settings);
-    for (uint64_t number = 0; number < count; number++) {
-        const Tile tile = tile_at(settings, number);
-        pixels += (uint64_t)tile.width * tile.height;
-    }
-    return pixels;
-}
-
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile)
 {
     frame->tile_x = settings->left + tile->x;

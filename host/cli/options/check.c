@@ -108,76 +108,70 @@ static bool check_format(Options *options, Error *error)
                             "another format");
 }
 
-static bool check_exposure(const Options *options, Error *error)
+// A rule that the options break or keep.
+typedef struct {
+    bool is_broken;
+    const char *sentence; // a format; %s is the file's format
+} Rule;
+
+static bool check_rules(const Options *options, const Rule *rules, size_t count, Error *error)
 {
-    return options->exposure == 0 || !image_format_is_float(options->format) ||
-           error_set(error, "--exposure is for 8-bit files: %s holds the traced colors",
-                     options->format);
+    size_t i = 0;
+    while (i < count && !rules[i].is_broken)
+        i++;
+    return i == count || error_set(error, rules[i].sentence, options->format);
 }
 
-static bool check_certainty(const Options *options, Error *error)
+#define CHECK_RULES(rules) check_rules(options, rules, sizeof rules / sizeof rules[0], error)
+
+static bool check_file(const Options *options, Error *error)
 {
-    if (!aov_needs(options->aovs, AOV_NEEDS_CERTAINTY))
-        return true;
-    if (options_are_adaptive(options))
-        return error_set(error, "--aov certainty is of the samples of --aa: leave out "
-                                "--aa-adaptive, --error and --time");
-    return options->kernel.precision == PRECISION_FP32 ||
-           error_set(error, "--aov certainty is of pictures in fp32: leave out --precision fp64");
+    const bool is_adaptive = options_are_adaptive(options);
+    const bool takes_layers = image_format_takes_layers(options->format);
+    const bool is_certain = aov_needs(options->aovs, AOV_NEEDS_CERTAINTY);
+    const Rule rules[] = {
+        {options->exposure != 0 && image_format_is_float(options->format),
+         "--exposure is for 8-bit files: %s holds the traced colors"},
+        {is_adaptive && aov_needs(options->aovs, AOV_NEEDS_TESTS),
+         "--aov boxtests and tritests count a grid of samples: leave out --aa-adaptive, --error "
+         "and --time"},
+        {options->aovs != 0 && !takes_layers,
+         "--aov needs an EXR file (-o FILE.exr): %s holds colors alone"},
+        {options->parts > 0 && !takes_layers,
+         "--part needs an EXR file (-o FILE.exr), which clrt merge reads"},
+        {options->parts > 0 && options->reference,
+         "--reference is of whole pictures: leave out --part"},
+        {options->resume && is_adaptive,
+         "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as "
+         "a whole: give --aa"},
+        {options->resume && strcmp(options->output_path, "-") == 0,
+         "--resume needs a file: give -o FILE"},
+        {is_certain && is_adaptive, "--aov certainty is of the samples of --aa: leave out "
+                                    "--aa-adaptive, --error and --time"},
+        {is_certain && options->kernel.precision != PRECISION_FP32,
+         "--aov certainty is of pictures in fp32: leave out --precision fp64"},
+    };
+    return CHECK_RULES(rules);
 }
 
-static bool check_aovs(const Options *options, Error *error)
-{
-    if (options_are_adaptive(options) && aov_needs(options->aovs, AOV_NEEDS_TESTS))
-        return error_set(error, "--aov boxtests and tritests count a grid of samples: leave out "
-                                "--aa-adaptive, --error and --time");
-    return options->aovs == 0 || image_format_takes_layers(options->format) ||
-           error_set(error, "--aov needs an EXR file (-o FILE.exr): %s holds colors alone",
-                     options->format);
-}
-
-static bool check_part(const Options *options, Error *error)
-{
-    if (options->parts == 0)
-        return true;
-    if (!image_format_takes_layers(options->format))
-        return error_set(error, "--part needs an EXR file (-o FILE.exr), which clrt merge reads");
-    return !options->reference ||
-           error_set(error, "--reference is of whole pictures: leave out --part");
-}
-
-static bool check_resume(const Options *options, Error *error)
-{
-    if (!options->resume)
-        return true;
-    if (options_are_adaptive(options))
-        return error_set(error,
-                         "--resume does not go with --aa-adaptive, --error and --time, which "
-                         "refine the picture as a whole: give --aa");
-    return strcmp(options->output_path, "-") != 0 ||
-           error_set(error, "--resume needs a file: give -o FILE");
-}
+#define MANY "--frames and --turntable draw many pictures, and "
 
 static bool check_frames(Options *options, Error *error)
 {
     const Frames *frames = &options->frames;
-    const struct {
-        bool is_given;
-        const char *sentence;
-    } refused[] = {
-        {strcmp(options->output_path, "-") == 0, "standard output takes one: give -o FILE"},
-        {options->statistics_path != NULL, "--stats=FILE is of one"},
-        {options->reference_path != NULL, "--reference=FILE is of one"},
-        {options->resume && frames->is_film, "--resume wants a file for each: give another format"},
+    const Rule rules[] = {
+        {strcmp(options->output_path, "-") == 0, MANY "standard output takes one: give -o FILE"},
+        {options->statistics_path != NULL, MANY "--stats=FILE is of one"},
+        {options->reference_path != NULL, MANY "--reference=FILE is of one"},
+        {options->resume && frames->is_film,
+         MANY "--resume wants a file for each: give another format"},
+        {frames->turntable == 0 && option_is_given(options, "view"),
+         "--frames names the views: leave out --view"},
     };
     if (!frames_are_many(frames))
         return true;
-    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
-        if (refused[i].is_given)
-            return error_set(error, "--frames and --turntable draw many pictures, and %s",
-                             refused[i].sentence);
-    if (frames->turntable == 0 && option_is_given(options, "view"))
-        return error_set(error, "--frames names the views: leave out --view");
+    if (!CHECK_RULES(rules))
+        return false;
     if (frames->turntable > 0 && frames->last > frames->turntable)
         return error_set(error, "--turntable %u has no picture %u", frames->turntable,
                          frames->last);
@@ -217,10 +211,8 @@ bool options_check_purpose(Options *options, Error *error)
         return check_window(options, error);
     if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    return check_format(options, error) && check_exposure(options, error) &&
-           check_aovs(options, error) && check_part(options, error) &&
-           check_frames(options, error) && check_resume(options, error) &&
-           check_certainty(options, error) && check_streams(options, error);
+    return check_format(options, error) && check_frames(options, error) &&
+           check_file(options, error) && check_streams(options, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

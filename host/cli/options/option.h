@@ -130,7 +130,7 @@ typedef struct {
 } Command;
 
 extern const Command command_table[];
-extern const size_t command_count;
+extern const size_t command_count; // without those that an option selects
 
 // Returns the command called word, or NULL.
 const Command *command_named(const char *word);

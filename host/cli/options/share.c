@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/options/share.h"
+#include "cli/options/options.h"
 
 #include "base/number.h"
 

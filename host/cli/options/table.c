@@ -193,22 +193,6 @@ bool option_is_given(const Options *options, const char *name)
     return (options->given >> row & 1) != 0;
 }
 
-// Commands that an option selects.
-static const Command silent_commands[] = {
-    {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
-    {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
-};
-
-#define SILENT_COMMANDS (sizeof silent_commands / sizeof silent_commands[0])
-
-const Command *command_of_action(Action action)
-{
-    for (size_t i = 0; i < SILENT_COMMANDS; i++)
-        if (silent_commands[i].action == action)
-            return &silent_commands[i];
-    return NULL;
-}
-
 const Command command_table[] = {
     {"check", ACTION_CHECK, FOR_CHECK, "SCENE",
      "report faults in the scene's geometry; draw nothing", NULL},
@@ -221,9 +205,21 @@ const Command command_table[] = {
      "write a scene or mesh as FILE: a .scn with a binary .ply per mesh beside it, or one .ply "
      "with all meshes",
      "the names of a scene or mesh and of the file to write"},
+    {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
+    {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
 };
 
-const size_t command_count = sizeof command_table / sizeof command_table[0];
+#define ALL_COMMANDS (sizeof command_table / sizeof command_table[0])
+
+const size_t command_count = ALL_COMMANDS - 2; // options select the last two
+
+const Command *command_of_action(Action action)
+{
+    for (size_t i = command_count; i < ALL_COMMANDS; i++)
+        if (command_table[i].action == action)
+            return &command_table[i];
+    return NULL;
+}
 
 const Command *command_named(const char *word)
 {
@@ -238,22 +234,13 @@ bool command_takes(const Command *command, const Option *option)
     return (option->uses & (command != NULL ? command->use : FOR_PICTURE)) != 0;
 }
 
-static size_t append_command(const char *name, char *text, size_t size, size_t length)
-{
-    if (length >= size)
-        return length;
-    return length + (size_t)snprintf(text + length, size - length, "%sclrt %s",
-                                     length > 0 ? " or " : "", name);
-}
-
 void command_list_takers(const Option *option, char *text, size_t size)
 {
-    size_t length = 0;
     text[0] = '\0';
-    for (size_t i = 0; i < command_count; i++)
+    for (size_t i = 0; i < ALL_COMMANDS; i++) {
+        const size_t length = strlen(text);
         if (command_takes(&command_table[i], option))
-            length = append_command(command_table[i].name, text, size, length);
-    for (size_t i = 0; i < SILENT_COMMANDS; i++)
-        if (command_takes(&silent_commands[i], option))
-            length = append_command(silent_commands[i].name, text, size, length);
+            snprintf(text + length, size - length, "%sclrt %s", length > 0 ? " or " : "",
+                     command_table[i].name);
+    }
 }
