@@ -14,6 +14,7 @@
 #include "scene/scn.h"
 
 #include <math.h>
+#include <string.h>
 
 // The truncation of reflections may use this fraction of the error goal. The fraction is small
 // because more levels cost less than more samples.
