@@ -32,17 +32,15 @@ static void make_items(void *context, uint32_t first, uint32_t end)
     }
 }
 
-static void divide_large(void *context, uint32_t number, uint32_t worker)
+static void divide_large(void *context, uint32_t number)
 {
     const Whole *whole = context;
-    (void)worker;
     build_divide(&whole->build, &whole->large.data[whole->level + number]);
 }
 
-static void build_small(void *context, uint32_t number, uint32_t worker)
+static void build_small(void *context, uint32_t number)
 {
     const Whole *whole = context;
-    (void)worker;
     build_subtree(&whole->build, &whole->subtrees.data[number]);
 }
 

@@ -12,12 +12,6 @@
 #define THREADS_MAX    256
 #define LOOKS_FOR_WORK 200 // polls before a thread sleeps, about 0.1 ms
 
-typedef struct {
-    ThreadPool *pool;
-    pthread_t thread;
-    uint32_t number; // from 1; the caller's thread has number 0
-} Worker;
-
 struct ThreadPool {
     ThreadPoolWork *work;
     void *context;
@@ -29,16 +23,16 @@ struct ThreadPool {
     pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
     uint32_t worker_count; // the caller's thread does not count
-    Worker workers[];
+    pthread_t workers[];
 };
 
-static void take_tasks(ThreadPool *pool, uint32_t worker)
+static void take_tasks(ThreadPool *pool)
 {
     for (;;) {
         const uint32_t task = atomic_fetch_add(&pool->next_task, 1);
         if (task >= pool->count)
             return;
-        pool->work(pool->context, task, worker);
+        pool->work(pool->context, task);
     }
 }
 
@@ -59,14 +53,13 @@ static uint32_t await_generation(ThreadPool *pool, uint32_t known)
 
 static void *run_worker(void *context)
 {
-    Worker *worker = context;
-    ThreadPool *pool = worker->pool;
+    ThreadPool *pool = context;
     uint32_t generation = 0;
     for (;;) {
         generation = await_generation(pool, generation);
         if (atomic_load(&pool->closing))
             return NULL;
-        take_tasks(pool, worker->number);
+        take_tasks(pool);
         atomic_fetch_sub(&pool->busy, 1);
     }
 }
@@ -91,9 +84,7 @@ ThreadPool *thread_pool_open(uint32_t threads)
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     for (uint32_t i = 0; i < others; i++) {
-        pool->workers[i].pool = pool;
-        pool->workers[i].number = i + 1;
-        if (pthread_create(&pool->workers[i].thread, NULL, run_worker, &pool->workers[i]) != 0)
+        if (pthread_create(&pool->workers[i], NULL, run_worker, pool) != 0)
             break;
         pool->worker_count++;
     }
@@ -107,22 +98,17 @@ void thread_pool_close(ThreadPool *pool)
     atomic_store(&pool->closing, true);
     begin_generation(pool);
     for (uint32_t i = 0; i < pool->worker_count; i++)
-        pthread_join(pool->workers[i].thread, NULL);
+        pthread_join(pool->workers[i], NULL);
     pthread_cond_destroy(&pool->wake);
     pthread_mutex_destroy(&pool->mutex);
     free(pool);
-}
-
-uint32_t thread_pool_size(const ThreadPool *pool)
-{
-    return pool == NULL ? 1 : pool->worker_count + 1;
 }
 
 void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, void *context)
 {
     if (pool == NULL || count <= 1) {
         for (uint32_t task = 0; task < count; task++)
-            work(context, task, 0);
+            work(context, task);
         return;
     }
     pool->work = work;
@@ -130,7 +116,7 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
     pool->count = count;
     atomic_store(&pool->next_task, 0);
     begin_generation(pool);
-    take_tasks(pool, 0);
+    take_tasks(pool);
     while (atomic_load(&pool->busy) > 0)
         sched_yield();
 }
@@ -141,9 +127,8 @@ typedef struct {
     uint32_t count, part;
 } Ranges;
 
-static void run_range(void *context, uint32_t task, uint32_t worker)
+static void run_range(void *context, uint32_t task)
 {
-    (void)worker;
     const Ranges *ranges = context;
     const uint32_t first = task * ranges->part, left = ranges->count - first;
     ranges->work(ranges->context, first, first + (left < ranges->part ? left : ranges->part));

@@ -7,15 +7,13 @@
 
 typedef struct ThreadPool ThreadPool;
 
-// Runs one task. The worker's number, below thread_pool_size, selects per-thread memory.
-typedef void ThreadPoolWork(void *context, uint32_t task, uint32_t worker);
+// Runs one task.
+typedef void ThreadPoolWork(void *context, uint32_t task);
 
 // Opens a pool of up to `threads` threads, including the caller's. The system may grant fewer. NULL
 // is a valid pool that consists of the caller's thread alone.
 ThreadPool *thread_pool_open(uint32_t threads);
 void thread_pool_close(ThreadPool *pool);
-
-uint32_t thread_pool_size(const ThreadPool *pool);
 
 // Calls `work` for tasks 0 to count - 1, starts them in this order, and returns when all are
 // finished. `work` must not use the pool.

@@ -138,13 +138,12 @@ static bool write_tile(const TileWriter *writer, const exr_encode_pipeline_t *en
 }
 
 // Compresses tiles at once, and writes them in turn.
-static void run_tile(void *context, uint32_t number, uint32_t worker)
+static void run_tile(void *context, uint32_t number)
 {
     TileWriter *writer = context;
     exr_chunk_info_t tile;
     exr_encode_pipeline_t encoder = {0};
     size_t position[2];
-    (void)worker;
     const bool ok =
         !writer->has_failed && find_tile(writer, number, &tile, position) &&
         exr_encoding_initialize(writer->context, 0, &tile, &encoder) == EXR_ERR_SUCCESS &&

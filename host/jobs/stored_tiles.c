@@ -186,12 +186,11 @@ typedef struct {
     Error *error;
 } TileRun;
 
-static void run_tile(void *context, uint32_t number, uint32_t worker)
+static void run_tile(void *context, uint32_t number)
 {
     TileRun *run = context;
     Error error = {0};
     const Tile tile = tile_at(run->settings, number);
-    (void)worker;
     if (run->work(run->context, &tile, &error))
         return;
     pthread_mutex_lock(&run->lock);

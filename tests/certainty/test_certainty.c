@@ -56,10 +56,9 @@ static void compare_pixel(Comparing *comparing, uint32_t x, uint32_t y)
     comparing->deeper += same && real.settled && real.signature != mark->signature;
 }
 
-static void compare_row(void *context, uint32_t row, uint32_t worker)
+static void compare_row(void *context, uint32_t row)
 {
     Comparing *comparing = context;
-    (void)worker;
     for (uint32_t x = 0; x < comparing->view.width; x += comparing->step)
         compare_pixel(comparing, x, row * comparing->step);
 }

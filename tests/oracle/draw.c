@@ -26,11 +26,10 @@ static void draw_pixel(const Drawing *drawing, uint32_t column, uint32_t row, fl
     pixel[2] = (float)(sum.z / count);
 }
 
-static void draw_row(void *context, uint32_t row, uint32_t worker)
+static void draw_row(void *context, uint32_t row)
 {
     const Drawing *drawing = context;
     const uint32_t width = drawing->framebuffer->width;
-    (void)worker;
     for (uint32_t column = 0; column < width; column++)
         draw_pixel(drawing, column, row,
                    drawing->framebuffer->pixels[(size_t)row * width + column]);
