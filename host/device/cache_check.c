@@ -28,23 +28,23 @@ bool cache_has_program(const Cache *cache, const char *key)
     return manifest != NULL;
 }
 
-// Writes the lines of all intact manifests in the folder.
-static bool write_manifests(const Cache *cache, FILE *lines)
+// Appends the lines of all intact manifests in the folder.
+static bool append_manifests(const Cache *cache, Lines *lines)
 {
     char path[MANIFEST_PATH_SIZE];
     DIR *folder = opendir(cache->folder);
-    if (folder == NULL)
-        return false;
-    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+    bool ok = folder != NULL && lines_append(lines, "");
+    for (const struct dirent *entry; ok && (entry = readdir(folder)) != NULL;) {
         if (strncmp(entry->d_name, prefix, strlen(prefix)) != 0)
             continue;
         manifest_path(cache, entry->d_name + strlen(prefix), path);
         char *manifest = manifest_read(path);
-        fputs(manifest != NULL ? manifest : "", lines);
+        ok = manifest == NULL || lines_append(lines, manifest);
         free(manifest);
     }
-    closedir(folder);
-    return true;
+    if (folder != NULL)
+        closedir(folder);
+    return ok;
 }
 
 static void remove_unlisted(const Cache *cache, const char *listed)
@@ -67,13 +67,10 @@ static void remove_unlisted(const Cache *cache, const char *listed)
 // Removes the programs that no manifest lists, because they may be damaged.
 static void sweep(const Cache *cache)
 {
-    char *listed = NULL;
-    size_t size;
-    FILE *lines = open_memstream(&listed, &size);
-    const bool is_listed = lines != NULL && write_manifests(cache, lines);
-    if (lines != NULL && fclose(lines) == 0 && is_listed)
-        remove_unlisted(cache, listed);
-    free(listed);
+    Lines listed = {0};
+    if (append_manifests(cache, &listed))
+        remove_unlisted(cache, listed.data);
+    free(listed.data);
 }
 
 // Removes the program's folder. Every line of the manifest names a file in it.
@@ -145,20 +142,16 @@ void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key)
 // the program's files are then unknown.
 static void write_manifest(const CacheCheck *build, LoadedKernels *kernels)
 {
-    char path[MANIFEST_PATH_SIZE], *text = NULL;
-    size_t size;
-    FILE *lines = open_memstream(&text, &size);
+    char path[MANIFEST_PATH_SIZE];
+    Lines lines = {0};
     char *program = kernels->newest;
-    if (lines == NULL)
-        return;
     for (int level = 0; level < KERNEL_LEVEL && strrchr(program, '/') != NULL; level++)
         *strrchr(program, '/') = '\0';
     manifest_path(build->cache, build->key, path);
-    const bool is_listed = kernels->count == build->loaded_count ||
-                           manifest_list(lines, build->cache->kernels, program);
-    if (fclose(lines) == 0 && is_listed)
-        manifest_write(path, text);
-    free(text);
+    if (lines_append(&lines, "") && (kernels->count == build->loaded_count ||
+                                     manifest_list(&lines, build->cache->kernels, program)))
+        manifest_write(path, lines.data);
+    free(lines.data);
 }
 
 void cache_check_end(CacheCheck *build, bool works)

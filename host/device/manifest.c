@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 
+#include <fcntl.h>
 #include <fts.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,15 +15,26 @@
 #define CHECKSUM_LENGTH 16
 #define HEAD_LENGTH     (CHECKSUM_LENGTH + 1) // with the space or line end after it
 
-static unsigned long long checksum_of(const void *bytes, size_t size)
+bool lines_append(Lines *lines, const char *text)
 {
-    return XXH3_64bits(bytes, size);
+    Error unused = {0};
+    const size_t length = strlen(text);
+    if (!array_reserve(&lines->memory, &lines->capacity, lines->count + length + 1, 1, &unused))
+        return false;
+    memcpy(lines->data + lines->count, text, length + 1);
+    lines->count += length;
+    return true;
+}
+
+static void write_checksum(char text[CHECKSUM_LENGTH + 1], const void *bytes, size_t size)
+{
+    snprintf(text, CHECKSUM_LENGTH + 1, "%016llx", (unsigned long long)XXH3_64bits(bytes, size));
 }
 
 static bool has_checksum(const char *text, const void *bytes, size_t size)
 {
-    char right[HEAD_LENGTH];
-    snprintf(right, sizeof right, "%016llx", checksum_of(bytes, size));
+    char right[CHECKSUM_LENGTH + 1];
+    write_checksum(right, bytes, size);
     return strncmp(text, right, CHECKSUM_LENGTH) == 0;
 }
 
@@ -63,18 +75,21 @@ bool manifest_holds(const char *lines, const char *folder)
     return true;
 }
 
-static bool list_file(FILE *lines, const char *path, const char *name)
+static bool list_file(Lines *lines, const char *path, const char *name)
 {
+    char head[HEAD_LENGTH + 1];
     File file;
     Error unused = {0};
     if (!file_read(&file, path, &unused))
         return false;
-    fprintf(lines, "%016llx %s\n", checksum_of(file.bytes, file.size), name);
+    write_checksum(head, file.bytes, file.size);
     file_free(&file);
-    return true;
+    head[CHECKSUM_LENGTH] = ' ';
+    head[HEAD_LENGTH] = '\0';
+    return lines_append(lines, head) && lines_append(lines, name) && lines_append(lines, "\n");
 }
 
-bool manifest_list(FILE *lines, const char *folder, const char *program)
+bool manifest_list(Lines *lines, const char *folder, const char *program)
 {
     char path[2 * MANIFEST_PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, program);
@@ -89,12 +104,21 @@ bool manifest_list(FILE *lines, const char *folder, const char *program)
     return ok;
 }
 
+static bool write_text(int file, const char *text)
+{
+    return write(file, text, strlen(text)) == (ssize_t)strlen(text);
+}
+
 void manifest_write(const char *path, const char *lines)
 {
-    FILE *stream = fopen(path, "we");
-    if (stream == NULL)
+    char head[HEAD_LENGTH + 1];
+    const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (file < 0)
         return;
-    const bool ok = fprintf(stream, "%016llx\n%s", checksum_of(lines, strlen(lines)), lines) > 0;
-    if (fclose(stream) != 0 || !ok)
+    write_checksum(head, lines, strlen(lines));
+    head[CHECKSUM_LENGTH] = '\n';
+    head[HEAD_LENGTH] = '\0';
+    const bool ok = write_text(file, head) && write_text(file, lines);
+    if (close(file) != 0 || !ok)
         unlink(path);
 }
