@@ -32,6 +32,14 @@ static ExitCode write_json(const DeviceList *list, Error *error)
     return json_file_write(root, "-", error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
+static ExitCode write_text(const DeviceList *list)
+{
+    char text[DEVICE_TEXT_SIZE];
+    device_list_text(list, text);
+    fputs(text, stdout);
+    return EXIT_DONE;
+}
+
 ExitCode device_report_write(bool as_json, Error *error)
 {
     Cache cache;
@@ -39,9 +47,7 @@ ExitCode device_report_write(bool as_json, Error *error)
     ExitCode code = EXIT_DEVICE;
     cache_open(&cache);
     if (device_list(&list, error))
-        code = as_json ? write_json(&list, error) : EXIT_DONE;
-    if (code == EXIT_DONE && !as_json)
-        device_list_write(&list, stdout);
+        code = as_json ? write_json(&list, error) : write_text(&list);
     cache_close(&cache);
     return code;
 }

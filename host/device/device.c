@@ -76,15 +76,20 @@ bool device_list(DeviceList *list, Error *error)
                      "devices");
 }
 
-void device_list_write(const DeviceList *list, FILE *stream)
+void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE])
 {
-    for (unsigned i = 0; i < list->count; i++) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (unsigned i = 0; i < list->count && used < DEVICE_TEXT_SIZE; i++) {
         const Device *device = &list->devices[i];
         const bool last =
             i + 1 == list->count || list->devices[i + 1].platform_number != device->platform_number;
+        char platform[sizeof device->platform + 32] = "";
         if (device->number == 0)
-            fprintf(stream, "Platform #%u: %s\n", device->platform_number, device->platform);
-        fprintf(stream, " %s Device #%u: %s\n", last ? "`--" : "+--", device->number, device->name);
+            snprintf(platform, sizeof platform, "Platform #%u: %s\n", device->platform_number,
+                     device->platform);
+        used += (size_t)snprintf(text + used, DEVICE_TEXT_SIZE - used, "%s %s Device #%u: %s\n",
+                                 platform, last ? "`--" : "+--", device->number, device->name);
     }
 }
 
@@ -119,12 +124,8 @@ static const Device *choose(const DeviceList *list, const char *spec)
 
 static bool no_match(const DeviceList *list, const char *spec, Error *error)
 {
-    char text[2048] = "";
-    FILE *stream = fmemopen(text, sizeof text, "w");
-    if (stream != NULL) {
-        device_list_write(list, stream);
-        fclose(stream);
-    }
+    char text[DEVICE_TEXT_SIZE];
+    device_list_text(list, text);
     return error_set(error, "no device matches '%s'; there are:\n%s", spec, text);
 }
 

@@ -9,7 +9,6 @@
 #include <CL/cl.h>
 #include <pthread.h>
 #include <stdint.h>
-#include <stdio.h>
 
 typedef struct {
     cl_device_id id;
@@ -46,8 +45,10 @@ typedef struct {
 // Lists all devices. Fails if there are none.
 bool device_list(DeviceList *list, Error *error);
 
-// Writes all devices as `clinfo -l` prints them.
-void device_list_write(const DeviceList *list, FILE *stream);
+#define DEVICE_TEXT_SIZE 4096
+
+// Lists the devices that fit into the text, as `clinfo -l` prints them.
+void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE]);
 
 // Returns cpu, gpu, accelerator or other.
 const char *device_type_name(const Device *device);
