@@ -14,7 +14,7 @@ HEAD = """\
 #SBATCH --open-mode=append
 #SBATCH --requeue
 # {command}
-# Change this script as your machines need; the command above runs it again as it is.
+# Change this script as your machines need. The command above runs the changed script.
 set -eu
 export CLRT={clrt}
 folder={folder}

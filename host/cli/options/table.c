@@ -28,7 +28,7 @@ const Option option_table[] = {
     {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE,
      "multiply the colors of 8-bit files by 2^EV, as the keys + and - do in the window"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
-     "add channels to an EXR file; the names are below; all adds those that need no reference"},
+     "add channels to an EXR file; the names are below; all means every channel but error"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
     {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
@@ -56,7 +56,8 @@ const Option option_table[] = {
      "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
      "rays of level N see the background (default: the scene's N, or 3); the error is at most "
-     "R^N, where R is the highest reflectivity; auto: the smallest N whose error no file shows"},
+     "R^N, where R is the highest reflectivity; auto: the smallest N whose error is below half a "
+     "step of the file's values"},
     {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
      "choose samples, levels and precision for a root mean square error of E, such as 0.5%"},
     {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
@@ -88,12 +89,11 @@ const Option option_table[] = {
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
      "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
     {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw views A to B, or pictures A to B of the turntable, or every S-th of them; I/N draws the "
-     "I-th of N equal runs of them, or of the whole turntable, and auto/N is as for --part"},
+     "draw views A to B, or pictures A to B of the turntable; S: every S-th of them; I/N: the "
+     "I-th of N equal runs of them; auto/N: as for --part"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
-     "takes "
-     "I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
+     "takes I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
      "incomplete EXR file; of many pictures, skip those whose files exist"},

@@ -61,7 +61,7 @@ void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
 // Cubes: faces from -1 to 1, edges from 0 to 1.
 #define CUBE_FACE_VERTICES 36
-#define CUBE_EDGE_VERTICES 24 // followed by the two of a diagonal
+#define CUBE_EDGE_VERTICES 24 // after them, the buffer has the two vertices of a diagonal
 
 // Fill buffer 0 with triangles or lines, three floats per vertex.
 void cube_fill_faces(const Drawing *drawing);
