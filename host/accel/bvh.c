@@ -112,7 +112,8 @@ static bool build_all(Whole *whole, Error *error)
     if (!ok)
         return false;
     const uint32_t subtrees = (uint32_t)whole->subtrees.count;
-    qsort(whole->subtrees.data, subtrees, sizeof(BuildTask), compare_subtrees);
+    if (subtrees > 0) // qsort accepts no null pointer
+        qsort(whole->subtrees.data, subtrees, sizeof(BuildTask), compare_subtrees);
     thread_pool_run(whole->pool, subtrees, build_small, whole);
     count_nodes(bvh, 0, 0);
     return true;
