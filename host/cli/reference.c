@@ -5,7 +5,7 @@
 // additive recurrence by powers of the plastic number. The two sequences have different starts, so
 // their errors are independent. No shift lies on the N x N grid of --aa.
 //
-// The reference is the picture in fp64, but most passes are in fp32, which is 4 to 9 times faster.
+// The reference is the picture in fp64, but most passes are in fp32, which is 6 to 9 times faster.
 // Some passes are drawn in both, and their mean difference is added to the mean of the passes in
 // fp32. The expected value of that sum is the picture in fp64 (Giles, Multilevel Monte Carlo Path
 // Simulation, 2008). The difference is nearly always zero, so few passes find it.

@@ -134,9 +134,8 @@ typedef struct {
     cl_kernel kernel;
     FrameData frame; // without a tile
     int outputs;     // 1 or 2
-    size_t
-        sizes[2];   // of the outputs, in bytes per pixel; 0 if the kernel does not write the second
-    uint64_t first; // the number of the first tile to draw
+    size_t sizes[2]; // bytes per pixel of each output; 0 if the kernel does not write the second
+    uint64_t first;  // the number of the first tile to draw
     // Receives the outputs of a tile, pixel by pixel, in the order of the tiles' numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
     void *context;
