@@ -15,8 +15,8 @@
 // halving an interval takes one sample, but subdividing a cell takes eight.
 #define SEAM_PART 0.17f
 
-// A list contains eight samples per new group, in the order of the groups, then one per seam that
-// needs a sample.
+// A pass's list contains eight samples per new group, in the order of the groups, and then one per
+// seam that needs a sample.
 
 #define GROUPS_OF_TASK 512
 
@@ -56,14 +56,14 @@ static void take_samples(void *context, uint32_t first, uint32_t end)
     }
 }
 
-// Returns whether the last pass completed without a stop by the observer.
+// Returns false if the observer has stopped a pass.
 static bool is_whole(const Adaptive *adaptive)
 {
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
 
-// Traces the groups from `first` on and the samples that seams need. If the observer stops it,
-// removes these groups.
+// Traces the groups from `first` on and the samples that seams need. If the observer stops
+// the pass, removes these groups.
 static bool trace_pass(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
                        const RenderObserver *observer, Error *error)
 {

@@ -8,30 +8,30 @@
 #include "render/renderer.h"
 
 typedef struct {
-    Renderer *renderer; // of KERNEL_SAMPLES; borrowed
+    Renderer *renderer; // with entry KERNEL_SAMPLES; borrowed
     ThreadPool *pool;   // borrowed
     FrameData frame;
     RefineTree tree;
     ThinParts thin_parts; // their cells are always subdivided
-    uint64_t samples;     // the number of samples taken
+    uint64_t samples;     // taken so far
 } Adaptive;
 
 // The inputs of adaptive anti-aliasing.
 typedef struct {
-    Renderer *renderer;       // of KERNEL_SAMPLES
-    const FlatScene *flat;    // of the renderer
+    Renderer *renderer;       // with entry KERNEL_SAMPLES
+    const FlatScene *flat;    // the renderer's scene
     const CameraData *camera; // made for REFINE_GRID samples
     ThreadPool *pool;         // threads for the work, NULL for none
-    const Scene *scene;       // of the renderer
+    const Scene *scene;       // the source of flat
     const Normalization *normalization;
 } AdaptiveSetup;
 
-// Takes one sample per pixel.
+// Makes a picture with one sample per pixel.
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Refines until no cell's contrast exceeds the threshold, or until the observer stops it. Call it
-// at most once.
+// Subdivides cells whose contrast exceeds the threshold, down to the last level, until the observer
+// returns false. The caller may refine at most once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 

@@ -6,7 +6,7 @@
 
 #define GROUPS_OF_TASK 512
 
-// The result of a range.
+// The cells to subdivide in a range, or the error that stopped the search.
 typedef struct {
     ARRAY(CellName) cells;
     Error error;
@@ -15,13 +15,13 @@ typedef struct {
 typedef struct {
     const RefineTree *tree;
     const CutRule *rule;
-    uint32_t first;                  // group of the first range
-    float limits[REFINE_LEVELS + 1]; // the color differences that cells of each level may have
+    uint32_t first;                  // the first group to examine
+    float limits[REFINE_LEVELS + 1]; // largest color difference that needs no subdivision, by level
     CutList *lists;                  // of each range
 } Marking;
 
-// Color differences count twice between pixels, whose surfaces may have similar colors by chance,
-// and half inside pixels, where seams locate the edges.
+// Color differences between pixels count twice, because different surfaces may have similar colors
+// by chance. Differences inside pixels count half, because seams locate the edges.
 static void set_limits(Marking *marking)
 {
     float fraction = 1;
@@ -33,7 +33,8 @@ static void set_limits(Marking *marking)
     marking->limits[REFINE_LEVELS] = INFINITY;
 }
 
-// Lists a cell if it is thin or its contrast exceeds the limit, and its larger neighbors.
+// Lists a cell if it has thin parts or exceeds its limit. Also lists larger neighbors that exceed
+// their limit.
 static bool mark_cell(const Marking *marking, const CellName *name, const uint32_t place[2],
                       CutList *list)
 {
@@ -125,7 +126,7 @@ static bool cut_list(RefineTree *tree, const CutList *list, Error *error)
     return true;
 }
 
-// The elements to mark in parallel ranges.
+// The elements to mark, in parallel ranges of `part` elements.
 typedef struct {
     uint32_t count, part;
     ThreadPoolPart *mark;

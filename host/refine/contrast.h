@@ -13,10 +13,11 @@ typedef struct {
     float threshold; // cells with more contrast are subdivided
 } CutRule;
 
-// Subdivides pixels. Pixels are visited block by block, so that consecutive samples are near each
-// other.
+// Subdivides the pixels that the rule selects, block by block, so that consecutive samples are near
+// each other.
 bool contrast_cut_pixels(RefineTree *tree, const CutRule *rule, ThreadPool *pool, Error *error);
 
-// Subdivides cells of the groups from first on, and larger cells beside these groups.
+// Subdivides selected cells of the groups from first on, and larger selected cells beside these
+// groups.
 bool contrast_cut_groups(RefineTree *tree, const CutRule *rule, uint32_t first, ThreadPool *pool,
                          Error *error);

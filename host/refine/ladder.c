@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Each call of ladder_advance lists the selected pixels in picture order, traces their samples, and
-// records their changes in the same order. Floating-point sums therefore do not depend on threads.
+// ladder_advance lists the selected pixels in a fixed order, traces their samples, and records the
+// pixels' changes in this order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Samples of a request for the first REQUEST_SAMPLES samples of a pixel. Later requests have
+// Samples per request for the first REQUEST_SAMPLES samples of a pixel. Later requests have
 // REQUEST_SAMPLES samples.
 #define FIRST_SAMPLES 4
 
@@ -72,7 +72,7 @@ void ladder_close(Ladder *ladder)
 // The samples that advance a pixel by one rung.
 typedef struct {
     uint32_t first;   // index of its first sample
-    uint32_t samples; // of a request
+    uint32_t samples; // per request
     uint32_t requests;
 } Step;
 
@@ -105,7 +105,7 @@ static double mean_square_change(const float before[3], const float after[3])
     return sum / 3;
 }
 
-// Returns the sums of a pixel, or NULL if memory is exhausted. If the pixel is on rung 0, allocates
+// Returns the sums of a pixel, or NULL if memory runs out. If the pixel is on rung 0, allocates
 // its sums.
 static PixelSums *sums_of(Ladder *ladder, uint32_t pixel, Error *error)
 {
@@ -126,7 +126,7 @@ static double feature_of(const Ladder *ladder, uint32_t pixel)
                      : pixel_sums_variance(&ladder->sums.data[place->sums], samples) / samples;
 }
 
-// Advances the pixel by one rung. answers are the sums of its requests.
+// Advances the pixel by one rung. `answers` holds the sums of the pixel's requests.
 static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Error *error)
 {
     const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
@@ -182,8 +182,8 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Moves the pixels whose requests have REQUEST_SAMPLES samples to the end of the list. The others
-// keep their order, too. Stores the number of the others in *first.
+// Moves the pixels whose requests have REQUEST_SAMPLES samples to the end of the list, and keeps
+// the order within both groups. Stores the number of other pixels in *first.
 static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, uint64_t *first,
                       Error *error)
 {

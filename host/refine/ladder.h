@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A picture whose pixels climb a ladder of samples: the center alone, then 4, 8, 16 ... 1024
-// points of a per-pixel sequence. Strata decide how many pixels advance, and hashes of pixel
-// positions decide which. The picture therefore depends neither on the order of work nor on the
-// device.
+// Refines a picture for error and time goals. Each pixel climbs a ladder of samples: its center,
+// then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels decide how many
+// pixels advance, and hashes of pixel positions decide which. The picture therefore depends neither
+// on the order of work nor on the device.
 #pragma once
 
 #include "base/array.h"
@@ -11,57 +11,55 @@
 #include "refine/ladder_strata.h"
 #include "render/renderer.h"
 
-// Traces requests for samples of pixels, in lists of bounded size, and returns the sums of the
-// samples.
+// The functions below trace lists of requests for samples of pixels, and sum the samples.
 
 // The most requests per list.
 #define REQUESTS_MOST (1u << 18)
 
 typedef struct {
-    Renderer *renderer;             // of KERNEL_LADDER; borrowed
+    Renderer *renderer;             // with entry KERNEL_LADDER; borrowed
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
     ThreadPool *pool;               // borrowed; NULL for none
-    PixelRequest *requests;         // REQUESTS_MOST entries, of which count are in use; all
-                                    // have the same number of samples
+    PixelRequest *requests;         // room for REQUESTS_MOST, all with equal sample counts
     PixelSums *sums;                // of the requests traced last
-    uint32_t count;
+    uint32_t count;                 // requests in the list
 } PixelRequests;
 
 bool pixel_requests_make(PixelRequests *requests, Error *error);
 void pixel_requests_free(PixelRequests *requests);
 
 // Returns a request for samples first to first + samples - 1 of a pixel. samples is 4 or
-// REQUEST_SAMPLES, and first is a multiple of samples. The positions are points of the
+// REQUEST_SAMPLES, and first is a multiple of samples. The sample positions are points of the
 // two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution of
 // points in a cube and the approximate evaluation of integrals", 1967).
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
                            uint64_t hash);
 
-// Returns whether the last trace completed without a stop by the observer.
+// Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums. If the observer stops it, some sums are missing.
+// Traces the requests and stores their sums. If the observer stops the trace, sums are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
 
-// Computes the mean color of that many samples, which are a power of two.
+// Computes the mean color of the samples. Their number is a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
 
-// Returns the variance of that many samples, averaged over the channels.
+// Returns the variance of the samples' colors, averaged over the channels.
 double pixel_sums_variance(const PixelSums *sums, uint32_t samples);
 
 void pixel_sums_add(PixelSums *sums, const PixelSums *more);
 
-// The longest side of a picture: sub-pixel positions must fit into 31 bits.
+// The longest side of a picture, so that sub-pixel positions fit into 31 bits.
 #define LADDER_SIDE_MOST   (1u << 19)
 #define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
 
-// A pixel has a feature on rung 0 and sums above.
+// On rung 0, a pixel has a feature (ladder_strata.h). On higher rungs, it has sums of samples.
 typedef union {
-    float feature; // for its stratum
+    float feature;
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
@@ -73,33 +71,32 @@ typedef struct {
     uint8_t *strata;       // of each pixel
     ARRAY(PixelSums) sums; // of the pixels above rung 0
     Strata statistics;
-    Strata chosen_by; // the statistics of the last choice of pixels
-    uint64_t samples; // taken
+    Strata chosen_by; // the statistics at the last selection of pixels
+    uint64_t samples; // taken so far
 } Ladder;
 
 typedef struct {
-    Renderer *renderer;             // of KERNEL_LADDER
+    Renderer *renderer;             // with entry KERNEL_LADDER
     const CameraData *camera;       // made for LADDER_GRID samples
     ThreadPool *pool;               // threads for the work, NULL for none
     Framebuffer *picture;           // of the renderer's size; the ladder renders into it
-    const RenderObserver *observer; // may stop it; or NULL
+    const RenderObserver *observer; // may stop the refinement; may be NULL
 } LadderSetup;
 
-// Takes one sample per pixel. Fails if the picture exceeds LADDER_SIDE_MOST or LADDER_PIXELS_MOST.
+// Makes a ladder with one sample per pixel. Fails if the picture exceeds LADDER_SIDE_MOST or
+// LADDER_PIXELS_MOST.
 bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Advances the pixels selected by their stratum's fraction by one rung. Stores their number in
-// *advanced. If the observer stops it, some of them have not advanced.
+// Moves the pixels that the strata's fractions select to their next rung. Stores their number in
+// *advanced. If the observer stops the trace, some of these pixels have not moved.
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
-// Returns the number of samples that a pixel has taken.
+// Returns the number of samples taken in a pixel.
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);
 
-// Assigns all pixels to strata of rung 0, after their centers are drawn.
+// Assigns all pixels to strata of rung 0. The pixels' centers must be drawn.
 bool ladder_enter(Ladder *ladder, Error *error);
-
-// Selects pixels.
 
 // Seeds of a pixel's hashes: SCRAMBLE_SEED for its samples, RUNG_SEED + rung for its selection on a
 // rung.
@@ -108,10 +105,10 @@ bool ladder_enter(Ladder *ladder, Error *error);
 
 uint64_t ladder_hash(uint32_t pixel, uint64_t seed);
 
-// Fills ladder->chosen with the pixels that their strata's fractions select. Stores their number.
+// Fills ladder->chosen with the pixels that the strata's fractions select, and stores their number.
 bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error);
 
-// Advances the pixels of a ladder until the picture meets an error goal, or until a time budget is
+// Goals: a ladder's pixels advance until the picture meets an error goal, or until a time budget is
 // spent.
 
 // The root mean square error of the picture's values, before they are rounded for a file.
@@ -121,7 +118,7 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most `most`, or until no further samples would lower it.
+// Refines until the bound is at most `most`, or until no pixel can advance.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.
@@ -129,15 +126,14 @@ typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until time->seconds have passed since the start.
+// Refines until about time->seconds have passed since time->start.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
 
-// Measures how much each pixel of a picture with one sample per pixel bends away from its
-// neighbors.
+// The bend of a pixel measures how far its color differs from its neighbors' colors.
 
-// Fills bends with a value for each pixel, row by row: twice the largest difference of one of its
-// colors from the mean of two opposite neighbors, as a fraction. Neighbors outside of the picture
-// do not count.
+// Fills bends, row by row, for a picture with one sample per pixel. A pixel's bend is the largest
+// |2 c - a - b|, for any of its channel values c and the values a and b of two opposite neighbors.
+// Pairs of neighbors partly outside of the picture do not count.
 void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends);
 
 // Fills nearby with the largest bend of the 5 x 5 pixels around each pixel.

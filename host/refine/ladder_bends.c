@@ -22,9 +22,9 @@ static float larger(float one, float other)
     return one > other ? one : other;
 }
 
-// Raises each value of `most` to the second difference of its pixel and channel, if that is larger.
-// Both arrays begin at the same pixel. `step` leads to the next pixel of the direction, and `range`
-// holds the first pixel and the end.
+// Raises each value of `most` to at least the absolute second difference of its pixel and channel.
+// Both arrays begin at the same pixel. `step` is the index distance of neighbors in the direction,
+// and `range` holds the first pixel and the end.
 static void raise_bends(float *most, const float *colors, ptrdiff_t step, const uint32_t range[2])
 {
     for (ptrdiff_t i = 3 * (ptrdiff_t)range[0]; i < 3 * (ptrdiff_t)range[1]; i++)
@@ -62,8 +62,7 @@ static void measure_rows(void *context, uint32_t first, uint32_t end)
             measure_run(measuring, x, y);
 }
 
-// Replaces each value of a row by the largest of the values up to two columns away. Values are
-// at least 0.
+// Replaces each value of a row by the largest value up to two columns away. Values are at least 0.
 static void spread_row(float *row, uint32_t width)
 {
     float before = 0, earlier = 0; // the values of the two columns before x

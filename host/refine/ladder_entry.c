@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Assigns each pixel to a stratum of rung 0 by its bend (ladder_bends.c). Each task adds up its
-// pixels in order, and the tasks' sums are added in order. The sums therefore do not depend on
-// threads.
+// Assigns each pixel to a stratum of rung 0 by its bend (ladder_bends.c). Each task sums the
+// features of its pixels in order, and one thread then adds the tasks' sums in order. The result
+// therefore does not depend on threads.
 #include "refine/ladder.h"
 
 #include <stdlib.h>
 
 #define PIXELS_OF_TASK 4096
 
-// The pixels of a task that enter each stratum.
+// Statistics of a task's pixels, by stratum.
 typedef struct {
     uint32_t pixels[BEND_CLASSES];
     double features[BEND_CLASSES]; // sums

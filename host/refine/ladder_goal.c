@@ -11,7 +11,7 @@
 #define ROUNDS_MOST 300
 
 // A round takes PART_OF_ROUND of the remaining time. If less than PART_OF_LAST of the budget
-// remains, one round takes the rest. Less than PART_UNSPENT stays unspent.
+// remains, one round takes the rest. Below PART_UNSPENT, no further round starts.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03

@@ -25,9 +25,9 @@ void pixel_requests_free(PixelRequests *requests)
     *requests = (PixelRequests){0};
 }
 
-// Coordinate x of a point is its bit-reversed index. The bits of y are sums of binomial
-// coefficients modulo 2. Both are linear over GF(2), so point first + i equals point first XOR
-// point i. This function computes point first; the kernel computes point i.
+// Coordinate x of a point is the bit-reversed index of the point. The bits of y are sums of
+// binomial coefficients modulo 2. Both are linear over GF(2), so point `first + i` is point `first`
+// XOR point `i`. This function computes point `first`; the kernel computes point `i`.
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
 {
     uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;
@@ -52,7 +52,7 @@ bool pixel_requests_trace(PixelRequests *requests, Error *error)
     return sampler_trace(requests->renderer, &requests->frame, &list, requests->observer, error);
 }
 
-// Blocks of pixels whose centers are requested, from block number `first` of the picture on.
+// A list of pixel blocks, which starts at block number `first` of the picture.
 typedef struct {
     const PixelRequests *requests;
     Framebuffer *picture;

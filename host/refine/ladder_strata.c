@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pixels that have advanced are the controls of their stratum (ladder_strata.h defines the other
-// terms). A stratum with few controls uses a prior error: its mean feature times the rung's change
-// per unit of feature. Pixels that look flat may hide detail that no sample hit. The feature in a
-// prior therefore has a minimum, which is larger near contrast, where most hidden detail was found.
-// With one minimum for all strata, errors reached 1.3 times the goal on tiled floors.
+// terms). The estimate for a stratum blends its controls' errors with a prior: the mean feature
+// times the rung's change per unit of feature. Pixels that look flat may hide detail that no sample
+// hit. The feature in a prior therefore has a minimum, which is larger near contrast, where most
+// hidden detail was found. With one minimum for all strata, errors reached 1.3 times the goal on
+// tiled floors.
 #include "refine/ladder_strata.h"
 
 #include <math.h>
@@ -22,33 +23,33 @@
 #define FIRST_RATIO  0.5
 
 // The least feature in a prior, as a fraction of the rung's largest mean feature. On rung 0,
-// NEAR applies near contrast and FAR elsewhere. SAMPLED applies to rung 1. Detail that n samples
-// missed covers about 1/n of a pixel, so the fraction falls from rung to rung. With a constant
-// fraction, the estimates rose again above 64 samples.
+// LEAST_NEAR applies near contrast and LEAST_FAR elsewhere. LEAST_SAMPLED applies to rung 1. Detail
+// that n samples missed covers about 1/n of a pixel, so the fraction falls from rung to rung. With
+// a constant fraction, the estimates rose again above 64 samples.
 #define LEAST_NEAR    0.3
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
 // Above rung 0, the new samples contain the old samples, so the change underestimates the error. If
 // doubling the samples divides the squared error by D, the change is (1 - 1 / D) of the error. D is
-// 2.83 at edges and 2 for noise, for which the factors are 1.55 and 2. With 1.5, errors of thin
-// strips reached 1.14 times the goal.
+// 2.83 at edges and 2 for noise, for which the factors are 1.55 and 2. With a factor of 1.5, errors
+// of thin strips reached 1.14 times the goal.
 #define NESTED_FACTOR 1.75
 
 // The first step of a stratum advances at least this fraction and this many pixels as controls.
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
 
-// Doubled fractions take more rounds: pictures took 6 to 10 % longer.
+// With a factor of 2, more rounds were necessary, and pictures took 6 to 10 % longer.
 #define FRACTION_GROWTH 4
 
 // A stratum without controls must advance some pixels if it is on rung 0, or if its expected error
 // exceeds this fraction of the aim.
 #define FORCED_PART 0.02
 
-// A round plans to remove COVERED_PART of the bound's excess. It counts only GAIN_PART of the
-// expected decrease of the mean. It takes steps that score at least SCORE_PART of the best score.
-// It takes at least STEP_PART of each step, if the samples suffice.
+// A round plans to remove COVERED_PART of the bound's excess over the aim. It counts only GAIN_PART
+// of the expected decrease of the mean. It takes steps that score at least SCORE_PART of the best
+// score. It takes at least STEP_PART of each step, if the samples suffice.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -128,7 +129,7 @@ static double mean_feature(const Stratum *stratum)
 }
 
 // Returns the prior change per feature. Features shrink like the squared error of independent
-// samples. The squared error of a sequence shrinks faster, so the ratio falls from rung to rung.
+// samples. The squared error of Sobol points shrinks faster, so the ratio falls from rung to rung.
 static double first_ratio(const Rung rungs[], uint32_t rung)
 {
     if (rung < 2)
@@ -137,7 +138,7 @@ static double first_ratio(const Rung rungs[], uint32_t rung)
     return rungs[rung - 1].ratio / sqrt(growth);
 }
 
-// Fills in a rung. The rungs below it must be filled in already.
+// Computes the statistics of a rung. Requires the statistics of the lower rungs.
 static void measure_rung(Rung rungs[], uint32_t rung, const Strata *strata)
 {
     const double first = first_ratio(rungs, rung);
@@ -211,7 +212,7 @@ StrataEstimate strata_estimate(const Strata *strata)
     return (StrataEstimate){forecast.mean / pixels, bound_of(&forecast) / pixels};
 }
 
-// A possible increase of the fraction of a stratum that advances.
+// A possible increase of a stratum's fraction.
 typedef struct {
     uint32_t stratum;
     double fraction; // after the step
@@ -240,8 +241,8 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
     step->score = step->gain / (step->pixels * step_cost(step->stratum));
 }
 
-// Returns whether the stratum can advance more pixels. The step selects the stratum's first pixels,
-// or raises its fraction to FRACTION_GROWTH times the old.
+// Computes the next step of a stratum. Returns false if no more pixels can advance. The step
+// selects the stratum's first pixels, or multiplies its fraction by FRACTION_GROWTH.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
                       double aim)
 {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling techniques",
-// 1977). A pixel's rung is its index in ladder_samples. Similar pixels of a rung form a stratum. In
-// every stratum, random pixels advance to the next rung. They are controls: their change estimates
-// the error of the pixels that stay.
+// 1977). A pixel on rung i has the mean color of ladder_samples[i] samples. Similar pixels of a
+// rung form a stratum. In every stratum, random pixels advance to the next rung. These pixels are
+// controls: their change estimates the error of the pixels that stay.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// Samples of a pixel on each rung: the center, or that many points of the pixel's sequence. With
+// Samples of a pixel on each rung: the center, or the first points of the pixel's sequence. With
 // rungs of 4, 16, 64 and so on, pictures took 1.1 to 1.4 times the samples for the same error.
 #define LADDER_RUNGS 10
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
-// On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Octaves from FLAT_CLASS on
-// have two strata; the stratum from NEAR_CLASS on is for pixels near contrast. On higher rungs,
-// strata are octaves of the standard deviation of a pixel's samples. Bent and straight pixels have
-// separate strata.
+// On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Each octave from FLAT_CLASS
+// on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. On higher rungs,
+// strata are octaves of the standard deviation of a pixel's samples, separately for bent pixels and
+// others.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define BEND_CLASSES      12
@@ -29,8 +29,8 @@ typedef struct {
     uint64_t entered, advanced; // total numbers of pixels
     double feature;             // sum over the pixels that entered
     double advanced_feature;    // sum over the pixels that advanced
-    double change, square; // sums of changes and of their squares over the pixels that advanced
-    double fraction;       // of the stratum that is to advance, in [0, 1]
+    double change, square;      // sums of errors estimated from changes, and of the errors' squares
+    double fraction;            // of the stratum's pixels to advance, in [0, 1]
 } Stratum;
 
 typedef struct {
@@ -58,7 +58,7 @@ uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
 // on rung 0.
 bool strata_is_bent(uint32_t stratum, double bend);
 
-// Records that pixels enter a stratum. features is the sum of their features.
+// Records that pixels enter a stratum. `features` is the sum of the pixels' features.
 void strata_enter(Strata *strata, uint32_t stratum, uint64_t pixels, double features);
 
 // Records that a pixel advances from a stratum.
@@ -73,7 +73,7 @@ typedef struct {
 } StrataAim;
 
 typedef enum {
-    STRATA_REACHED,  // the bound is within the aim
+    STRATA_REACHED,  // the bound meets the aim
     STRATA_RAISED,   // fractions have grown
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bit i of a mask is the cell i - MARGIN of the pixel.
+// Bit i of a mask with a margin stands for the pixel's cell i - MARGIN.
 #include "refine/local_cells.h"
 
 #include "refine/thin_cells.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The cells of one pixel and of a margin around it, as a mask for each row. Finds the cells at
-// which the triangles of a mesh piece are thin or wide.
+// The cells of one pixel and of a margin around it, as a mask for each row. The masks show at which
+// cells a mesh piece is thin or wide.
 #pragma once
 
 #include "refine/outline.h"
 #include "refine/refine_tree.h"
 
-// A cell is examined with the samples of this many cells around it.
+// Whether a piece is wide at a cell depends on samples up to this many cells away.
 #define MARGIN     2
 #define LOCAL_ROWS (REFINE_GRID / 3 + 2 * MARGIN)
 
@@ -19,5 +19,5 @@ typedef struct {
 void local_cells_add(LocalCells *cells, const Outline *outline, const CellGrid *grid,
                      uint32_t level);
 
-// Returns the cells of a row, without its margin, at which the piece is wide.
+// Returns a mask of a row's cells at which the piece is wide. The mask has no margin.
 uint32_t local_cells_wide(const LocalCells *cells, uint32_t row);

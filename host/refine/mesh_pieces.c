@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A union-find over vertices. Each vertex refers to a vertex with a lower index in its piece; the
-// root refers to itself.
+// Uses a union-find over vertices. Each vertex refers to a vertex with a lower index in its piece;
+// the root refers to itself.
 #include "refine/thin_parts.h"
 
 #include "base/array.h"
@@ -17,7 +17,7 @@ static uint32_t lowest_of(uint32_t *lower, uint32_t vertex)
     return vertex;
 }
 
-// Joins the pieces of two vertices. Returns whether they were two pieces.
+// Joins the pieces of two vertices. Returns false if both vertices already had the same piece.
 static bool join(uint32_t *lower, uint32_t one, uint32_t other)
 {
     const uint32_t first = lowest_of(lower, one), second = lowest_of(lower, other);

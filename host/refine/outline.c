@@ -57,7 +57,7 @@ static double perimeter_of(const Outline *outline)
 }
 
 // The area of a triangle is half its perimeter times its inradius. The area of any other convex
-// polygon is between this product and twice as much.
+// polygon is between this product and twice this product.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
     if (outline->box.high[0] - outline->box.low[0] < diameter ||

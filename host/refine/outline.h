@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Convex polygons in the picture. Finds the cells that a polygon touches and the cell centers that
-// it contains, and compares its thickness. The unit of length is a cell of the last level.
+// Convex polygons in the picture. The functions find the cells that a polygon touches and the cell
+// centers that it contains, and test its thickness. The unit of length is a cell of the last level.
 #pragma once
 
 #include "base/thread_pool.h"
@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
     double side, per_length; // per_length is 1 / side
     uint32_t counts[2];      // of columns and of rows
-    double origin[2];        // place of the first cell's corner
+    double origin[2];        // upper left corner of the first cell
 } CellGrid;
 
 typedef struct {
@@ -49,7 +49,7 @@ static inline uint32_t outline_limit(int64_t value, uint32_t most)
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
 
-// Returns the cells from the one that contains low to the one that contains high, along an axis.
+// Returns the cells that the interval from low to high touches, along an axis.
 static inline CellRange cells_touched(double low, double high, const CellGrid *grid, int axis)
 {
     const double first = (low - grid->origin[axis]) * grid->per_length;
@@ -82,20 +82,22 @@ static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid,
 // Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
 double outline_signed_area(const Outline *outline);
 
-// Returns whether no disk of that diameter fits into the polygon. For more than three corners, it
-// may return true if the largest disk is up to twice as wide.
+// Returns whether no disk of that diameter fits into the polygon. For polygons with more than three
+// corners, may also return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// outline_touched returns the cells of a row that the polygon touches. outline_near returns the
-// cells whose surroundings, up to `reach` along each axis, the polygon touches. outline_sampled
-// returns the cells whose centers the polygon contains.
+// outline_touched returns the cells of a row that the polygon touches. outline_near first enlarges
+// the cells by `reach` on each side. outline_sampled returns the cells whose centers the polygon
+// contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
 CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);
 
-// Projects a mesh's triangles into the picture, clipped to the picture and a margin of two pixels.
+// The projection of a mesh into the picture. Triangles are clipped to the picture and a margin of
+// two pixels.
+
 typedef struct {
-    float x, y;       // in cells of the last level, if outside is 0
+    float x, y;       // in cells of the last level; 0 if the point is outside
     uint32_t outside; // bit i: the point is beyond clipping plane i
 } ProjectedPoint;
 
@@ -110,7 +112,7 @@ typedef struct {
 // Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
-// projection_begin projects the vertices of a mesh. projection_end frees them.
+// projection_begin projects the vertices of a mesh. projection_end frees the results.
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
                       Error *error);
 void projection_end(Projection *projection);

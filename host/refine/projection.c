@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
-// planes around the picture. After the division, all coordinates are therefore bounded.
+// planes around the picture. After the division by depth, all coordinates are therefore bounded.
 #include "refine/outline.h"
 
 #include "refine/refine_tree.h"
@@ -115,7 +115,7 @@ static double limited(double value, double size)
     return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
 }
 
-// Clips a triangle that is partly outside. Few triangles are.
+// Clips a triangle that is partly outside, which is rare. Returns false if nothing remains.
 static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
 {
     Polygon polygon = {.count = 3};

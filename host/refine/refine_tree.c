@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Groups refer to each other by index, because the array moves when it grows. Means are sums of
-// integers, as in render.cl, so that their bits depend only on the samples.
+// Groups refer to each other by index, because the array moves when it grows. Means are computed
+// from integer sums, as in render.cl, so that their bits depend only on the samples.
 #include "refine/refine_tree.h"
 
 #include <stdlib.h>
@@ -107,7 +107,8 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
     tree->groups.count = first;
 }
 
-// Adds the colors of a group's cells, corrected by the group's seams, unless they are subdivided.
+// Adds the colors of a group's cells, corrected by the group's seams. Instead of a subdivided cell,
+// adds its group.
 static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];

@@ -51,13 +51,14 @@ static inline uint32_t refine_tree_place(const RefineTree *tree, uint32_t x, uin
     return block * (PACKET_SIDE * PACKET_SIDE) + y % PACKET_SIDE * PACKET_SIDE + x % PACKET_SIDE;
 }
 
-// Identifies a cell by group and index, or a pixel by group 0 and its index row by row.
+// Identifies a cell by its group and its index in the group. Pixels have group 0 and are indexed
+// row by row.
 typedef struct {
     uint32_t group, cell, level;
 } CellName;
 
-// Finds the smallest cell at a place, in cells of the last level. Returns false outside of the
-// picture.
+// Finds the smallest cell at a place, which is given in cells of the last level. Returns false
+// outside of the picture.
 bool refine_tree_find(const RefineTree *tree, const uint32_t place[2], CellName *name);
 
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
@@ -66,10 +67,10 @@ const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *nam
 // has a sample.
 bool refine_tree_cut(RefineTree *tree, const CellName *name, Error *error);
 
-// Removes the groups from first on. No removed cell may be subdivided.
+// Removes the groups from first on. None of their cells may be subdivided.
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
-// Returns the side of a cell of that level, in cells of the last level.
+// Returns the side of a level's cells, in cells of the last level.
 static inline uint32_t refine_tree_cell_side(uint32_t level)
 {
     static const uint32_t sides[REFINE_LEVELS + 1] = {81, 27, 9, 3, 1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// seam_correct assumes the color step in the middle of the remaining interval. It measures in
-// halves of a last-level cell, so that positions are integers. Negative corrections wrap around in
+// seam_correct assumes the color step in the middle of the remaining interval. Its unit of length
+// is half a last-level cell, so that positions are integers. Negative corrections wrap around in
 // unsigned sums, and the final sums are correct.
 #include "refine/seam.h"
 
@@ -24,7 +24,7 @@ bool seam_asks(const Seam *seam, uint32_t place[2])
     return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
 }
 
-// Returns whether a sample resembles one end and not the other.
+// Returns whether a sample clearly resembles one end more than the other.
 static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
 {
     return sample->signature == end->signature &&
@@ -32,7 +32,8 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
             2 * seam_difference(sample, end) < seam_difference(sample, other));
 }
 
-// If the sample at the border resembles the cell, the color does not change between the two.
+// Replaces the assumed end by a sample at the line's end. If this sample resembles the nearest
+// cell's, the color does not change between the two.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     if (is_like(sample, &seam->ends[SEAM_END_LAST - seam->assumed], &seam->ends[seam->assumed]))
@@ -64,7 +65,7 @@ bool seam_take(Seam *seam, const SampleData *sample, Seam *rest)
     return true;
 }
 
-// An interval of the line, in halves of a last-level cell, and the sample that represents it.
+// An interval of the line and its sample. The unit of length is half a last-level cell.
 typedef struct {
     uint32_t begin, end;
     const SampleData *seen;

@@ -22,7 +22,7 @@ typedef struct {
     uint8_t line;               // index in the group, 0 to 2
     uint8_t from, to;           // the interval to which the seam applies
     uint8_t low, high;          // positions of the nearest samples before and after the seam
-    uint8_t assumed;            // the end with a sample from beyond the line, or SEAM_ENDS
+    uint8_t assumed;            // the end whose sample lies beyond the line; SEAM_ENDS: none
     uint8_t samples;            // taken to locate the seam
 } Seam;
 
@@ -40,7 +40,7 @@ static inline float seam_difference(const SampleData *one, const SampleData *oth
 // Returns the remaining error: contrast times the uncertain fraction of the pixel.
 float seam_contrast(const Seam *seam);
 
-// Returns whether another sample would narrow the interval, and where to take it.
+// Returns whether another sample would narrow the interval, and stores its place.
 bool seam_asks(const Seam *seam, uint32_t place[2]);
 
 // Updates the seam with the requested sample. Returns whether the sample sees a third surface. In
@@ -50,7 +50,8 @@ bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 // Colors in steps of 2^-32, multiplied by twice the cell's area.
 typedef uint64_t ColorSum[3];
 
-// Corrects the color sums of a group's cells. Before, the sums must assume one color per cell.
+// Adds a seam's corrections to the color sums of a group's cells. The initial sums must assume one
+// color per cell.
 void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
 
 static inline uint64_t seam_color_steps(float color)

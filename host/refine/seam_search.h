@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens the seams of a refined picture, and lists the seams that need samples.
+// Finds the seams of a refined picture, and lists the seams that need samples.
 #pragma once
 
 #include "refine/refine_tree.h"
@@ -10,10 +10,11 @@ typedef struct {
     uint32_t seen;         // seams with a lower index are listed, or precise enough
 } SeamSearch;
 
-// Opens the seams of the groups from first on. All groups must have their samples.
+// Adds the seams of the groups from first on. All groups must have their samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, Error *error);
 
-// Lists the seams with a contrast above the threshold. Examines the listed seams and new seams.
+// Lists the seams that a sample would narrow and whose contrast exceeds the threshold. Examines
+// only listed and new seams.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

@@ -5,7 +5,7 @@
 #include "refine/outline.h"
 #include "refine/thin_parts.h"
 
-// Returns whether no disk with the diagonal of that level's cells fits into the outline.
+// Returns whether the outline is thin at a level (thin_parts.h).
 static inline bool thin_at_level(const Outline *outline, uint32_t level)
 {
     return outline_is_thinner(outline, 1.41421356 * refine_tree_cell_side(level));

@@ -6,8 +6,8 @@
 // cell of that level that a thin triangle touches is subdivided, unless the triangle's mesh piece
 // is wide at the cell. A piece is wide at a cell if it contains all four samples around some corner
 // of the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and contrast
-// finds its outline. Below pixels, only triangles that are searched in the same pixel are
-// considered.
+// finds its outline. At levels above 0, the search considers only thin triangles that touch the
+// pixel or its margin.
 //
 // A sample therefore hits each sphere and each triangle whose incircle is at least 1/57 pixel
 // across, except
@@ -32,7 +32,7 @@ typedef struct {
     uint32_t count;                      // of slots; slots are numbered from 1
     ARRAY(uint32_t) rows[REFINE_LEVELS]; // by level, then slot: a mask of cells for each row
     uint64_t cuts[REFINE_LEVELS];        // cells to subdivide, by level
-    uint32_t levels;                     // levels with subdivisions
+    uint32_t levels;                     // number of levels with subdivisions
 } ThinParts;
 
 // The input of the search.
@@ -41,13 +41,13 @@ typedef struct {
     const Scene *scene;
     const Normalization *normalization; // of the scene
     const SphereData *spheres;          // of the frame
-    ThreadPool *pool;                   // to share the work, NULL for none
+    ThreadPool *pool;                   // threads for the work, NULL for none
 } ThinSource;
 
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);
 void thin_parts_free(ThinParts *parts);
 
-// Returns the number of cells along a pixel's side.
+// Returns the number of a level's cells along a pixel's side.
 static inline uint32_t thin_parts_scale(uint32_t level)
 {
     return REFINE_GRID / refine_tree_cell_side(level);
@@ -68,13 +68,14 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
 }
 
 // Divides a mesh into pieces: sets of triangles connected by shared vertices. Pieces of fewer than
-// PIECE_TRIANGLES triangles together form one piece, because some files share no vertices.
+// PIECE_TRIANGLES triangles together form one piece, because triangles of some files share no
+// vertices.
 
 #define PIECE_TRIANGLES 8
 
 typedef struct {
     uint32_t *order; // triangles sorted by piece; NULL: a single piece, in file order
-    uint32_t *ends;  // the end of each piece in order
+    uint32_t *ends;  // the end of each piece, as an index into order
     uint32_t count;
 } MeshPieces;
 

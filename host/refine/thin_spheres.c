@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
+// A disk whose diameter is at least the cells' diagonal contains the center of a cell. At the last
 // level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
 #include "refine/thin_cells.h"
 
@@ -13,7 +13,7 @@ typedef struct {
     double diameter; // of a disk inside the outline
 } SphereOutline;
 
-// Projects a sphere. Returns false if it is behind the eye.
+// Projects a sphere. Returns false unless the whole sphere is in front of the eye.
 static bool project(const FrameData *frame, const SphereData *sphere, SphereOutline *outline)
 {
     const CameraData *camera = &frame->camera;
@@ -37,7 +37,7 @@ static bool project(const FrameData *frame, const SphereData *sphere, SphereOutl
     return true;
 }
 
-// Returns the columns or rows of pixels that the outline touches.
+// Returns the columns or rows of pixels that the outline's box touches.
 static CellRange pixels_along(const FrameData *frame, const SphereOutline *outline, int axis)
 {
     const CellGrid pixels = {REFINE_GRID, 1.0 / REFINE_GRID, {frame->width, frame->height}, {0, 0}};
@@ -46,7 +46,7 @@ static CellRange pixels_along(const FrameData *frame, const SphereOutline *outli
                          fmax(-1, fmin(most, outline->box.high[axis])), &pixels, axis);
 }
 
-// Adds the cells of a level that the outline touches.
+// Adds the cells of a level that the outline's box touches.
 static void add_cells(ThinParts *parts, const SphereOutline *outline, uint32_t pixel,
                       uint32_t level)
 {
@@ -64,7 +64,8 @@ static bool is_thin(const SphereOutline *outline, uint32_t level)
     return outline->diameter < 2 * HALF_DIAGONAL * refine_tree_cell_side(level);
 }
 
-// Gives the pixels of a sphere slots if level is negative, otherwise adds cells of the level.
+// If level is negative, gives slots to the pixels of a thin sphere. Otherwise adds the sphere's
+// cells of this level.
 static void visit_sphere(ThinParts *parts, const FrameData *frame, const SphereData *sphere,
                          int level)
 {

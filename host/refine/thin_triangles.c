@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Searches piece by piece. Threads first note which pixels' samples the piece contains. They then
+// Searches piece by piece. Threads first record which pixels' samples the piece contains. They then
 // list the thin triangles of each pixel at which the piece is not wide. Finally, they search these
 // pixels level by level, with a mask of cells for each row. The results are sets, which do not
 // depend on the order of work.
@@ -21,8 +21,9 @@ typedef struct {
     uint32_t first, end;
 } PixelRun;
 
-// Limits of the pairs of a piece, which bound memory. The larger limit applies. A thin triangle
-// counts as AROUND pairs in each pixel that it touches.
+// A piece has at most PAIRS_MOST pairs or PAIRS_OF_PIXEL pairs per pixel of the picture, whichever
+// is more. This limit bounds memory. A thin triangle counts as AROUND pairs in each pixel that it
+// touches.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -40,9 +41,9 @@ typedef struct {
     MeshPieces pieces;          // of the mesh
     uint32_t first, count;      // the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
-    _Atomic uint32_t *covered;  // the last piece that contains the sample of each pixel
-    _Atomic uint32_t *touched;  // the last piece with a thin triangle in each pixel
-    _Atomic uint64_t nearby;    // upper bound of the number of pairs
+    _Atomic uint32_t *covered;  // by pixel: the last piece that contains its sample
+    _Atomic uint32_t *touched;  // by pixel: the last piece that is thin there
+    _Atomic uint64_t nearby;    // the number of pairs, counted as AROUND per touched pixel
     PairList *lists;            // of each range
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
     ARRAY(PixelRun) runs;       // of all pixels with pairs
@@ -62,7 +63,7 @@ static CellGrid pixels_of(const Search *search)
     return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
 }
 
-// Notes the pixels whose samples the triangles contain.
+// Records the pixels whose samples the triangles contain.
 static void cover_pixels(void *context, uint32_t first, uint32_t end)
 {
     const Search *search = context;
@@ -108,7 +109,7 @@ static bool thin_outline(const Search *search, uint32_t triangle, Outline *outli
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
 }
 
-// Lists pixels in which the piece is thin, once each, and counts the pairs.
+// Lists the pixels in which a triangle makes the piece thin, once per piece, and counts the pairs.
 static bool list_touched(Search *search, uint32_t triangle, PairList *list)
 {
     const CellGrid grid = pixels_of(search);
@@ -134,7 +135,7 @@ static bool list_touched(Search *search, uint32_t triangle, PairList *list)
     return true;
 }
 
-// Lists the triangle for each thin pixel that it touches, or whose margin it touches.
+// Lists the triangle for each thin pixel whose area or margin it touches.
 static bool list_near(Search *search, uint32_t triangle, PairList *list)
 {
     const double reach = MARGIN * (double)refine_tree_cell_side(1);
@@ -191,7 +192,7 @@ static int compare_pixels(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-// Collects the pairs that `list` lists for all triangles of the piece.
+// Runs `list` on all triangles of the piece, and collects the pairs.
 static bool collect(Search *search, ThreadPoolPart *list, Error *error)
 {
     const uint32_t tasks = range_count(search->count, TRIANGLES_OF_TASK);
