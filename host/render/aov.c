@@ -16,7 +16,7 @@ static uint32_t float_bits(double value)
     return bits;
 }
 
-#define AOV_VALUES 16 // channels in all rows
+#define AOV_VALUES 16 // values in all rows
 
 const Aov aov_table[] = {
     {"depth",
@@ -173,7 +173,7 @@ void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScen
 
 void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS])
 {
-    TallyKind kind = TALLY_BOX_TESTS; // the table's first
+    TallyKind kind = TALLY_BOX_TESTS; // the first kind in the table
     for (size_t i = 0; i < aov_count; i++) {
         if (aov_has(set, i) && aov_table[i].need == AOV_NEEDS_TESTS)
             *values = float_bits(tests[kind]);

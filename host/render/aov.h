@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels that --aov adds to a picture (arbitrary output variables in film rendering): a table
-// of names, and the values of a pixel.
+// --aov adds channels to a picture. Film renderers call them arbitrary output variables. The
+// functions below read lists of channels and compute a pixel's values.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -24,9 +24,9 @@ typedef struct {
 // The table's last channel: each pixel's error against the reference.
 #define ERROR_CHANNEL "error"
 
-// The input that a channel needs besides the path of the ray through the pixel's center.
+// A channel's input besides the path of the ray through the pixel's center.
 typedef enum {
-    AOV_NEEDS_PATH,
+    AOV_NEEDS_PATH,      // nothing more
     AOV_NEEDS_TESTS,     // tracing every sample again as a single ray
     AOV_NEEDS_CERTAINTY, // certifying every sample
     AOV_NEEDS_REFERENCE  // drawing the reference; the code that draws it fills the channel
@@ -46,7 +46,7 @@ extern const size_t aov_count; // at most 32
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds the channels of a comma-separated list to *set. "all" stands for all that need no reference.
+// Adds the channels of a comma-separated list to *set. "all" adds all without a reference.
 // Fails on an unknown or repeated name.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
@@ -57,8 +57,8 @@ bool aov_needs(AovSet set, AovNeed need);
 void aov_name_layers(AovSet set, Layers *layers);
 
 // Stores one pixel's values for all channels in set, in the table's order. Floats are stored as
-// their bits. Counts of tests are 0.
+// their bits. Counts of tests and the error are stored as 0.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 
-// Stores the counts of tests among these values. tests holds the counts over all samples.
+// Replaces the counts of tests among these values. tests holds the counts over all samples.
 void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FlatScene and camera -> the certainty of each pixel, and new colors for pixels repaired in fp64
 // (kernels/certify.cl). A pixel is certified if rounding can change neither the hits of its rays
-// nor the lights that reach them.
+// nor the lights that reach the hit points.
 #pragma once
 
 #include "render/renderer.h"
@@ -31,7 +31,7 @@ typedef struct {
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error);
 void certainty_map_free(CertaintyMap *map);
 
-// A picture and its marks, both of the size of the settings' framebuffer.
+// A picture and its marks, both of the size that tile_frame_size returns.
 typedef struct {
     Framebuffer *framebuffer;
     CertaintyMap *map;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keeps two tiles in flight, each in its own queue. One tile is traced while the other is read back
 // or finishes its last work-groups. All tiles use the same padded grid with offset 0, because PoCL
-// compiles a kernel again for each new local size and kind of grid.
+// compiles separate versions of a kernel for other local sizes, for offsets and for large grids.
 #include "render/renderer.h"
 
 #include "device/buffer.h"
@@ -91,7 +91,7 @@ bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *er
 }
 
 // Starts the kernel for the slot's tile and the copying of its outputs. The first output is copied
-// last, and slot->done signals its end.
+// last, and slot->done signals the end of this copy.
 static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const size_t count = (size_t)slot->tile.width * slot->tile.height;

@@ -13,7 +13,7 @@ typedef struct {
     char key[PROGRAM_KEY_SIZE];
     uint32_t group_width, group_height; // work-group size of the first run
     double seconds;                     // time spent on making the kernel
-    bool was_compiled; // the cache says that an earlier process compiled the kernel
+    bool was_compiled;                  // by an earlier process, according to the cache
 } ReadyKernel;
 
 // The inputs of a Renderer. The device must outlive the Renderer.
@@ -50,14 +50,14 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 // Until packets are compiled, kernels that compile faster render small pictures of small scenes.
 // The first picture then takes 0.8 s instead of 1.3 s.
 
-// The size of a run.
+// The work of a run.
 typedef struct {
     double samples; // of all pictures
     double seconds; // that all pictures may take; 0 for no limit
     uint64_t triangles;
 } QuickKernelRun;
 
-// Returns whether the run should replace setup's packets with faster-compiling kernels, and stores
-// their choice in *choice. Returns false if the packets are already compiled.
+// Returns whether the run should replace setup's packets with faster-compiling kernels. If so,
+// stores the kernels' choice in *choice. Returns false if the packets are already compiled.
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepares a renderer: buffers, program and kernel. draw.c draws.
+// Prepares a renderer: buffers, program and kernel. draw.c draws with it.
 #include "render/renderer.h"
 
 #include "base/clock.h"
@@ -8,7 +8,7 @@
 #include <assert.h>
 #include <string.h>
 
-// The time to compile an uncached program, and the fraction of tracing time that specialization
+// The seconds to compile an uncached program, and the fraction of tracing time that specialization
 // saves (0 to 7 % with packets). RAYS_PER_SECOND is one core's rate in a medium scene.
 #define COMPILE_SECONDS   1.5
 #define SPECIALIZED_SAVES 0.03

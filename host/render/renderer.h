@@ -5,9 +5,9 @@
 #include "image/framebuffer.h"
 #include "render/ready_kernel.h"
 
-// The program that draws: general, or specialized for this scene. The picture is the same.
+// The program that draws: general, or specialized for this scene. Both draw the same picture.
 typedef enum {
-    SPECIALIZE_AUTO, // specialized if compiled already, or if that saves more than compiling takes
+    SPECIALIZE_AUTO, // specialized if compiled already, or if it saves more than compiling takes
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;
@@ -19,8 +19,8 @@ typedef struct {
     uint32_t samples;                   // along each side of a pixel
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
-    uint64_t ready_tiles; // first tiles that exist already and are skipped
-    uint32_t part, parts; // draws one of so many parts (render/renderer.h); 0, 0 draws all
+    uint64_t ready_tiles; // number of leading tiles that exist already and are skipped
+    uint32_t part, parts; // draws one of `parts` parts (see Tile); 0, 0 draws all tiles
     uint32_t group_width, group_height; // work-group size in work-items
     bool statistics;
     Specialization specialization;
@@ -90,9 +90,8 @@ void renderer_close(Renderer *renderer);
 // Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the picture that camera sees into framebuffer, which must have the size of
-// tile_frame_size. If the
-// observer stops the picture, the call returns true with fewer tiles_done than tiles.
+// Draws the picture that camera sees into framebuffer, which must have the size of tile_frame_size.
+// If the observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
 
@@ -104,7 +103,7 @@ bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameD
                         Error *error);
 
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
-// draw. A part draws every parts-th tile of each row, and starts in another column in each row.
+// draw. A part draws every parts-th tile of each row, from a column that differs between rows.
 typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
     uint32_t left, top;           // position in the framebuffer
@@ -149,7 +148,7 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
 bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *error);
 
 // Sample positions in a picture -> the color and signature of the camera ray at each position.
-// Signatures differ if rays hit different surfaces or different lights reach them.
+// Signatures differ if rays hit different surfaces, or if different lights reach the hit points.
 
 // A position in sub-pixels of the whole picture. The kernel skips samples whose x is NOTHING.
 typedef struct {
