@@ -2,7 +2,7 @@
 // The effect of each key; view/status_text.c lists the keys.
 #include "view/controls.h"
 
-// The constants are from the course's viewer.
+// These constants are from the course's viewer.
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
@@ -14,8 +14,8 @@
 #define COURSE_DISTANCE    6.5
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Makes perpendicular axes, of which the last is up. If up is z, the others are x and y, the
-// course's reference for angles.
+// Computes perpendicular axes; the last is up. If up is z, the others are x and y, which the course
+// uses as the reference for angles.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);
@@ -64,7 +64,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Apply a mouse drag in pixels, within the course's limits.
+// orbit_turn and orbit_zoom apply a mouse drag in pixels, within the course's limits.
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);

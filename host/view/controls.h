@@ -5,13 +5,13 @@
 
 #include "scene/scene.h"
 
-// A camera that orbits a point, as in the course's viewer: two angles and a distance.
+// An orbiting camera, as in the course's viewer: two angles and a distance.
 typedef struct {
     Vec3 pivot;       // the center of the orbit
-    Vec3 look_at, up; // of the camera that orbits
+    Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // unit length; the last is up
-    // In degrees below the plane perpendicular to up; negative if the eye is above. The course
-    // calls this elevation azimuth.
+    // In degrees below the plane perpendicular to up; negative if the eye is above. The name is
+    // the course's.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
@@ -41,7 +41,7 @@ typedef enum {
 typedef struct {
     EventKind kind;
     int key;
-    // In pixels. For EVENT_WHEEL, `down` counts notches, positive away from the user. For
+    // The drag in pixels. For EVENT_WHEEL, `down` counts notches, positive away from the user. For
     // EVENT_CLICK, both are the pixel's position, counted from the upper left corner.
     double right, down;
 } Event;
@@ -80,13 +80,13 @@ typedef struct {
     Viewpoint camera;
 } State;
 
-// Returns the initial state: the switches of `state`, and the scene's camera number state.view.
+// Returns the initial state: the switches of `state`, with the scene's camera number state.view.
 State state_begin(const StateScene *scene, State state);
 
 // Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 
-// If the camera turns automatically, turns it as far as in `seconds` seconds.
+// If the camera turns automatically, turns it by the angle of that many seconds.
 void state_advance(State *state, double seconds);
 
 // Switches to a scene that was read again. A camera that has not moved takes the new file's

@@ -201,7 +201,7 @@ static void publish(Worker *worker, Model *model, bool has_tree)
 }
 
 // Publishes the first scene before the device is open, so that the window opens early. Later scenes
-// are published with compiled kernels.
+// are published after their kernels are compiled.
 void jobs_load(Worker *worker, const Job *job)
 {
     Error scene_failure = {0}, failure = {0};

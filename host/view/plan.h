@@ -27,7 +27,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // fits a frame's time; never interrupted, so that something is displayed
+    PASS_MOVING, // fits a frame's time; camera motion does not stop it, so a picture appears
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

@@ -106,7 +106,7 @@ void status_text_line(char *text, size_t size, const State *state, const Figures
     if (state->traced && figures->divisor > 1)
         add(&buffer, " at 1/%u", figures->divisor);
     if (state->traced && figures->has_counts)
-        add(&buffer, ", %" PRIu64 " rays, %.2f triangle tests a ray", figures->rays,
+        add(&buffer, ", %" PRIu64 " rays, %.2f triangle tests per ray", figures->rays,
             figures->tests_per_ray);
     add(&buffer, ", ");
     add_orbit(&buffer, &state->orbit);
@@ -156,7 +156,7 @@ const char *status_text_help(void)
            "n  normals\n"
            "] [  boxes of the tree, a level deeper or back\n"
            "B  boxes of the tree's leaves\n"
-           "b  tree, or every triangle\n"
+           "b  trace with or without the tree\n"
            "c  print the camera\n"
            "s, F12, Ctrl-S  save the picture\n"
            "R  reload the scene and the kernels\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State and figures -> the window's texts: its title, its line, its panel and the output of key c.
+// State and figures -> the window's title, line and panel, and the output of key c.
 #pragma once
 
 #include "view/controls.h"

@@ -28,7 +28,7 @@ typedef struct {
     bool uses_bvh;
     FlatScene flat;
     Renderer renderer;
-    Renderer counter; // the same renderer with counters, opened on first use
+    Renderer counter; // the renderer for PASS_COUNT, opened on first use
 } Tracer;
 
 // Opens the device. The options must outlive the tracer. The caller closes the tracer, even after a
@@ -57,7 +57,7 @@ RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
 bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 
-// Writes the explanation of a pixel of the shot. head has the report's pixel, encoding and length.
+// Writes the explanation of a pixel of the shot. head provides pixel, encoding and is_brief.
 bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error);
 

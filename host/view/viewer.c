@@ -90,7 +90,7 @@ static void play_key(Viewer *viewer)
 }
 
 // Removes an old hint. Turns the camera if it turns automatically. The camera waits until its
-// traced picture is complete, and stands still before a save.
+// traced picture is complete, and does not turn while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();

@@ -15,7 +15,7 @@ typedef struct {
     Encoding encoding;
     int exposure; // initial, in half stops
     TracerOptions tracer;
-    const char *keys;    // keys to play in the OpenGL view, which opens first; or NULL
+    const char *keys;    // keys to play, starting in the OpenGL view; NULL for none
     uint32_t quit_after; // number of frames to show; 0: until the user quits
     bool statistics;     // print frame times at the end
     bool verbose;        // print the state whenever it changes

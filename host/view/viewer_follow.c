@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Transfers the worker's results, dropped files and changes of files into the viewer.
+// Updates the viewer with the worker's results, dropped files and changed files.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// Seconds for which the window displays a hint at the help.
+// Seconds for which the window displays the help hint.
 #define HINT_SECONDS 5
 
 // Seconds between checks of the files.

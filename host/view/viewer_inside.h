@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The viewer's data, shared by its source files. viewer.c runs the loop, viewer_follow.c takes
-// results of the worker and the file system, and viewer_show.c draws, prints and saves.
+// results of the worker and changed files, and viewer_show.c draws, prints and saves.
 #pragma once
 
 #include "base/array.h"
@@ -29,20 +29,20 @@ void frame_times_free(FrameTimes *times);
 typedef struct {
     const char *scene_path; // determines the files' names
     const char *state;      // stored in both files
-    char *notice;           // NOTICE_SIZE bytes for a message with the written files
+    char *notice;           // NOTICE_SIZE bytes for a message that names the files
 } SaveText;
 
 #define NOTICE_SIZE 512
 
-// Writes the shown picture, in the window's values, to a PNG file and the traced picture to an EXR
-// file, both in the current folder.
+// Writes the displayed picture to a PNG file and the traced picture to an EXR file, both in the
+// current folder. Without EXR support, writes a PFM file instead.
 bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, const SaveText *text,
                    Error *error);
 
 #define STATE_SIZE 1024
 
 typedef struct {
-    // Copies, because the worker may outlive viewer_run. keys and quit_after hold the rest.
+    // Copies, because the worker may outlive viewer_run. keys and quit_after hold what remains.
     ViewerSettings settings;
     Cache cache;
     Window window;
@@ -61,7 +61,7 @@ typedef struct {
     bool wants_save;
     FrameTimes frame_times;
     uint64_t explained;    // request.explains of the displayed explanation; 0 for none
-    double hint_end;       // time at which the hint at the help disappears; 0 without a hint
+    double hint_end;       // time at which the help hint disappears; 0 without a hint
     double advanced;       // time up to which the camera has turned automatically
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
@@ -77,8 +77,8 @@ bool viewer_follow_worker(Viewer *viewer, Error *error);
 // Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
 
-// Watches the files of the model, or the scene's path without a model. Watches the path's folder,
-// too, if the latest read failed, because a file may be missing.
+// Watches the files of the model or, without a model, the scene's path. If the latest read failed,
+// also watches the path's folder, because a file may be missing.
 bool viewer_watch_files(Viewer *viewer, Error *error);
 
 // Switches to a file that was dropped on the window, if any.
@@ -99,5 +99,5 @@ bool viewer_has_keys(const Viewer *viewer);
 // Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
-// Saves the picture if the user wants that and the picture is complete.
+// Saves the picture if a save is requested and the picture is complete.
 void viewer_save(Viewer *viewer);

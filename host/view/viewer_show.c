@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Frame times of a moving camera.
-
 // Records a displayed frame of a moving camera. moment is in seconds.
 static bool frame_times_add(FrameTimes *times, double moment, Error *error)
 {
@@ -124,7 +122,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies the text to shown. Returns whether they were different.
+// Copies the text to shown. Returns whether the two differed.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;
@@ -194,7 +192,8 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Uses the traced picture under the lock, or else the shown one.
+// Saves the displayed picture and, under the canvas's lock, the traced picture. If there is no
+// traced picture, the displayed picture replaces it.
 static bool save(Viewer *viewer, const Framebuffer *shown)
 {
     char state[STATE_SIZE];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surfaces also hide the lines behind them in the ray-traced view. OpenGL draws the scene's depth,
-// and the traced picture then covers the scene's colors.
+// Surfaces also hide the lines behind them in the ray-traced view. OpenGL first draws the scene,
+// and the traced picture then replaces the colors, but not the depth.
 #include "view/views.h"
 
 #include "image/image_file.h"

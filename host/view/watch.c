@@ -9,17 +9,16 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
-// Returns the signature of a file. Missing files have a signature, too (look_at).
-static uint64_t stamp_of_status(const struct stat *status)
+static uint64_t signature_of_status(const struct stat *status)
 {
     const uint64_t numbers[] = {(uint64_t)status->st_mtim.tv_sec, (uint64_t)status->st_mtim.tv_nsec,
                                 (uint64_t)status->st_size, (uint64_t)status->st_ino};
     return XXH3_64bits(numbers, sizeof numbers);
 }
 
-static uint64_t stamp_of_folder(const char *folder)
+static uint64_t signature_of_folder(const char *folder)
 {
-    uint64_t stamp = 0;
+    uint64_t signature = 0;
     DIR *entries = opendir(folder);
     if (entries == NULL)
         return 0;
@@ -27,18 +26,19 @@ static uint64_t stamp_of_folder(const char *folder)
         struct stat status;
         // The sum does not depend on the order of entries, which may change.
         if (fstatat(dirfd(entries), entry->d_name, &status, 0) == 0 && S_ISREG(status.st_mode))
-            stamp += stamp_of_status(&status);
+            signature += signature_of_status(&status);
     }
     closedir(entries);
-    return stamp;
+    return signature;
 }
 
-static uint64_t stamp_of_path(const char *path)
+// Returns a signature for missing files, too, so that their creation is a change.
+static uint64_t signature_of_path(const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0)
         return 1;
-    return S_ISDIR(status.st_mode) ? stamp_of_folder(path) : stamp_of_status(&status);
+    return S_ISDIR(status.st_mode) ? signature_of_folder(path) : signature_of_status(&status);
 }
 
 static const Watched *find_file(const Watch *watch, const char *path)
@@ -53,7 +53,7 @@ static bool add_file(Watch *watch, const char *path, const Watch *before, Error 
 {
     const Watched *known = find_file(before, path);
     const Watched file = {.path = text_copy(path, error),
-                          .accepted = known != NULL ? known->accepted : stamp_of_path(path)};
+                          .accepted = known != NULL ? known->accepted : signature_of_path(path)};
     if (file.path != NULL && array_push(&watch->files, file, error))
         return true;
     free(file.path);
@@ -77,7 +77,7 @@ bool watch_poll(Watch *watch)
     bool differs = false;
     for (size_t i = 0; i < watch->files.count; i++) {
         Watched *file = &watch->files.data[i];
-        file->seen = stamp_of_path(file->path);
+        file->seen = signature_of_path(file->path);
         const uint64_t pair[] = {all, file->seen};
         all = XXH3_64bits(pair, sizeof pair);
         differs = differs || file->seen != file->accepted;

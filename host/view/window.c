@@ -43,7 +43,8 @@ static void take_character(GLFWwindow *handle, unsigned character)
         add_event(handle, (Event){.kind = EVENT_KEY, .key = (int)character});
 }
 
-// Returns the key of a state, or 0. Ctrl with a letter is no character, so it is found by name.
+// Converts GLFW's key to a key of controls.h, or to 0. Ctrl with a letter yields no character, so
+// the letter is found by its name.
 static int find_key(int key, int code, int modifiers)
 {
     static const int keys[][2] = {{GLFW_KEY_ESCAPE, KEY_ESCAPE},   {GLFW_KEY_LEFT, KEY_LEFT},
@@ -66,9 +67,9 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
         add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
 }
 
-// Stores the effect of a drag with the buttons and the keys pressed at its start, as in F3D: left
-// turns, middle or Shift pans and right zooms. Ctrl with the middle button zooms as in Blender.
-// Returns false if no button is pressed.
+// Stores the effect of a drag. As in F3D, the left button turns, the middle button or Shift pans,
+// and the right button zooms. As in Blender, Ctrl with the middle button zooms. Shift and Ctrl must
+// be pressed at the start of the drag. Returns false if no button is pressed.
 static bool find_drag(GLFWwindow *handle, EventKind *kind)
 {
     const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
@@ -96,7 +97,8 @@ static void add_click(GLFWwindow *handle)
                               .down = floor(window->mouse_y * pixel_height / fmax(height, 1))});
 }
 
-// The pointer's position is that of the latest motion, because GLFW's may be ahead of the events.
+// A click uses the position of the latest motion event, because GLFW's own position may be newer
+// than the click.
 static void take_button(GLFWwindow *handle, int button, int action, int modifiers)
 {
     Window *window = glfwGetWindowUserPointer(handle);
@@ -223,9 +225,9 @@ void window_measure(const Window *window, uint32_t *width, uint32_t *height)
 {
     int pixels[2] = {0, 0};
     glfwGetFramebufferSize(window->handle, &pixels[0], &pixels[1]);
-    const bool is_minimised = glfwGetWindowAttrib(window->handle, GLFW_ICONIFIED) == GLFW_TRUE;
-    *width = is_minimised ? 0 : (uint32_t)pixels[0];
-    *height = is_minimised ? 0 : (uint32_t)pixels[1];
+    const bool is_minimized = glfwGetWindowAttrib(window->handle, GLFW_ICONIFIED) == GLFW_TRUE;
+    *width = is_minimized ? 0 : (uint32_t)pixels[0];
+    *height = is_minimized ? 0 : (uint32_t)pixels[1];
 }
 
 float window_density(const Window *window)

@@ -12,11 +12,11 @@
 
 typedef struct {
     GLFWwindow *handle;
-    Event events[WINDOW_EVENTS]; // the user's actions, which GLFW adds while it waits for events
-    int event_count;             // the caller removes them
+    Event events[WINDOW_EVENTS]; // the user's actions, added by GLFW's callbacks
+    int event_count;             // the caller resets it
     char *dropped;               // path of the latest dropped file, or NULL; owned
     double mouse_x, mouse_y;     // pointer position at the latest event
-    int modifiers;               // GLFW's bits of the keys pressed with the latest button
+    int modifiers;               // GLFW's modifier bits at the latest button event
     bool may_click;              // the left button is pressed, and the pointer has hardly moved
     bool is_touched;             // the window must be drawn again
     bool is_full_screen;

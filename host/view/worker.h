@@ -37,7 +37,7 @@ typedef struct {
     uint64_t models;     // number of models read
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // the current operation; empty while tracing or idle
-    WorkerRequest done;  // the request values whose work is complete
+    WorkerRequest done;  // the values of completed requests
     PlanReached reached;
     double progress;                    // finished fraction of the current pass
     double frame_seconds;               // duration of the latest pass
@@ -68,6 +68,6 @@ Model *worker_model(Worker *worker);
 // Returns whether the request is fulfilled: nothing is left to read or trace.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
-// Stops and frees the worker. If the worker does not stop within this many
-// seconds, worker_stop frees nothing and returns false. The process must then end.
+// Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop
+// frees nothing and returns false. The process must then end.
 bool worker_stop(Worker *worker, double seconds);

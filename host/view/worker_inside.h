@@ -7,7 +7,7 @@
 struct Worker {
     WorkerSetup setup;
     pthread_t thread;
-    pthread_mutex_t mutex; // guards request to stops
+    pthread_mutex_t mutex; // guards the members from request to stops
     pthread_cond_t changed;
     WorkerRequest request;
     WorkerStatus status;
@@ -17,7 +17,7 @@ struct Worker {
     Tracer tracer;
     double sample_seconds; // tracing time per sample
     bool has_measured;     // sample_seconds is measured, not guessed
-    double woken;
+    double woken;          // clock time of the latest status update
 };
 
 typedef enum { JOB_STOP, JOB_LOAD, JOB_TAKE, JOB_EXPLAIN, JOB_ENCODE, JOB_PASS } JobKind;

@@ -305,7 +305,7 @@ TEST(the_line_tells_messages_first_and_the_panel_failures_and_help)
     press(&fixture, "ra");
     status_text_line(text, sizeof text, &fixture.state, &figures);
     assert_string_equal(text, "saved, h for help, no lights, ray traced, view 1, AA 2x2, BVH on, "
-                              "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests a ray, "
+                              "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests per ray, "
                               "azimuth -40.00, rotation 25.00, distance 6.5");
     char small[16];
     status_text_line(small, sizeof small, &fixture.state, &figures);

@@ -12,7 +12,7 @@
 typedef struct {
     Framebuffer framebuffer; // only for the tracing thread until the layer is complete
     unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
-    uint64_t pass;           // number of the bytes' contents, ascending; 0: empty
+    uint64_t pass;           // version of the bytes, from Canvas::passes; 0: empty
     RenderSettings settings; // size and tiles of this pass
     uint64_t tiles_done;
     bool is_hidden; // not displayed before it is complete
@@ -23,7 +23,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // number of contents so far
+    uint64_t passes; // number of versions so far
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that OpenGL draws: a model's triangles, spheres and boxes, traced pictures and text.
+// Everything that OpenGL draws: a model's triangles, spheres and boxes, traced pictures and text.
 #pragma once
 
 #include "accel/bvh.h"
@@ -16,17 +16,18 @@
 #include <stb/stb_truetype.h>
 #include <stdint.h>
 
-// Builds OpenGL programs. One text contains both stages; VERTEX is defined only in the first.
+// Builds OpenGL programs. A shader file contains both stages; VERTEX is defined only in the vertex
+// stage.
 
 // The files of host/view/shaders, embedded by tools/embed_shaders.cmake.
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// An attribute of a shader. Those of buffer 0 are of a vertex, those of buffer 1 of an instance.
+// An attribute of a shader. Buffer 0 has attributes per vertex, buffer 1 attributes per instance.
 typedef struct {
     const char *name;
     int buffer;
-    GLint floats; // their number
+    GLint floats; // number of floats
     size_t offset;
 } Attribute;
 
@@ -34,8 +35,8 @@ typedef struct {
 
 typedef struct {
     const char *shader;
-    size_t sizes[2];                       // of an element of each buffer in bytes
-    Attribute attributes[ATTRIBUTES_MOST]; // the first have names
+    size_t sizes[2];                       // bytes per element of each buffer
+    Attribute attributes[ATTRIBUTES_MOST]; // unused ones have no name
 } DrawingLayout;
 
 // A program and the buffers that it reads.
@@ -59,7 +60,7 @@ void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
-// Cubes: faces from -1 to 1, edges from 0 to 1.
+// Cubes: coordinates are -1 or 1 for faces, and 0 or 1 for edges.
 #define CUBE_FACE_VERTICES 36
 #define CUBE_EDGE_VERTICES 24 // after them, the buffer has the two vertices of a diagonal
 
@@ -90,10 +91,10 @@ void light_store_material(float vectors[3][4], const Material *material);
 // The camera of the rays -> the projection with which OpenGL draws the same picture.
 typedef struct {
     CameraData camera; // in the normalized frame; a step is half a pixel
-    Vec3 eye;          // in that frame, in fp64
+    Vec3 eye;          // in the normalized frame, in fp64
     float clip_x[3], clip_y[3];
     float width, height; // of the picture, in pixels
-    float nearest;       // the smallest distance with depth
+    float nearest;       // smaller distances all have depth 0
 } Lens;
 
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
@@ -132,7 +133,7 @@ typedef struct {
     uint32_t count; // of loaded boxes
 } LineView;
 
-// With is_diagonal, draws a line from each box's low corner to its high one, in any direction.
+// With is_diagonal, the view draws a line from `low` to `high` of each box, in any direction.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 
 void line_view_load(LineView *view, const Box *boxes, size_t count);
@@ -150,8 +151,8 @@ bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error);
 void boxes_free(Boxes *boxes);
 
 // Fills an empty array with the normals of a model, as lines from low to high in the normalized
-// frame. They start at the vertices of smooth objects, and at the centers of the triangles of other
-// objects. The caller frees the array, also after a failure.
+// frame. The lines start at the vertices of smooth objects, and at the centers of the triangles of
+// other objects. The caller frees the array, also after a failure.
 bool normals_make(Boxes *lines, const Model *model, Error *error);
 
 // Draws a canvas with OpenGL: the latest traced picture, covered by the finished tiles of the next
@@ -177,7 +178,7 @@ void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t heigh
 // An offscreen picture, larger than the window if anti-aliased. The window's own buffer would lose
 // pixels that other windows cover.
 typedef struct {
-    GLuint frames[2];       // the framebuffer that is drawn, and the one that is displayed
+    GLuint frames[2];       // the drawn framebuffer, and the displayed framebuffer
     GLuint buffers[3];      // color and depth of frames[0], color of frames[1]
     uint32_t width, height; // size of the displayed frame
     uint32_t factor;        // ratio of the drawn frame's sides to the displayed frame's sides
@@ -226,7 +227,7 @@ typedef struct {
     float density;          // pixels per 1/96 inch
 } TextOverlay;
 
-// Succeeds without a font, and then records a sentence in no_font and draws nothing.
+// Without a font, succeeds, stores a message in no_font, and makes the view draw nothing.
 bool text_view_open(TextView *view, Error *no_font, Error *error);
 void text_view_close(TextView *view);
 

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The course's viewer draws lines of length 0.15. Its scenes have a size of 2 to 4, which
-// normalization reduces to 1 to 2. The lines here are therefore half as long.
+// The course's viewer draws normals of length 0.15. Its scenes have a size of 2 to 4, which
+// normalization reduces to 1 to 2. The normals here are therefore half as long.
 #include "view/draw/draw.h"
 
 #include <stdlib.h>
 
-// The depth of the tree bounds the recursion.
-
 typedef struct {
     Boxes *boxes;
     const Bvh *bvh;
-    uint32_t level; // 0 for leaves; the root is at 1
+    uint32_t level; // 0 for leaves, 1 for the root
     Error *error;
 } Collection;
 
+// Adds the boxes of the subtree at node `number`. The depth of the tree bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t level)
 {
     const BvhNode *node = &collection->bvh->nodes[number];

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Center, radius and three vectors of the material, with the eye's height above the sphere at
-// HEIGHT_PLACE.
+// Floats per sphere: center, radius, and the material's three vectors. The material's unused float,
+// at HEIGHT_PLACE, holds the eye's height above the sphere.
 #define SPHERE_NUMBERS 16
 #define HEIGHT_PLACE   13
 

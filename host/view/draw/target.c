@@ -32,7 +32,7 @@ static bool attach(GLuint frame, GLuint color, GLuint depth, Error *error)
     if (depth != 0)
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
     return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE ||
-           error_set(error, "OpenGL offers no picture of the window's size");
+           error_set(error, "OpenGL makes no framebuffer of the window's size");
 }
 
 static bool resize(Target *target, Error *error)

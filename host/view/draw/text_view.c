@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// stb_truetype draws a packaged font into a texture. A panel is laid out repeatedly with a smaller
-// font, until it fits the window.
+// stb_truetype draws an installed font into a texture. Text is laid out with smaller and smaller
+// fonts until it fits the window.
 #define STB_TRUETYPE_IMPLEMENTATION
 #include "view/draw/draw.h"
 
@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIZE         17.0f // of the font, from ascent to descent, at density 1
+#define SIZE         17.0f // of the font in pixels, from ascent to descent, at density 1
 #define SMALLEST     8.0f
 #define SHRINKING    0.94f
-#define LINE_STEP    1.2f // the sizes below are multiples of the font's size
+#define LINE_STEP    1.2f // this and the sizes below are multiples of the font's size
 #define BASELINE     0.9f
 #define MARGIN       0.4f
 #define GAP          1.2f // between columns
@@ -110,7 +110,7 @@ void text_view_close(TextView *view)
     *view = (TextView){0};
 }
 
-// Without memory, text is missing.
+// If memory runs out, text is missing.
 static void add_quad(TextView *view, const stbtt_aligned_quad *quad, const float color[4])
 {
     static const int places[6] = {0, 1, 2, 2, 1, 3};
@@ -126,14 +126,14 @@ static void add_quad(TextView *view, const stbtt_aligned_quad *quad, const float
     }
 }
 
-// The position of the next character, and what happens to it.
+// The position and style of the next character.
 typedef struct {
     TextView *view;
     float size;   // of the font, in pixels
     float x, y;   // of the upper left corner
     float right;  // where lines end
     float widest; // the largest x so far
-    bool draws;   // adds characters to the view; otherwise only moves
+    bool draws;   // whether to draw characters, or only to measure them
     const float *color;
 } Pen;
 
@@ -153,7 +153,7 @@ static void put_characters(Pen *pen, const char *text, size_t length)
     pen->widest = fmaxf(pen->widest, pen->x);
 }
 
-// Puts the words up to end. Words that do not fit start a line below the first word.
+// Adds the words up to end. A word that does not fit starts a new line below the first word.
 static void put_words(Pen *pen, const char *text, const char *end)
 {
     const float left = pen->x;
@@ -245,7 +245,7 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     return pen.y;
 }
 
-// Removes phrases after commas from the end, then characters, until the text has this width at
+// Removes phrases after commas from the end, then characters, until the text fits this width at
 // size 1.
 static void shorten(const Font *font, char *text, float width)
 {

@@ -5,11 +5,12 @@
 
 #include <string.h>
 
-// In normalized coordinates, where the geometry is 1 to 2 large. Nearer objects are drawn, but
-// without depth.
+// In normalized coordinates, where the geometry is 1 to 2 large. Nearer points have depth 0,
+// so the last point drawn is visible.
 #define NEAREST 0.01f
 
-// Stores step's direction, scaled so that its dot product with a point at depth 1 on the edge is 1.
+// Stores step's direction, scaled so that its dot product with points on the picture's edge at
+// depth 1 is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The edges of boxes.  A single line runs from a box's first corner to the opposite one.
+// Draws the edges of boxes, or single lines from a box's low corner to its high corner.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 corner;    // of the unit cube
