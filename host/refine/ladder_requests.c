@@ -2,9 +2,6 @@
 // Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
 #include "refine/ladder.h"
 
-#include "base/array.h"
-#include "render/renderer.h"
-
 #include <math.h>
 #include <stdlib.h>
 

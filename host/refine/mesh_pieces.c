@@ -3,8 +3,6 @@
 // the root refers to itself.
 #include "refine/thin_parts.h"
 
-#include "base/array.h"
-
 #include <stdlib.h>
 
 // Returns the root of the vertex's piece, and shortens the path to the root.

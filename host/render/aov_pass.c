@@ -3,7 +3,6 @@
 #include "render/aov_pass.h"
 
 #include "device/buffer.h"
-#include "render/renderer.h"
 
 // kernels/aov.cl, embedded at build time.
 extern const char aov_source[];

@@ -3,7 +3,6 @@
 #include "render/certifier.h"
 
 #include "device/buffer.h"
-#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 #include "view/views.h"
 
 #include "image/image_file.h"
-#include "view/draw/draw.h"
 
 static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 

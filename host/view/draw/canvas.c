@@ -2,8 +2,6 @@
 // A pass fills the layer that does not hold the latest complete picture.
 #include "view/draw/canvas.h"
 
-#include "image/image_file.h"
-
 #include <stdlib.h>
 
 void canvas_open(Canvas *canvas, Encoding encoding)
