@@ -86,12 +86,8 @@ static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
     status->reached = (PlanReached){job->request.subject, pass->divisor, pass->samples, false};
-    status->done.subject = job->request.subject;
     status->done.camera = job->request.camera;
     status->done.gain = job->request.gain;
-    status->done.samples = pass->samples;
-    status->done.width = job->request.width;
-    status->done.height = job->request.height;
     status->moving_frames += pass->kind == PASS_MOVING;
     status->moving_coarse += pass->kind == PASS_MOVING && pass->divisor > 1;
 }

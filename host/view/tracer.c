@@ -97,7 +97,6 @@ bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
     Model *held = model_hold(model);
     drop_model(tracer);
     tracer->model = held;
-    tracer->uses_bvh = uses_bvh;
     tracer->flat = flat;
     tracer->renderer = renderer;
     return true;

@@ -25,7 +25,6 @@ typedef struct {
     RendererSetup setup;
     uint32_t group[2];
     Model *model; // the current model, with a reference; may be NULL
-    bool uses_bvh;
     FlatScene flat;
     Renderer renderer;
     Renderer counter; // the renderer for PASS_COUNT, opened on first use

@@ -37,7 +37,7 @@ typedef struct {
     uint64_t models;     // number of models read
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // the current operation; empty while tracing or idle
-    WorkerRequest done;  // the values of completed requests
+    WorkerRequest done;  // completed loads, renewals and explains; uses_bvh, camera and gain in use
     PlanReached reached;
     double progress;                    // finished fraction of the current pass
     double frame_seconds;               // duration of the latest pass
