@@ -132,8 +132,8 @@ bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome,
 // The bend of a pixel measures how far its color differs from its neighbors' colors.
 
 // Fills bends, row by row, for a picture with one sample per pixel. A pixel's bend is the largest
-// |2 c - a - b|, for any of its channel values c and the values a and b of two opposite neighbors.
-// Pairs of neighbors partly outside of the picture do not count.
+// |2 c - a - b|, where c is a channel of the pixel, and a and b are this channel of two opposite
+// neighbors. Pairs of neighbors partly outside of the picture do not count.
 void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends);
 
 // Fills nearby with the largest bend of the 5 x 5 pixels around each pixel.

@@ -86,9 +86,9 @@ double outline_signed_area(const Outline *outline);
 // corners, may also return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// outline_touched returns the cells of a row that the polygon touches. outline_near first enlarges
-// the cells by `reach` on each side. outline_sampled returns the cells whose centers the polygon
-// contains.
+// outline_touched returns the cells of a row that the polygon touches. outline_near does the same
+// for cells enlarged by `reach` on each side. outline_sampled returns the cells whose centers the
+// polygon contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
 CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Keeps two tiles in flight, each in its own queue. One tile is traced while the other is read back
-// or finishes its last work-groups. All tiles use the same padded grid with offset 0, because PoCL
+// or finishes its last work-groups. All tiles use the same padded grid with offset 0. PoCL
 // compiles separate versions of a kernel for other local sizes, for offsets and for large grids.
 #include "render/renderer.h"
 

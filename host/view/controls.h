@@ -86,7 +86,7 @@ State state_begin(const StateScene *scene, State state);
 // Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 
-// If the camera turns automatically, turns it by the angle of that many seconds.
+// If the camera turns automatically, advances its rotation by `seconds` seconds.
 void state_advance(State *state, double seconds);
 
 // Switches to a scene that was read again. A camera that has not moved takes the new file's

@@ -25,9 +25,9 @@ typedef struct {
     // Empty strings if there is nothing to report.
     const char *busy;        // the current operation
     const char *notice;      // the latest result
-    const char *missing;     // what the scene lacks
-    const char *hint;        // how to find the help
-    const char *failure;     // why the latest change has no effect
+    const char *missing;     // missing objects or lights of the scene
+    const char *hint;        // the key for help
+    const char *failure;     // the reason that the latest change has no effect
     const char *explanation; // of the clicked pixel
 } Figures;
 

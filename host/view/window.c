@@ -97,8 +97,7 @@ static void add_click(GLFWwindow *handle)
                               .down = floor(window->mouse_y * pixel_height / fmax(height, 1))});
 }
 
-// A click uses the position of the latest motion event, because GLFW's own position may be newer
-// than the click.
+// A click uses the recorded position, because GLFW's own position may be newer than the click.
 static void take_button(GLFWwindow *handle, int button, int action, int modifiers)
 {
     Window *window = glfwGetWindowUserPointer(handle);

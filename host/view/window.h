@@ -15,7 +15,7 @@ typedef struct {
     Event events[WINDOW_EVENTS]; // the user's actions, added by GLFW's callbacks
     int event_count;             // the caller resets it
     char *dropped;               // path of the latest dropped file, or NULL; owned
-    double mouse_x, mouse_y;     // pointer position at the latest event
+    double mouse_x, mouse_y;     // pointer position after the latest drag or motion
     int modifiers;               // GLFW's modifier bits at the latest button event
     bool may_click;              // the left button is pressed, and the pointer has hardly moved
     bool is_touched;             // the window must be drawn again
