@@ -8,9 +8,8 @@
 
 #if CLRT_WIDE_NODES
 
-// The distance at which any of the rays enters a plane is at least the smaller of
-// fma(plane, inverse, near) for the lowest and the highest inverse. It leaves at most at the larger
-// of fma(plane, inverse, far).
+// No ray crosses an entry plane before the smaller of fma(plane, inverse, near) for the lowest and
+// the highest inverse. No ray crosses an exit plane after the larger of fma(plane, inverse, far).
 typedef struct {
     uint negative; // the rays enter by the higher plane
     float inverse_low, inverse_high;
@@ -64,7 +63,7 @@ static inline AxisBounds axis_bounds(const AxisRange *range)
     return (AxisBounds){negative, low, high, -near * low, -near * high, -far * low, -far * high};
 }
 
-// Returns bounds over the packets whose bits are set; at least one is.
+// Returns bounds over the packets whose bits are set. At least one bit must be set.
 static NOT_INLINE Bounds bounds_over(const Packet *packets, uint bits)
 {
     const AxisRange none = {INFINITY, -INFINITY, INFINITY, -INFINITY};

@@ -34,7 +34,7 @@ static inline LightVisibility certify_light(const Tracer *tracer, const Uncertai
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
 }
 
-// Sets the bits of lit for the first 32 lights.
+// Decides which lights reach the surface. Returns false if one of these decisions is not certain.
 static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *surface, Real u,
                                  Decisions *decisions)
 {
@@ -98,8 +98,8 @@ static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decision
     return certainty;
 }
 
-// marks holds one mark per pixel of the tile. pixels holds one color per pixel; only those of
-// repaired pixels are written. The range is padded to whole work-groups.
+// marks holds one mark per pixel of the tile. pixels holds one color per pixel; only repaired
+// pixels are written. The range is padded to whole work-groups.
 kernel void certify_tile(TRACER_ARGUMENTS, global float *pixels, global CertaintyMark *marks)
 {
     Tally tally = {0};

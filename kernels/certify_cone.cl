@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A ray cone holds two rays: the exact ray on the stored scene, in real
-// arithmetic, and the ray of a tracer with unit roundoff u. If all rays of the cone lead to the
-// same decision, with all errors of the tracer's tests included, no rounding can change that
-// decision.
+// A ray cone holds two rays: the exact ray on the stored scene, in real arithmetic, and the ray of
+// a tracer with unit roundoff u. If all rays of the cone lead to the same decision, with all errors
+// of the tracer's tests included, no rounding can change that decision.
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
-// OWN_ROUNDOFF covers the rounding of this program for either u. The tracer's device only has to
-// round float operations correctly. In addition, no product of two sheared coordinates may
-// underflow; that takes a corner closer than 2^-51 of the frame to the ray on one axis alone. The
-// bounds follow in the order in which a ray needs them. |.| is the Euclidean length unless noted.
+// OWN_ROUNDOFF covers the rounding of this program for either u. The bounds require two things:
+//  - The tracer's device rounds float operations correctly.
+//  - No rounding error of a product in fp32's edge functions underflows (vector.inc.cl). This holds
+//    if each nonzero sheared coordinate of a corner is at least 2^-51, in the normalized frame. The
+//    kernel does not check this.
+// The bounds follow in the order in which a ray needs them. |.| is the Euclidean length unless
+// noted.
 //
-//   1. Camera ray: fma(x, right, fma(y, down, forward)). fp32's rounding is recomputed here. fp64's
-//      two roundings are below u (|inner| + |outer|) per component. The eye is stored.
+//   1. Camera ray: fma(x, right, fma(y, down, forward)). camera_rounding repeats fp32's rounding.
+//      fp64's two roundings are below u (|inner| + |outer|) per component. The eye is exact.
 //   2. Corners relative to the origin, sheared to (X - S Z, ., Z), |S| <= 1: u for the differences,
 //      2u for S, u for the fma of its small result. Together: 4u |S Z| + 2u |X - S Z| on each of
 //      two axes. Let z be the corner's depth, l its distance from the ray, and w the sine of the
@@ -98,13 +100,14 @@ static inline void set_axis(RayCone *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// The tracer searches no farther (intersect.cl), and a wider cone would decide nothing.
+// Returns whether the tracer searches along the ray (intersect.cl) and the cone is narrow enough to
+// decide anything.
 static inline bool is_usable(const RayCone *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
 }
 
-// Returns a point in the ray's frame: across, across and along.
+// Returns a point in the ray's frame, with the axes right, up and along.
 static inline Real3 to_cone_frame(const RayCone *ray, Real3 point)
 {
     const Real3 apart = difference(point, ray->origin);
@@ -131,7 +134,7 @@ static inline Real blur_at(const RayCone *ray, Real3 seen)
            16.0f * OWN_ROUNDOFF * (depth + aside);
 }
 
-// Bounds the difference between this direction and the one that fp32 computes.
+// Bounds the difference between `direction` and the direction that fp32 computes.
 static inline Real camera_rounding(const CameraData *camera, Real3 direction, float x, float y)
 {
     const float *right = camera->right_step, *down = camera->down_step, *forward = camera->forward;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Finds the certain first hit of a ray cone, and whether anything certainly blocks a point from a
-// light. Boxes grow by the blur of their farthest corner, below 18u of its distance beside the
-// cone, and by another 111u. The axis is then inside a box before any possible hit of a triangle
-// in it. This holds even for a hit behind the origin by the error of a distance.
+// light. Boxes grow by the cone's radius at their farthest corner and by at least 129u of its
+// distance: 18u for the blur beside the cone, 111u for the error of a distance. The axis is then
+// inside a box before any possible hit of a triangle in it, even if rounding puts the hit behind
+// the origin.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -33,7 +34,7 @@ typedef struct {
     const RayCone *ray;
     Real origin[3], inverse[3]; // of the ray and its direction
     Nearest nearest;
-    uint triangle;  // position of the nearest hit if a triangle, else NOTHING
+    uint triangle;  // index of the nearest hit if it is a triangle, else NOTHING
     Answer blocked; // for a shadow ray
 } ConeSearch;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Thick ray against sphere. sphere.cl computes with sums of two floats. For roundoff u, its error
-// of the discriminant radius^2 - distance^2 is below 2^6 u^2 (distance + radius) (|f| + radius +
-// |center|), where f leads from the center to the origin. Its error of the foot of the
-// perpendicular is below 64 u^3 |f|^2. Moving the ray aside by `distance_doubt` has a larger
-// effect than either, and than the error of the product of the distances. All other terms of a
-// distance have a relative error below 8u.
+// Ray cone against sphere. sphere.cl computes with sums of two floats. For unit roundoff u, the
+// error of its discriminant radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| +
+// radius + |center|), where f leads from the center to the origin. The error of its foot of the
+// perpendicular is below 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger effect
+// than either error, and than the error of sphere_power. All other terms of a distance have a
+// relative error below 8u.
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
@@ -22,7 +22,7 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// This program's own arithmetic loses at most 2^-49 of the same sum in a distance.
+// Bounds the tracer's error as above. This program's own error is at most 2^-49 of `sizes`.
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
@@ -60,10 +60,10 @@ static inline Range rounded_range(const RayCone *ray, Range range, Real shift)
                    range.high + factor * fabs(range.high) + shift};
 }
 
-// Turning the line moves it aside by `spread` of |middle| at its closest point to the center, at
-// `distance`, and as much along the line. The nearer wall is at (|f|^2 - radius^2) / (|middle| +
-// half the chord), because the power does not depend on the direction. The tracer computes it this
-// way, too. A nearby wall of a huge sphere is thus as certain as a small sphere's.
+// Turning the line by the spread moves the point closest to the center aside by spread * |middle|,
+// and along the line by spread * distance. The nearer wall is at (|f|^2 - radius^2) / (|middle| +
+// half the chord), and the numerator does not depend on the direction. The tracer uses this
+// quotient, too. A nearby wall of a huge sphere is thus as certain as a small sphere's.
 static inline Chord chord_of(const RayCone *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);
@@ -106,7 +106,7 @@ static inline Candidate sphere_candidate(const Chord *chord)
     return (Candidate){ANSWER_UNKNOWN, max(chord->enter.low, (Real)(0.0f)), chord->leave.high};
 }
 
-// Returns whether a wall stands between the ray's start and end, within [least, most].
+// Returns whether the sphere blocks a ray whose length lies within [least, most].
 static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
 {
     if (chord->met == ANSWER_NO || chord->leave.high < 0.0f || chord->enter.low > most)

@@ -6,7 +6,8 @@
 #define CLRT_CERTIFY_SURFACE_CL
 #include "certify_search.cl"
 
-// Unit vectors, and bounds on the chords by which they may differ.
+// A surface with bounds on its deviations. The doubt of a unit vector bounds the chord between the
+// tracer's vector and the exact one.
 typedef struct {
     UncertainPoint end;
     Real3 normal, face, toward_viewer; // as in Surface
@@ -18,7 +19,7 @@ typedef struct {
     Real room, edge;  // the point is at least room / edge away from the edges
 } UncertainSurface;
 
-// Moving the end of a vector of this length by `doubt` turns it by less than the result.
+// Bounds the turn of a vector of this length whose end moves by `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
@@ -147,10 +148,10 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 }
 
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
-// ray's line may miss its own triangle. This needs a distance below the error of the point (11u
-// per axis) and of the corners (14u of their distance), both over the sine at which the ray
-// leaves. The tracer ignores edges farther than 64u over that sine. The start may then move by
-// 256u over the sine along the surface, on each axis.
+// ray's line may miss its own triangle. The edge is then nearer than the errors of the point (11u
+// per axis) and of the corners (14u of their distance), divided by the sine of the angle at which
+// the ray leaves. The tracer ignores edges farther than 64u / sine. Near an edge, the start may
+// move by 256u / sine along the surface, on each axis.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u)
 {

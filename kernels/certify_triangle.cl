@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Thick ray against triangle: a certain hit, a certain miss, or undecided; and the depth.
+// Ray cone against triangle: a certain hit with its depth, a certain miss, or an unknown result.
 #ifndef CLRT_CERTIFY_TRIANGLE_CL
 #define CLRT_CERTIFY_TRIANGLE_CL
 #include "certify_cone.cl"
@@ -20,7 +20,7 @@ typedef struct {
     Real size;   // upper bound of the corners' distances
     Real sides;  // sum of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
-    bool inside; // and passes inside them
+    bool inside; // clear, and the axis passes inside all edges
     bool faces;  // the visible side is certain
     bool inner;  // the mesh's back is visible
     bool broad;  // the triangle is broad enough to compute its plane
@@ -77,7 +77,7 @@ static inline ProjectedTriangle project_triangle(const RayCone *ray, const Corne
     return projected;
 }
 
-// Returns the largest depth change of the plane per step across the ray.
+// Returns the plane's steepest change of depth per unit across the ray.
 static inline Real slope_of(const ProjectedTriangle *projected)
 {
     const Real3 ab = difference(projected->corners.b, projected->corners.a);
@@ -87,10 +87,10 @@ static inline Real slope_of(const ProjectedTriangle *projected)
     return sqrt(x * x + y * y) / fabs(projected->edges.determinant);
 }
 
-// A hit lies within the blur of the axis. It is no deeper than the corners. Its distance from the
-// axis's own hit is limited by the plane's slope. A broad triangle is more than 8 blurs high.
-// Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than half of 1 +
-// slope. A bound of 4 (1 + slope) blurs covers all of this.
+// A hit lies within the blur of the axis. Its depth lies between the depths of the corners. The
+// plane's slope limits its distance from the axis's own hit. A broad triangle is more than 8 blurs
+// high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than half of
+// 1 + slope. A bound of 4 (1 + slope) blurs covers all of this.
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -106,17 +106,17 @@ static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
     return depth;
 }
 
-// At least the distance error that surface_ray_distance uses.
+// Returns a bound on the distance error that the tracer gives to surface_ray_distance.
 static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 {
     return 64.0f * (u + OWN_ROUNDOFF) * projected->size;
 }
 
 // Returns the side of a triangle's plane on which a point certainly lies: 1 in front, -1 behind, 0
-// if unknown. It agrees with real arithmetic and with height_over, which may also return zero if
-// this returns 0. The error of height_over is below 12u n.|apart| + 12u E |apart|, and its
-// threshold is below the bound, which is therefore doubled. The error of is_before_face
-// (shade.cl), whose unit vector adds 4u n.|apart|, stays within the bound, too.
+// if unknown. A nonzero result agrees with real arithmetic and with height_over. The error of
+// height_over is below 12u n.|apart| + 12u E |apart|. Its threshold is also below the bound
+// `rounding`, which is therefore doubled. The error of is_before_face (shade.cl), whose unit vector
+// adds 4u n.|apart|, stays within the bound, too.
 static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -158,7 +158,7 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     return candidate;
 }
 
-// Closer to the eye than this, a camera ray's start counts as a surface point.
+// For hits closer to the eye than this, the tracer may treat the eye as a surface point.
 #define AT_EYE 0x1p-15f
 
 static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTriangle *projected,
@@ -229,12 +229,11 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
            is_same_corner(one->c, two->c);
 }
 
-// Returns whether a ray that leaves a triangle certainly misses a
-// coincident one. It does if height_over
-// returns zero for the ray's start. hits_neighbor then compares the triangles and finds neither
-// in front of the other: the height of an edge over its own plane is below 6u n.|edge|, less than
-// height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the products'
-// magnitudes. The computed height of the start is the sum of these errors:
+// Returns whether a ray that leaves a triangle certainly misses a coincident one. It does if
+// height_over returns zero for the ray's start. hits_neighbor then compares the triangles and finds
+// neither in front of the other: the height of an edge over its own plane is below 6u n.|edge|,
+// less than height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the
+// products' magnitudes. The computed height of the start is the sum of these errors:
 //  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its
 //    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
 //  - Moving the start into the triangle adds u n.|start| and 2u n.|way|.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switches that specialize a program. Each is a constant tested by plain `if`s: all code is
-// compiled, and the optimizer removes the features a scene lacks. The defaults make the general
-// program, which renders every scene. host/accel/traits.c sets them.
+// The switches that specialize a program. The first group describes the scene (host/accel/flat.c).
+// Plain `if`s test these constants, and the optimizer removes the features that a scene lacks. The
+// defaults make the general program, which renders every scene.
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
@@ -24,7 +24,7 @@
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif
 
-// Choices of the user, set by host/device/kernel_choice.c.
+// The form of the kernels, set by host/device/kernel_choice.c and program.c.
 #ifndef CLRT_WIDE_NODES
 #define CLRT_WIDE_NODES 0 // BvhWide and TriangleBlock replace BvhPair and TriangleData
 #endif

@@ -136,7 +136,7 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
     }
 }
 
-// Traces like trace and records the path. end receives the number of rays and, at index 3, the
+// Traces like trace() and records the path. end receives the number of rays and, at index 3, the
 // background's weight in the color.
 static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
                                  const Notes *end)

@@ -4,8 +4,8 @@
 #define CLRT_HIT_CL
 #include "numeric.cl"
 
-// index counts within the array of the primitive's kind; with wide nodes, triangles count block
-// slots. Spheres have the ids below sphere_count.
+// index is the position in the array of spheres or of triangles. With wide nodes, the position of a
+// triangle is block * WIDE + slot. Spheres have the ids below sphere_count.
 typedef struct {
     Real t; // along the ray; INFINITY without a hit
     UInt id, index;

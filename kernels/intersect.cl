@@ -33,9 +33,9 @@ static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *
 }
 
 // Returns whether a search for triangles may follow the ray. The ray must start within 2^46 of the
-// frame, and its direction must be between 2^-80 and 2^80 long. All other rays hit nothing. With
-// an infinity or a NaN, a ray would be inside every box, even a missing child's, and the search
-// would never end.
+// frame, and its direction must be between 2^-80 and 2^80 long. All other rays hit no triangle.
+// With an infinity or a NaN, a ray would be inside every box, even a missing child's, and the
+// search would never end.
 static inline Mask is_searchable(const Ray *ray)
 {
     const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);
@@ -78,8 +78,8 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 }
 
 // Finds whether a primitive lies between a shaded point and the light, for each shadow ray. If
-// nothing blocks a ray, its hit has no id, and t is the limit of the search. If the light lies on a
-// primitive, within the error of a distance, this primitive does not block the ray.
+// nothing blocks a ray, its hit has the id NOTHING, and t is the limit of the search. If the light
+// lies on a primitive, within the error of a distance, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];

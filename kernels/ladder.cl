@@ -2,8 +2,8 @@
 // The kernel of error and time goals turns requests for samples of pixels into sums over these
 // samples. It is compiled after render.cl, and only if requested.
 
-// Samples per work-item. With as many requests instead, one work-item took up to 1024 samples, and
-// short lists left cores idle.
+// Samples per work-item. If this limited requests instead, a work-item could take 1024 samples, and
+// short lists would leave cores idle.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
 // Color values are rounded to this many bits before squaring, so that the sum of squares of
@@ -117,7 +117,7 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
-// The samples of a packet: numbers [start, count) of a work-item with `samples` for each request.
+// A packet's first sample among the work-item's `count` samples. Each request has `samples`.
 typedef struct {
     uint samples, start, count;
 } Span;
@@ -140,9 +140,9 @@ static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 colo
     }
 }
 
-// Serves requests first to end - 1, all with the same sample count, into the same elements of
-// sums. A work-item serves consecutive requests for ITEM_SAMPLES samples, or one request for more.
-// Tallies are written at the first of them, and only if statistics are compiled in.
+// Writes the sums of requests first to end - 1, which have equal sample counts, to the same
+// elements of sums. A work-item serves requests for ITEM_SAMPLES samples, or one request for more.
+// It writes tallies at its first request, and only if statistics are compiled in.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
                          uint end, global PixelSums *sums, global uint *tallies)
 {

@@ -15,8 +15,8 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // Scalar is float, or double in the reference mode. Both modes compile the same source for the same
-// scene, which is stored in float. Their difference is therefore the error of float arithmetic
-// alone.
+// scene, which is stored in float. Their pictures therefore differ only by the error of float
+// arithmetic.
 #if CLRT_FP64
 typedef double Scalar;
 #define UNIT_ROUNDOFF    0x1p-53
@@ -39,7 +39,7 @@ typedef float Scalar;
 #define LN2_LOW          (-0x1.05c610p-29f)
 #endif
 
-// As many lanes as the target's registers hold. Drivers report one native width for all types.
+// As many lanes as the target's registers hold, unless the host sets the number.
 #if !CLRT_WIDE_NODES
 #undef CLRT_LANES
 #define CLRT_LANES 1
@@ -54,7 +54,7 @@ typedef float Scalar;
 #endif
 
 // Files that are included for several types (*.inc.cl) overload functions by their arguments.
-// Overloading needs a clang attribute, which the plain ray family does without.
+// Overloading needs an attribute of clang. With binary nodes there is only one type.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
 #else
@@ -106,8 +106,8 @@ typedef UInt Bits;
 #endif
 
 // Returns one bit for each true lane. x86 has an instruction for this. The fallback masks each
-// lane with its bit and combines them by a tree of ORs, which makes a whole picture a fifth
-// slower.
+// lane with its bit and combines the lanes by a tree of ORs. Without the instruction, a whole
+// picture takes a fifth longer.
 static inline uint OVERLOAD lane_bits(int mask)
 {
     return mask != 0;
@@ -166,7 +166,7 @@ static inline UInt gather(global const uint *words, UInt place)
     return words[place];
 }
 
-// Returns a float of the scene that is given as a word.
+// Returns the float of the scene whose bits are given.
 static inline Real stored_real(UInt word)
 {
     return as_float(word);
@@ -190,11 +190,11 @@ static inline Mask lanes_of(uint bits)
 #define GATHER_8(p)  GATHER_4(p.lo), GATHER_4(p.hi)
 #define GATHER_16(p) GATHER_8(p.lo), GATHER_8(p.hi)
 
-// Returns words[place], lane by lane. An instruction for it makes pictures 3 to 5 % faster.
+// Returns words[place], lane by lane. AVX-512's gather makes pictures 3 to 5 % faster.
 static inline UInt gather(global const uint *words, UInt place)
 {
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_gathersiv16si)
-    // Its indices are signed: they count from the middle of the range of place.
+    // The instruction's indices are signed, so they count from the middle of place's range.
     typedef int Register __attribute__((vector_size(64)));
     const Register index = (Register)as_int16(place ^ 0x80000000u);
     const ulong middle = (ulong)words + 0x80000000ul * sizeof(uint);

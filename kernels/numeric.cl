@@ -6,7 +6,7 @@
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"
 
-// The exact arithmetic for Real, and for eight triangles of a block against one ray. All types
+// The triangle test for Real, and below for one ray against the eight triangles of a block. Both
 // compile the same files, so their results are equal.
 #include "triangle.inc.cl"
 
@@ -128,7 +128,7 @@ static inline Real integer_power(Real base, UInt exponent)
 static inline Real log_series(Real s)
 {
     Real series = RATIO(2.0f, 13.0f);
-    if (CLRT_FP64) { // the seven terms below suffice for float
+    if (CLRT_FP64) { // float needs only the terms from 2/13 on
         series = fma(RATIO(2.0f, 21.0f), s, RATIO(2.0f, 19.0f));
         series = fma(series, s, RATIO(2.0f, 17.0f));
         series = fma(series, s, RATIO(2.0f, 15.0f));
@@ -161,7 +161,7 @@ static inline Real log_one_plus(Real x)
 static inline Real exponential_series(Real r)
 {
     Real series = RATIO(1.0f, 5040.0f);
-    if (CLRT_FP64) { // as above
+    if (CLRT_FP64) { // float needs only the terms up to r^7
         series = fma(RATIO(1.0f, 6227020800.0f), r, RATIO(1.0f, 479001600.0f));
         series = fma(series, r, RATIO(1.0f, 39916800.0f));
         series = fma(series, r, RATIO(1.0f, 3628800.0f));
@@ -178,7 +178,7 @@ static inline Real exponential_series(Real r)
     return fma(series, r, (Real)(1.0f));
 }
 
-// Returns exp(x) for x <= 0. Results below 2^-100 are zero, as in integer_power.
+// Returns exp(x) for x <= 0. Results up to exp(-69), about 2^-100, become zero (integer_power).
 static inline Real exponential(Real x)
 {
     const Mask is_tiny = !(x > -69.0f);

@@ -40,7 +40,7 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
                     corner[search->axes.z] - search->origin.z);
 }
 
-// Returns whether the ray stops on a triangle that its line hits within rounding of the ray's own.
+// Returns whether the ray stops on a triangle that its line hits within rounding of its start.
 static NOT_INLINE bool stops_on_neighbor(const Tracer *tracer, const Ray *ray,
                                          const Corners *corners, bool from_back)
 {
@@ -79,7 +79,7 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
     return distance;
 }
 
-// Tests triangles [first, first + count). A shadow ray stops at the first that blocks it.
+// Tests range.y triangles from range.x on. A shadow ray stops at the first one that blocks it.
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {

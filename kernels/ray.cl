@@ -9,7 +9,7 @@ typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 // origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    UInt own;       // id of the primitive it starts on, which it cannot hit
+    UInt own;       // id of the primitive it starts on, which it hits again only inside a sphere
     UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
     Mask active; // lanes that have a ray
@@ -30,7 +30,7 @@ typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_SIGNATURES
-    UInt signatures[PACKETS]; // hashes of what samples saw: surfaces and the lights that reach them
+    UInt signatures[PACKETS]; // hashes of the surfaces hit and the lights that reach them
 #endif
 } Tally;
 

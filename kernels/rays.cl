@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of clrt check traces arrays of rays instead of a picture's, with the same search. It
-// is compiled after render.cl, and only if requested.
+// The kernel of clrt check traces an array of rays with the search that renders pictures. It is
+// compiled after render.cl, and only if requested.
 
 static inline void store_distances(global float *distances, Mask lanes, Real t)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Groups the rays of a work-item into beams. Bounds cull only if directions share their signs, so
-// the rays of each octant form beams of their own. Rays in partly filled packets move together into
-// full ones, and their hits move back.
+// the rays of each octant form a beam of their own. Rays from partly filled packets are collected
+// in full packets, and their hits move back to the original lanes.
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
 #include "beam.cl"

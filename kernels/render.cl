@@ -177,14 +177,14 @@ static inline Places places_at(const FrameData *frame, uint2 corner)
                     column < frame->tile_width && row < frame->tile_height};
 }
 
-// Returns the first pixel of a beam's packet.
+// Returns the top left pixel of a beam's packet.
 static inline uint2 packet_corner(uint2 beam, uint packet)
 {
     return (uint2)(beam.x + packet % BEAM_COLUMNS * PACKET_WIDTH,
                    beam.y + packet / BEAM_COLUMNS * PACKET_HEIGHT);
 }
 
-// Renders the beam whose first pixel is given.
+// Renders the beam whose top left pixel is given.
 static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
 {
     const Tally none = {0};

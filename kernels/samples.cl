@@ -26,7 +26,7 @@ static inline Places places_listed(global const uint *places, uint start, uint e
 }
 
 // Samples places first to end - 1 into the same elements of samples. A place is two coordinates in
-// sub-pixels; the coordinate NOTHING skips it. A work-item takes ITEM_SAMPLES consecutive places.
+// sub-pixels; x = NOTHING skips the place. A work-item takes ITEM_SAMPLES consecutive places.
 // Tallies are written at the first place of each beam, and only if statistics are compiled in.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)

@@ -9,8 +9,8 @@
 #define BRIGHTEST ((Real)(1e30f))
 
 // Returns the highlight (n.h)^shininess. Non-integer shininess uses exp(shininess * log(n.h)),
-// with n.h computed from |n - h| to keep its distance from 1. At shininess 1e6, pow of the rounded
-// dot product is off by 0.14, this by 5e-5.
+// where 1 - n.h is computed from |n - h| without cancellation. At shininess 1e6, the error of this
+// function is 5e-5. The error of pow with the rounded dot product is 0.14.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
     const Mask is_integer = material->exponent != 0xffffffffu;
@@ -59,9 +59,9 @@ static inline LightSample sample_light(const Tracer *tracer, uint index, const S
     return light;
 }
 
-// The ray starts at the surface, whose position is known best there. Light then passes no edge of
-// a closed shape, at any distance. Starting at the light, the common origin of all rays, would
-// make packets 2 % faster in small scenes and slower in large ones.
+// Returns the shadow ray. It starts at the surface, where the surface is known best. Light then
+// leaks through no edge of a closed shape, at any distance. Starting at the light, the common
+// origin of all rays, would make packets 2 % faster in small scenes and slower in large ones.
 static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                                const LightSample *light)
 {
@@ -112,7 +112,7 @@ typedef struct {
     Real3 diffuse, specular;
 } Illumination;
 
-// Adds a light's contributions to the surfaces. Those turned away from the light get nothing and
+// Adds a light's contributions to the surfaces. Surfaces turned away from the light get nothing and
 // need no shadow ray.
 static inline void add_light(const Tracer *tracer, uint index, const Lighting lighting[PACKETS],
                              Illumination sums[PACKETS])
@@ -153,7 +153,7 @@ static inline Real3 reflected_light(Real weight, Real3 received, Real ambient, R
                     (ambient + weight * min(received.z, BRIGHTEST)) * color.z);
 }
 
-// Returns the color of a surface that receives that light.
+// Returns the color of a surface that receives this light.
 static inline Real3 shaded_color(const Tracer *tracer, const MaterialLanes *material,
                                  const Illumination *light)
 {
@@ -165,8 +165,7 @@ static inline Real3 shaded_color(const Tracer *tracer, const MaterialLanes *mate
     return choose3(material->shader == SHADER_SILHOUETTE, material->diffuse, color);
 }
 
-// Computes the colors of the surfaces given to lighting_of. The values of other lanes are
-// unspecified.
+// Computes the surfaces' colors. The colors of lanes without a surface are unspecified.
 static inline void shade(const Tracer *tracer, const Lighting lighting[PACKETS],
                          Real3 colors[PACKETS])
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The types and constants that host and kernels share. This file compiles as C17 and as OpenCL C,
-// with the same memory layout in both. Members are float, uint, ulong and arrays of them. The size
-// of every struct is a multiple of 8 bytes, so that arrays keep that alignment. tests/kernel
-// measures the layout on the device. All positions are in the normalized frame
+// with the same memory layout in both. Members are float, uint and ulong, arrays of these, and
+// structs. The size of every struct is a multiple of 8 bytes, which keeps array elements aligned.
+// tests/kernel measures the layout on the device. All positions are in the normalized frame
 // (host/scene/normalize.h).
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
@@ -24,7 +24,7 @@ typedef uint64_t ulong;
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// Boxes and origins grow by this factor of their largest coordinate: 128 units of rounding (2^-24).
+// Boxes grow and origins move by this factor of their largest coordinate: 128 units of 2^-24.
 // A triangle that triangle.inc.cl accepts lies within 22 units of the ray, plus 16 if t may be zero
 // within its error. The slab arithmetic adds 4. If division is only accurate to 2.5 ulp, these
 // become 34, 25 and 8. In measurements, doubling the slack costs nothing.
@@ -85,18 +85,18 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their common length is
-// arbitrary. They point to the stored front; a reversed triangle's are negated.
+// arbitrary. They point to the stored front; the normals of a reversed triangle are negated.
 typedef struct {
     float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
 } CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
 
 // An inner node holds the boxes of both children, axis by axis as {low, high} planes. One read
-// thus decides about both. A child with a count is a leaf: triangles [first, first + count). A
-// child without a count is the inner node `first`. A missing child has an inverted box, which no
-// ray enters.
+// therefore serves the tests of both. A child with a count is a leaf: triangles
+// [first, first + count). A child without a count is the inner node `first`. A missing child has an
+// inverted box, which no ray enters.
 typedef struct {
-    float planes[3][2][2]; // [axis][low, high][child], grown by the slack of search.cl
+    float planes[3][2][2]; // [axis][low, high][child], grown by BVH_SLACK
     uint first[2];
     uint count[2];
 } BvhPair;
@@ -115,7 +115,7 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // plane of all children. A child is the index of an inner node or, if WIDE_LEAF is set, of a
 // block. Present children come first; missing ones have inverted boxes.
 typedef struct {
-    float planes[3][2][WIDE]; // [axis][low, high][child], grown by the slack of search.cl
+    float planes[3][2][WIDE]; // [axis][low, high][child], grown by BVH_SLACK
     uint child[WIDE];
     uint child_count;
     uint padding[7]; // keeps nodes on cache lines of 64 bytes
@@ -139,7 +139,7 @@ typedef struct {
 CLRT_SAME_SIZE(TriangleLook, 8)
 
 // A camera ray's direction is forward + x * right_step + y * down_step. For sample i of n across
-// the picture, x is 2 * i + 1 - n; y likewise. These integers are exact in float and symmetric.
+// the picture, x is 2 * i + 1 - n. y is analogous. These integers are exact in float and symmetric.
 typedef struct {
     float eye[4];
     float forward[4];
@@ -162,8 +162,8 @@ typedef struct {
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 128)
 
-// The result of a camera ray: its color, and a signature. The signature differs if the ray hit
-// another surface or other lights reach it.
+// The result of a camera ray: its color, and a signature. The signatures of two rays differ if the
+// rays hit different surfaces, or if different lights reach these surfaces.
 typedef struct {
     float color[3];
     uint signature;
@@ -198,7 +198,7 @@ CLRT_SAME_SIZE(PixelSums, 32)
 typedef enum {
     CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
     CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's
-    CERTAINTY_CERTIFIED, // all fp32 decisions do, too
+    CERTAINTY_CERTIFIED, // all fp64 and fp32 decisions equal real arithmetic's
     CERTAINTY_KINDS
 } Certainty;
 
@@ -207,7 +207,7 @@ typedef enum {
 typedef struct {
     uint certainty; // a Certainty
     uint first_id;  // of the camera ray's hit, or NOTHING
-    uint lit;       // a bit for each of the first 32 lights that reach it
+    uint lit;       // a bit for each of the first 32 lights that reach the hit
     uint signature; // hash of all decisions of the ray tree
 } CertaintyMark;
 CLRT_SAME_SIZE(CertaintyMark, 16)
@@ -234,8 +234,8 @@ typedef struct {
     float normal[3]; // unit, the shading normal
     uint primitive;  // id
     uint material;   // index
-    uint lights;     // lights that reach the point
-    uint bounces;    // reflected rays followed from there
+    uint lights;     // number of lights that reach the point
+    uint bounces;    // number of reflected rays after the hit
     uint padding;
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)

@@ -125,9 +125,9 @@ static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
                        two_add(f.z, two_scale(s, d.z))};
 }
 
-// Returns the discriminant over |d|^2: radius^2 minus the squared distance of the center to the
-// line. s only needs to be near the foot of the perpendicular, because the last term subtracts its
-// error.
+// Returns the discriminant divided by |d|^2: radius^2 minus the squared distance of the center to
+// the line. s only needs to be near the foot of the perpendicular, because the last term corrects
+// the error.
 static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
     const TwoFloat3 foot = two_stepped(f, s, d);
@@ -135,9 +135,9 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
     return two_add(rr, two_negate(two_length_squared(foot))).high + along * along / dd;
 }
 
-// Returns |f|^2 - radius^2, the product of the distances to both walls on the line through the
-// center. On a sphere of radius 1e9 the squares lose a height of 1 even in 48 bits. The component
-// of f that nearly equals the radius is therefore factored out as a product.
+// Returns |f|^2 - radius^2, the product of the origin's distances to both walls on the line through
+// the center. On a sphere of radius 1e9 the squares lose a height of 1 even in 48 bits. The largest
+// component z of f therefore enters as the product (z - radius) (z + radius).
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -151,7 +151,7 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 
 // Returns whether plain floats already prove that the line misses the sphere. Their error is below
 // 16 units of rounding of the squares of all lengths involved; 64 are allowed. Most spheres then
-// need no exact test. Before, the exact tests of three spheres took half of a picture's time.
+// need no exact test. Without it, the exact tests of three spheres take half of a picture's time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
@@ -203,8 +203,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
                     two_add(on.z, sphere->center.z).high);
 }
 
-// sphere_distance for a ray that starts on this sphere. Its near root is zero by construction. The
-// chord to the far wall counts if it is longer than the origin's error.
+// Returns the distance for a ray that starts on this sphere. The near root is zero by construction.
+// The chord to the far wall counts if it is longer than the origin's error.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

@@ -202,8 +202,8 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
-// the point moves within the plane toward the triangle's middle: by UNIT_ROUNDOFF / sine, then
-// twice that, up to 256 times.
+// the point moves within the plane toward the triangle's middle: by UNIT_ROUNDOFF / sine first,
+// then by 2, 4, up to 256 times as much.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
                                      const Heading *heading, Real sine, Mask near_edge)
 {
@@ -225,7 +225,7 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 
 // Returns the start of a ray that leaves the surface. The ray's line passes through the surface's
 // triangle, which rounding can prevent only near edges. A point with coordinates up to 1 is off by
-// some units of rounding. Along the plane, the ray's line is off by this error over its sine.
+// some units of rounding. Along the plane, the ray's line is off by this error divided by the sine.
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, const Heading *heading,
                                Real sine, Mask active)
 {

@@ -30,8 +30,8 @@ typedef struct {
 // The paths of a work-item, which advance in lock step.
 typedef struct {
     uint level;        // rays followed
-    Ray rays[PACKETS]; // the last ones
-    Hit hits[PACKETS]; // of those
+    Ray rays[PACKETS]; // the last rays
+    Hit hits[PACKETS]; // the hits of these rays
     Path paths[PACKETS];
 } Paths;
 
@@ -65,8 +65,8 @@ static inline void count_rays(const Paths *paths, uint number, Tally *tally)
     tally->shaded_points += met;
 }
 
-// Returns the number of the surface in signatures. Each sphere is its own surface; all triangles of
-// one material are one surface.
+// Returns the number that stands for a surface in signatures. Each sphere is its own surface; all
+// triangles of one material are one surface.
 static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 {
     const UInt of_mesh = frame->sphere_count + surface->material;
@@ -149,7 +149,7 @@ static inline void paths_shade(const Tracer *tracer, Paths *paths, Real3 shaded[
             path_add(&paths->paths[i], shaded[i]);
 }
 
-// Returns the color of an ended path: its remaining weight sees the background.
+// Returns the color of an ended path. The background gets the remaining weight.
 static inline Real3 path_color(const Tracer *tracer, const Path *path)
 {
     const Real3 background = load_private3(tracer->frame->background);

@@ -71,8 +71,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
 }
 
 // Bounds the error of the reported depth along z: 16 u Q, where Q is the largest distance of a
-// corner from the origin. The weights take 10, the interpolation 4, the division 2. Two are to
-// spare.
+// corner from the origin. The weights take 10, the interpolation 4, the division 2. The factor 18
+// leaves a reserve of 2.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
@@ -82,14 +82,14 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 }
 
 // Returns whether the hit is so close to the origin that rounding may decide whether it is in
-// front or behind. Coordinates are at most 1, which bounds that error by 2^-17.
+// front or behind. Coordinates are at most 1, which bounds the depth's error by 2^-17.
 static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }
 
-// Returns a point's height over the triangle's front, as a multiple of the normal's length. It is
-// zero if rounding leaves the side undecided. Near a triangle this is far more precise than the
+// Returns a point's height over the triangle's front, multiplied by the normal's length, or zero if
+// rounding leaves the side undecided. Near a triangle, the height is far more precise than the
 // depth of a ray from afar. The bound adds the errors of the products, of the normal and of the
 // point. The point's error is `blur` units of rounding of its coordinates.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
@@ -129,10 +129,10 @@ static inline Sides OVERLOAD sides_exchanged(Mask exchange, Sides sides)
 
 // Returns whether a ray that leaves its own triangle stops on another that its line hits within
 // rounding of the ray's start. The relative position of the triangles decides, seen from both:
-//  - The other triangle is ahead if it is on the side of the own plane that the ray leaves to. It
+//  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
 //    is not ahead if it is on the opposite side.
-//  - The ray starts on the own triangle. The other is ahead if the own one is on the side of the
-//    other's plane that the ray comes from. It is not ahead if the own one is on the opposite side.
+//  - The ray starts on the own triangle. The other is ahead if the own triangle is on the side of
+//    the other's plane that the ray comes from. It is not ahead if the own is on the opposite side.
 // A ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
 // that stops then does not leave a closed shape.
 static inline Mask OVERLOAD hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
@@ -155,13 +155,13 @@ typedef struct {
     float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
 
-// Returns where the ray stops on a triangle that t, within its error, reports as hit; INFINITY if
-// it passes. The ray stops only if the side of its surface point decides so beyond doubt.
-// Otherwise the neighbors of every point would mirror and shadow it, because t near the surface is
-// only rounding. From the inner side, which only two-sided triangles show, a convex neighbor lies
-// on the right side as well. There the depth must be certain, too, except for the eye, which is on
-// no surface. A triangle that the light lies on, as far as t shows, does not shadow the ray.
-// in_doubt receives the lanes that only rounding keeps from stopping.
+// Returns the distance at which the ray stops on a triangle, INFINITY if it passes. t is the
+// triangle's distance, known within `error`. Near the ray's start, t is only rounding, and every
+// point's neighbors would mirror and shadow it. The ray therefore stops only if its surface point
+// is certainly on the side that the ray comes from. On the inner side, which only two-sided
+// triangles show, this is also true of convex neighbors. There t must be certain, too, except for
+// the eye, which is on no surface. A triangle on which the light lies, within the error of t, does
+// not shadow the ray. in_doubt receives the lanes whose rays only rounding keeps from stopping.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three Reals, and exact signs. Included several times, by triangle.inc.cl, which lists
-// what must be defined.
+// Vectors of three Reals, and exact signs. triangle.inc.cl includes this file and lists the types
+// that must be defined.
 
 typedef struct {
     Real x, y, z;

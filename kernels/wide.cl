@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces single rays through the tree of wide nodes. All children of a node and all triangles of a
 // block are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The rays of
-// a packet's lanes advance alternately, one step each. Culling is pair.cl's and acceptance
-// triangle.inc.cl's, so the hits are equal, too.
+// a packet's lanes advance alternately, one step each. Boxes are culled as in pair.cl, and
+// triangle.inc.cl accepts hits, so both searches find the same hits.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "fetch.cl"
@@ -22,7 +22,7 @@ static inline uint lane_uint(const UInt *lanes, uint lane)
 }
 
 // The planes by which rays enter boxes: for each axis and lane, the place of a row of
-// BvhWide::planes. The opposite planes are OTHER_PLANES away in one of both directions.
+// BvhWide::planes. place ^ OTHER_PLANES is the row of the opposite planes.
 typedef struct {
     uint rows[3][CLRT_LANES];
 } NearPlanes;
@@ -45,7 +45,8 @@ static inline float8 plane_distances(global const float *planes, const Real *inv
                (float8)(lane_real(offset, lane)));
 }
 
-// Returns the children whose boxes the lane's ray enters before `reach`, and where it enters them.
+// Returns the children whose boxes the lane's ray enters before `reach`. Stores the distances at
+// which the ray enters in *entry.
 static inline int8 children_hit(global const BvhWide *node, const Search *search,
                                 const NearPlanes *planes, uint lane, float reach, float8 *entry)
 {
@@ -100,7 +101,8 @@ static inline Wide3 block_corner_relative(global const TriangleBlock *block, uin
                    block_row(block, corner, ray->axes[2]) - ray->origin[2]};
 }
 
-// The result of testing a lane's ray against a block: the triangles whose edges contain it.
+// The result of testing a lane's ray against a block. `inside` selects the triangles whose edges
+// contain the ray.
 typedef struct {
     WideShear shear;
     WideCorners sheared;
@@ -124,8 +126,8 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns which triangles of the block stop the lane's ray, among those that its line hits within
-// rounding of the ray's own.
+// Returns which triangles of the block stop the lane's ray, among the triangles that its line hits
+// within rounding of its start.
 static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search *search, uint lane,
                                        int8 from_back)
 {
@@ -137,8 +139,8 @@ static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search 
     return hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
 
-// Returns the distances of these hits, INFINITY for triangles that do not stop the ray before
-// `reach`.
+// Returns the distances of test's hits, INFINITY for triangles that do not stop the ray. Distances
+// of camera rays may be beyond `reach`.
 static inline float8 block_distances(global const TriangleBlock *block, const Search *search,
                                      uint lane, const BlockTest *test, float reach)
 {
@@ -221,7 +223,7 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return update_lane_hit(&distances, start, lane, hits);
 }
 
-// Returns whether the scene exceeds caches. For others, prefetching costs 7 % of the time.
+// Returns whether the scene exceeds caches. In smaller scenes, prefetching costs 7 % of the time.
 static inline bool is_dense(const Tracer *tracer)
 {
     return tracer->frame->triangle_count >= 300000;
@@ -248,8 +250,8 @@ typedef struct {
     const Search *search;
     Hit *hits;
     NearPlanes near_planes;
-    uint child[CLRT_LANES]; // the next child of each
-    uint leaves, ended;     // bits of the lanes at a block, and of those that have ended
+    uint child[CLRT_LANES]; // the next child of each ray
+    uint leaves, ended;     // bits of the lanes at a block, and of the lanes that have ended
     bool prefetches;
     WideStack stack[CLRT_LANES];
 } LaneSearches;
@@ -310,8 +312,8 @@ static inline void visit_leaves(LaneSearches *searches)
 }
 
 // Searches below a child for the rays of the lanes whose bits are set. While one ray waits for
-// memory or for its last step's result, the others advance. This is a fifth faster than one ray
-// after another.
+// memory or for its last step's result, the others advance. This is a fifth faster than tracing one
+// ray after another.
 static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
 {
     LaneSearches searches;

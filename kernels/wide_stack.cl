@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The stack of children of wide nodes, pushed in the order in which rays enter them. The number of
+// The stack of children of wide nodes. A node's children are pushed farthest first. The number of
 // children hit and the nearest one are unpredictable, and so is every branch on them. A sorting
-// network (Batcher, "Sorting networks and their applications", 1968) has no branches. Against
-// insertion sort it saves 17, 10 and 1 % of the time for pictures of a million, 122 thousand and 6
+// network (Batcher, "Sorting networks and their applications", 1968) has no branches. Compared to
+// insertion sort, it saves 17, 10 and 1 % of the time for pictures of a million, 122 thousand and 6
 // thousand triangles.
 #ifndef CLRT_WIDE_STACK_CL
 #define CLRT_WIDE_STACK_CL
@@ -38,8 +38,8 @@ static inline uint8 entry_order(float8 entry, int8 met)
     return ~((as_uint8(entry) & 0x7ffffff8u) | place) | ~as_uint8(met);
 }
 
-// Steps of the network. They compare elements whose indices differ in the function's bits, and move
-// the smaller value to the lower index.
+// Steps of the network. They compare elements whose indices differ in the bits of the number in the
+// name, and move the smaller value to the lower index.
 static inline uint8 exchanged_1(uint8 v)
 {
     const uint8 low = min(v, v.s10325476), high = max(v, v.s10325476);
@@ -125,8 +125,8 @@ static inline void push_children(WideStack *stack, float8 entry, int8 met, uint8
     stack->count += popcount(bits);
 }
 
-// Pops the child with the smallest entry distance. Returns false if none is entered before
-// `reach`, which must not be negative.
+// Pops children until the ray enters one before `reach`, which must not be negative. Returns false
+// if the stack has no such child.
 static inline bool pop_child(WideStack *stack, float reach, uint *child)
 {
     while (stack->count > 0) {
