@@ -73,12 +73,12 @@ def judge_outside(name, quote, target):
     """Returns the fault of a host file's include of any other file, or None."""
     if quote == '"':
         if target != SHARED:
-            return f"{target} is no header of host/"
+            return f"{target} is not a header of host/"
         return None if name == SHARED_BY else f"only {SHARED_BY} includes {SHARED}"
     if (name, target) == THREADS:
         return None
     if floor_of(name) in CORE and FOREIGN.match(target):
-        return f"the core does without <{target}>"
+        return f"the core must not include <{target}>"
     return None
 
 
@@ -112,7 +112,7 @@ def check_host(host):
     graph = {name: [] for name in files}
     for name, file in files.items():
         if floor_of(name) not in BELOW:
-            yield f"host/{name}: the folder is no floor that tools/check_floors.py knows"
+            yield f"host/{name}: tools/check_floors.py lists no layer for this folder"
             continue
         for line, quote, target in read_includes(file):
             own = target in files
@@ -123,7 +123,7 @@ def check_host(host):
                 graph[name].append(target)
     cycle = find_cycle(graph)
     if cycle:
-        yield "host: a circle of includes: " + " -> ".join(cycle)
+        yield "host: a cycle of includes: " + " -> ".join(cycle)
 
 
 def check_kernels(root):
@@ -136,11 +136,11 @@ def check_kernels(root):
     for place, name in enumerate(order):
         for line, quote, target in read_includes(root / "kernels" / name):
             if quote == '"' and target not in order[:place]:
-                yield f"kernels/{name}:{line}: {target} is not before it in CMakeLists.txt's list"
+                yield f"kernels/{name}:{line}: {target} does not precede {name} in CMakeLists.txt"
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Fails when an #include does not go downward.")
+    parser = argparse.ArgumentParser(description="Fails if an #include violates the layers.")
     own_root = pathlib.Path(__file__).resolve().parent.parent
     parser.add_argument("--root", type=pathlib.Path, default=own_root, help="the checkout to read")
     root = parser.parse_args().root

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Turns NAME.glsl into the C string shader_NAME for each of NAMES; #include gives way to the file.
+# Turns NAME.glsl into the C string shader_NAME for each of NAMES. Included files replace #include.
 # Usage: cmake -DFOLDER=shaders "-DNAMES=a b" -DOUTPUT=file.c -P embed_shaders.cmake
 cmake_minimum_required(VERSION 3.25)
 separate_arguments(NAMES)

@@ -70,8 +70,7 @@ class Goals(unittest.TestCase):
     def test_errors_are_held_within_a_tenth(self):
         self.assertEqual(
             goals.summary([{"goals": goals.judge(self.ROWS)}]),
-            "of 2 errors asked for 1 are held within 1.1 E, 0 within E; "
-            "0 lie on their scene's front")
+            "1 of 2 error goals are met within 1.1 E, 0 within E; 0 lie on their scene's front")
 
 
 class Names(unittest.TestCase):

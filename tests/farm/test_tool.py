@@ -66,7 +66,7 @@ class Tool(unittest.TestCase):
     def test_another_command_does_not_mix_its_parts_in(self):
         self.farm("-o", "a.exr", "--parts", "2", "--on", "local")
         for more in ["--parts", "3"], ["--parts", "2", "--aa"]:
-            self.assertIn("a.exr.farm is of another command", self.farm("-o", "a.exr", *more, code=1))
+            self.assertIn("a.exr.farm belongs to another command", self.farm("-o", "a.exr", *more, code=1))
 
     def test_changed_scripts_stay(self):
         words = ["-o", "a.exr", "--parts", "2"]

@@ -111,8 +111,9 @@ def columns_of(options):
 
 def print_table(results, columns):
     heads = [*columns, *MODES]
-    print("Milliseconds a frame; x: clrt's time divided by that of Embree's best mode, and by that "
-          "of\nits single rays; differ: pixels that differ by more than 1/255.\n")
+    print("Milliseconds per frame. x best and x single are clrt's time divided by the time of "
+          "Embree's\nbest mode and of its single rays. differ: pixels that differ by more than "
+          "1/255.\n")
     print(f"{'scene':<10}{'variant':<9}{'threads':>7}"
           + "".join(f"{head:>{max(10, len(head) + 2)}}" for head in heads)
           + f"  {'best':<9}"
@@ -143,7 +144,7 @@ def builds_of(name, scene, runs, folder):
 
 
 def print_builds(builds):
-    print(f"\nMilliseconds to build the tree (clrt's with its arrays), "
+    print(f"\nMilliseconds to build the tree (for clrt, including its arrays), "
           f"{common.threads_of_machine()} threads\n")
     print(f"{'scene':<10}{'clrt':>10}" + "".join(f"{q:>10}" for q in QUALITIES))
     for build in builds:
@@ -153,8 +154,8 @@ def print_builds(builds):
 
 def run(options, folder):
     if not PEER.exists():
-        print("build/release/embree_peer is not there, since this machine has no Embree 3 "
-              "(libembree-dev of Debian 12), so the comparison with it is skipped.")
+        print("The comparison with Embree is skipped: build/release/embree_peer does not exist. "
+              "It needs Embree 3 (libembree-dev of Debian 12).")
         return None
     columns = columns_of(options)
     counts = [options.threads] if options.threads else sorted({1, common.threads_of_machine()})

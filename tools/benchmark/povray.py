@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Compares clrt with POV-Ray 3.7 from file to PNG: whole processes, alternating.
 
-Converts the scene to POV-Ray input. Meshes become text, because POV-Ray does not read PLY. POV-Ray
-uses the same shading formula, number of reflections and one sample per pixel.
+Converts the scene to POV-Ray input. Meshes become text, because POV-Ray does not read PLY. Both
+renderers use the same shading formula and number of reflections, and one sample per pixel.
 """
 
 import math
@@ -32,7 +32,7 @@ def finish_of(words, ambient):
     reflectivity, as in clrt."""
     figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"]}
     if words[0] != "matte":
-        raise ValueError(f"POV-Ray has no {words[0]} as clrt's")
+        raise ValueError(f"POV-Ray has no equivalent of clrt's {words[0]}")
     name = None
     for word in words[1:]:
         if word in figures:
@@ -109,7 +109,7 @@ class Contest:
         self.difference = None
 
     def run(self, ending):
-        """Draws with both renderers to files with that ending. Returns the seconds of each, and
+        """Draws with both renderers to files with this ending. Returns the seconds of each, and
         POV-Ray's messages."""
         kind = {"png": "N", "ppm": "P"}[ending]
         start = time.monotonic()
@@ -147,7 +147,7 @@ class Contest:
 
 
 def print_table(results):
-    print("From file to PNG, seconds of the whole process; apart: mean difference of the pictures"
+    print("Seconds of the whole process, from file to PNG. apart: mean difference of the pictures"
           "\n")
     print(f"{'scene':<10}{'variant':<9}{'clrt':>8}{'povray':>9}{'(traces)':>10}{'povray/clrt':>13}"
           f"{'apart':>9}")
@@ -160,7 +160,7 @@ def print_table(results):
 
 def run(options, folder):
     if shutil.which("povray") is None:
-        print("povray is not installed, so the comparison with it is skipped.")
+        print("The comparison with POV-Ray is skipped: povray is not installed.")
         return None
     contests = [Contest(name, variant, scenes.write(text, name, variant, folder), options, folder)
                 for name, text in scenes.texts(options.scenes).items()

@@ -28,9 +28,9 @@ static void usage(void)
     fprintf(stderr,
             "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
             "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
-            "MODE is single, packet8, packet16 or stream (all); -r is Embree's robust mode; KINDS\n"
-            "of rays called coherent are letters of csr (camera, shadow, reflected) or best: what\n"
-            "is fastest.  The picture is the last mode's.\n");
+            "MODE is single, packet8, packet16 or stream (all). -r selects Embree's robust mode.\n"
+            "KINDS are the coherent rays: letters of csr (camera, shadow, reflected), or best for\n"
+            "the fastest choice. The last mode draws the picture.\n");
     exit(2);
 }
 

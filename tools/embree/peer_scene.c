@@ -122,9 +122,9 @@ bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *sett
     *peer = (PeerScene){0};
     bool ok = scn_load(&scene, path, ply_parse, error);
     if (ok && (scene.spheres.count > 0 || scene_triangle_count(&scene) == 0))
-        ok = error_set(error, "%s: the peer draws scenes of triangles alone", path);
+        ok = error_set(error, "%s: embree_peer draws only triangles, at least one", path);
     if (ok && !knows_materials(&scene))
-        ok = error_set(error, "%s: the peer knows integers up to 1024 as shininess", path);
+        ok = error_set(error, "%s: embree_peer accepts only integer shininess up to 1024", path);
     peer->width = settings->width > 0 ? settings->width : scene.width;
     peer->height = settings->height > 0 ? settings->height : scene.height;
     peer->max_level = scene.max_level;

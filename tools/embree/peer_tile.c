@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
-// Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike clrt,
-// it makes triangles visible from both sides, and new rays start at a fixed distance from the
-// surface. Most users of Embree do both, and both are faster than filters.
+// Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
+// clrt, triangles are visible from both sides, and new rays start at a fixed distance from the
+// surface. Most users of Embree do both, and both are faster than Embree's filter functions.
 #include "calls.h"
 #include "peer_draw.h"
 

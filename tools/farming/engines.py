@@ -15,7 +15,7 @@ class Stage(collections.namedtuple("Stage", "script tasks")):
         return f"{self.script} {ranges(self.tasks or [])}".rstrip()
 
 
-# ssh notices a lost host after 15 s, and parallel tries the task on another one.
+# ssh notices a lost host after 15 s, and parallel retries the task on another host.
 SSH = "ssh -o BatchMode=yes -o ServerAliveInterval=5 -o ServerAliveCountMax=3"
 
 
@@ -31,12 +31,13 @@ def ranges(numbers):
 
 
 def are_queued(jobs):
-    found = subprocess.run(["squeue", "-h", "-j", jobs], capture_output=True, text=True, check=False)
+    found = subprocess.run(["squeue", "-h", "-j", jobs], capture_output=True, text=True,
+                           check=False)
     return found.returncode == 0 and found.stdout.strip() != ""
 
 
 def run_slurm(folder, stages):
-    """Submits each stage. It starts when the previous stage has succeeded."""
+    """Submits all stages. Each stage starts when the previous one has succeeded."""
     record, jobs = folder / "jobs", []
     if record.exists() and are_queued(record.read_text()):
         print(f"still queued or running: squeue -j {record.read_text()}")
@@ -63,14 +64,16 @@ def run_slurm(folder, stages):
 def run_parallel(hosts, folder, stage):
     """Runs the tasks on the hosts, one at a time on each."""
     script, log = (shlex.quote(str(folder / name)) for name in (f"{stage.script}.sh", "task-"))
-    return subprocess.run(["parallel", "--sshlogin", hosts, "--ssh", SSH, "--jobs", "1", "--retries", "3",
-                           "--joblog", str(folder / "joblog"), f"sh {script} {{}} >>{log}{{}}.log 2>&1",
+    return subprocess.run(["parallel", "--sshlogin", hosts, "--ssh", SSH, "--jobs", "1",
+                           "--retries", "3", "--joblog", str(folder / "joblog"),
+                           f"sh {script} {{}} >>{log}{{}}.log 2>&1",
                            ":::", *map(str, stage.tasks)], check=False).returncode
 
 
 def run_local(folder, stage):
     for task in stage.tasks or [""]:
-        status = subprocess.run(["sh", str(folder / f"{stage.script}.sh"), str(task)], check=False).returncode
+        status = subprocess.run(["sh", str(folder / f"{stage.script}.sh"), str(task)],
+                                check=False).returncode
         if status != 0:
             return status
     return 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the job scripts, unless they exist. Their users may have changed them."""
+"""Writes the job scripts, unless they exist, because users may have changed them."""
 
 import os
 import shlex
@@ -26,8 +26,8 @@ TASK = """\
 task=${1:-$SLURM_ARRAY_TASK_ID}
 """
 
-# A task that is requeued finds its number in the same variable. The part gets its final name last, so
-# that a file of that name is whole.
+# A requeued task reads its number from the same variable. The part gets its final name last, so
+# that a file with this name is complete.
 PART = """\
 part=$folder/part.$task.exr
 [ ! -e "$part" ] || exit 0
@@ -41,9 +41,9 @@ status=0
 "$CLRT" {words} --frames "{frames}$task/{parts}" --resume -o {output} || status=$?
 """
 
-# Slurm starts the task again later, on any host. Slurm also ends this script; until then, it sleeps.
+# Slurm starts the task again later, on any host. The script sleeps until Slurm ends it.
 END = """\
-# Status 75: a host that is cut off from the cluster still draws this.
+# Status 75: another host still draws this task, such as one cut off from the cluster.
 if [ $status = 75 ] && [ -n "${SLURM_JOB_ID-}" ]; then
     scontrol requeue "$SLURM_JOB_ID"
     sleep 600
@@ -57,16 +57,19 @@ MERGE = """\
 
 
 def write(folder, command, scripts):
-    """Writes the scripts to the folder. A script is (name, name of its log, folder in which it runs, lines)."""
+    """Writes the scripts to the folder. A script is (name, name of its log, folder in which it
+    runs, lines)."""
     first = folder / f"{scripts[0][0]}.sh"
     if first.exists():
         if f"\n# {command}\n" not in first.read_text():
-            sys.exit(f"{folder} is of another command: give that, or remove the folder")
+            sys.exit(f"{folder} belongs to another command: repeat that one, or remove the folder")
         return
     folder.mkdir(parents=True, exist_ok=True)
     for name, log, here, lines in scripts:
-        head = HEAD.format(name=f"clrt-{name}", log=log, command=command, here=shlex.quote(str(here)),
-                           clrt=shlex.quote(os.path.abspath(common.CLRT)), folder=shlex.quote(str(folder)))
+        head = HEAD.format(name=f"clrt-{name}", log=log, command=command,
+                           here=shlex.quote(str(here)),
+                           clrt=shlex.quote(os.path.abspath(common.CLRT)),
+                           folder=shlex.quote(str(folder)))
         (folder / f"{name}.sh").write_text(head + lines)
 
 
@@ -78,9 +81,10 @@ def write_farm(options, folder):
     frames = ["--frames", options.frames] if options.frames else []
     command = "tools/farm " + shlex.join([*words, *frames, "-o", options.output,
                                           "--parts", str(options.parts)])
+    output = options.output if options.numbers else os.path.abspath(options.output)
     values = {"words": shlex.join(words), "parts": options.parts,
               "frames": f"{options.frames}," if options.frames else "",
-              "output": shlex.quote(options.output if options.numbers else os.path.abspath(options.output))}
+              "output": shlex.quote(output)}
     lines = TASK + (FRAMES if options.numbers else PART).format(**values) + END
     merge = [] if options.numbers else [("merge", "merge.log", folder, MERGE.format(**values))]
     write(folder, command, [("task", "task-%a.log", os.getcwd(), lines), *merge])

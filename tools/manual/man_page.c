@@ -120,8 +120,8 @@ static void write_classes(FILE *stream)
     fputs(".El\n", stream);
 }
 
-// Writes the window's keys of --help, one per line. Two spaces separate a key from its meaning
-// there.
+// Writes the window's keys. --help lists one key per line, and two spaces separate a key from its
+// meaning.
 static void write_keys(FILE *stream)
 {
     char text[4096] = "";

@@ -87,7 +87,7 @@ bool closed_check(const Surface *surface, const char *name, Error *error)
     if (good) {
         sort_edges(surface, &edges);
         good = edges_have_twins(surface, &edges) ||
-               error_set(error, "the model %s is not closed: an edge lacks its one twin", name);
+               error_set(error, "the model %s is not closed: an edge has no unique twin", name);
     }
     if (good && !(enclosed_volume(surface) > 0))
         good = error_set(error, "the model %s is inside out", name);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Samples a field block by block, and skips blocks that the surface cannot reach. It then makes the
+// Samples a field block by block, and skips blocks that the surface cannot reach. Then makes the
 // inside well-composed (Latecki, Eckhardt, Rosenfeld, "Well-Composed Sets", CVIU 1995). In a
 // well-composed set, no two inside or outside samples touch only across the diagonal of a square or
-// cube. The border of such a set is a 2-manifold. Surface nets over it are therefore closed,
-// without edges of four triangles.
+// cube. The set's border is a 2-manifold, so surface nets are closed, and two triangles meet at
+// each edge.
 #include "grid.h"
 
 #include "base/array.h"
@@ -120,7 +120,7 @@ static void repair_cell(Grid *grid, size_t cell)
     *nearest = -REPAIR_DEPTH * (float)grid->cell;
 }
 
-// Returns whether it has changed a sample. The inside only grows, so repeated calls terminate.
+// Returns whether a sample has changed. The inside only grows, so repeated calls terminate.
 static bool repair_all(Grid *grid, const bool critical[256])
 {
     bool changed = false;

@@ -15,11 +15,12 @@
 // The fraction of the way to the neighbors' mean that a step moves.
 #define RELAX_SPEED 0.6
 
-// In one step, a vertex moves at most that many cells along the gradient. If the field has finer
+// In one step, a vertex moves at most this many cells along the gradient. If the field has finer
 // detail than the grid, a full step would fold the surface.
 #define LONGEST_STEP 0.5
 
-// The distance of the gradient's samples, in cells. It smooths creases that triangles cannot show.
+// The distance of the gradient's samples, in cells. The distance smooths creases that triangles
+// cannot show.
 #define GRADIENT_REACH 0.3
 
 // Six steps remove every fold in the models. A vertex moves only while it belongs to a bad quad.
@@ -111,7 +112,7 @@ static void sum_facings(const Surface *surface, Vec3 *facings)
     }
 }
 
-// Returns whether the triangle of that corner and the next two is a needle or folded over. Its area
+// Returns whether the triangle of this corner and the next two is a needle or folded over. Its area
 // along the vertex normals is then small compared with its edges.
 static bool triangle_is_bad(const Surface *surface, const uint32_t quad[4], int corner)
 {
@@ -153,7 +154,7 @@ static void untangle_step(Surface *surface, Vec3 *sums, double *counts, Vec3 *fa
     }
 }
 
-// Returns how badly the diagonal from that corner matches the surface: the distance of its middle
+// Returns how badly the diagonal from this corner matches the surface: the distance of its middle
 // from the surface, plus a fraction of its length. The length decides on flat surfaces.
 static double diagonal_fault(const Surface *surface, const Model *model, const uint32_t quad[4],
                              int corner)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Guards against memory faults that slipped through: checked string functions, stack protectors,
-# addresses that differ in every run, tables of functions that cannot be written.
+# Makes memory faults harder to exploit: checked string functions, stack protectors, addresses that
+# differ in every run, read-only tables of functions.
 include(CheckCCompilerFlag)
 include(CheckPIESupported)
 check_pie_supported(LANGUAGES C)

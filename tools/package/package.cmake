@@ -38,7 +38,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The clrt authors")
 # Packagers set their own name and address. The authors have no address.
 set(CLRT_MAINTAINER "The clrt authors <nobody@clrt.invalid>" CACHE STRING
-    "Name and address of whoever maintains the Debian packages")
+    "Name and address of the maintainer of the Debian packages")
 set(CPACK_PACKAGE_CONTACT ${CLRT_MAINTAINER})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
@@ -56,8 +56,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME clrt)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "ray tracer on OpenCL with the same bits on every device
 clrt traces scenes of triangle meshes and spheres with OpenCL kernels, on CPUs
 and GPUs, to a file or in a window. The same scene and settings give the same
-picture, bit for bit, on every device; nothing leaks where triangles meet; and
-a check tells what is wrong in a mesh.")
+picture, bit for bit, on every device. No ray leaks between the triangles of a
+closed mesh, and clrt check reports the faults of meshes.")
 if(CLRT_WITH_LIBRARY)
   include(tools/package/library_package.cmake)
 endif()

@@ -3,8 +3,8 @@
 
 
 def mark(rows):
-    """Sets "front" of each row to whether no other row beats it: at least as fast and accurate, and
-    better in one of them."""
+    """Sets "front" of each row: whether no other row is at least as fast and as accurate, and
+    better in time or accuracy."""
     for row in rows:
         row["front"] = not any(
             other["milliseconds"] <= row["milliseconds"] and other["rmse"] <= row["rmse"]
@@ -18,6 +18,6 @@ def front(rows):
 
 
 def time_at(rows, rmse):
-    """Returns the fastest row with at most that error, or None."""
+    """Returns the fastest row with at most this error, or None."""
     within = [row for row in rows if row["rmse"] <= rmse]
     return min(within, key=lambda row: row["milliseconds"], default=None)

@@ -15,7 +15,7 @@ def table(head, rows):
 def beside(rival):
     """Returns a goal's cost as multiples of a rival's time and samples."""
     if rival is None:
-        return "none holds it"
+        return "no setting meets it"
     return (f"{rival['times']:.2f} x time, {rival['samples_ratio']:.2f} x samples<br>"
             f"of {html.escape(rival['setting'])}, {rival['milliseconds']:.1f} ms")
 
@@ -31,18 +31,18 @@ def error_row(goal):
 def time_row(goal):
     best = goal["fixed"]
     rival = (f"{best['errors']:.2f} x the error of {html.escape(best['setting'])}, "
-             f"{100 * best['rmse']:.4f} %" if best else "none is as fast")
+             f"{100 * best['rmse']:.4f} %" if best else "no setting is as fast")
     return [f"{goal['goal']:g} s", f"{goal['milliseconds'] / 1e3:.2f} s",
             f"{100 * goal['rmse']:.4f} %", f"{100 * goal['estimate']:.4f} %",
             "yes" if goal["front"] else "no", rival]
 
 
-ERROR_HEAD = ["E asked for", "true RMSE", "of E", "estimated", "ms", "on the front",
-              "beside the best fixed setting", "beside the best uniform one"]
-TIME_HEAD = ["time asked for", "taken", "true RMSE", "estimated", "on the front",
-             "beside the best fixed setting that takes no longer"]
-NOTE = ('<p class="note">What is estimated contains the most that rays beyond the highest level '
-        "could change, which asking for an error lowers and asking for a time does not.</p>")
+ERROR_HEAD = ["goal E", "true RMSE", "in units of E", "estimated", "ms", "on the front",
+              "compared with the best fixed setting", "compared with the best uniform setting"]
+TIME_HEAD = ["goal", "time", "true RMSE", "estimated", "on the front",
+             "compared with the best fixed setting that takes no longer"]
+NOTE = ('<p class="note">The estimate includes the largest possible effect of rays beyond the '
+        "highest level. An error goal lowers this effect, a time goal does not.</p>")
 
 
 def of_scene(scene):
@@ -67,4 +67,4 @@ def of_all(scenes):
     rows = [[html.escape(scene["scene"]), *map(short, scene["goals"]["errors"])]
             for scene in scenes]
     return (table(["scene", *(f"E = {100 * goal:g} %" for goal in asked)], rows)
-            + f'<p class="note">Of{goals.summary(scenes)[2:]}.</p>')
+            + f'<p class="note">{goals.summary(scenes)}.</p>')

@@ -61,5 +61,5 @@ def summary(scenes):
     held = sum(goal["held"] for goal in errors)
     strictly = sum(goal["ratio"] <= 1 for goal in errors)
     on_front = sum(goal["front"] for goal in errors)
-    return (f"of {len(errors)} errors asked for {held} are held within {MARGIN:g} E, {strictly} "
-            f"within E; {on_front} lie on their scene's front")
+    return (f"{held} of {len(errors)} error goals are met within {MARGIN:g} E, {strictly} within "
+            f"E; {on_front} lie on their scene's front")

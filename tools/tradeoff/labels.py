@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Places the names of points so that they cover neither names nor points. Each name takes the
+"""Places the names of points so that no name covers another name or a point. Each name takes the
 nearest free position around its point. A thin line leads to a distant name."""
 
 import math

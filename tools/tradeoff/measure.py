@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A scene and settings -> rows of figures, with time and with error against one reference."""
+"""A scene and settings -> rows of figures: times, and errors relative to one reference."""
 
 import json
 import pathlib
@@ -151,7 +151,7 @@ def run_task(options):
 
 
 def stored_rows(scene, options, folder):
-    """Returns the rows of run_task, and those of settings that their results demand."""
+    """Returns the rows of run_task, and rows of more uniform settings that meet the error goals."""
     places = range(len(grid.all_settings(options.quick, options.kinds)))
     rows = [json.loads((folder / f"{place}.row").read_text()) for place in places]
     more = [first_row(len(rows) + place, setting, scene, options, folder)
@@ -162,7 +162,8 @@ def stored_rows(scene, options, folder):
 
 
 def measured_rows(scene, options, folder):
-    """Measures all settings of a scene. They alternate, so that drift of the machine affects all."""
+    """Measures all settings of a scene. They alternate, so that drift of the machine affects all
+    of them."""
     rows = first_rows(scene, options, folder)
     for turn in range(options.runs):
         for row in rows if turn % 2 == 0 else reversed(rows):
@@ -175,7 +176,8 @@ def measure_scene(scene, name, options, folder):
     """Returns all figures of one scene."""
     folder.mkdir(parents=True, exist_ok=True)
     if options.task:
-        report, rows = json.loads((folder / "reference.json").read_text()), stored_rows(scene, options, folder)
+        report = json.loads((folder / "reference.json").read_text())
+        rows = stored_rows(scene, options, folder)
     else:
         report, rows = draw_reference(scene, options, folder), measured_rows(scene, options, folder)
     for row in rows:

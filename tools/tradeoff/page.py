@@ -78,7 +78,8 @@ def png_of_pfm(path):
 
 def shown_rows(rows):
     """Returns the rows whose pictures are shown: the fastest row, the row of grid.BASE, the most
-    accurate row that takes no longer than it, the second row of --error, and the most accurate row."""
+    accurate row that is not slower than BASE, the second row of --error, and the most accurate
+    row."""
     best = front.front(rows)
     base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
     rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]
@@ -127,26 +128,26 @@ def section(scene, folder):
         f"<h2>{html.escape(scene['scene'])}</h2>"
         f"<p>{scene['triangles']} triangles, {settings['width']} x {settings['height']} pixels, "
         f"rays up to level {settings['max_level']}. The reference has {reference['samples']} "
-        f"samples a pixel in fp64; two independent halves of it put its own RMSE at "
+        f"samples per pixel in fp64. Its own RMSE, estimated from two independent halves, is "
         f"{100 * reference['own_error']:.4f} %. {beaten} of the "
-        f"{len(scene['rows'])} settings are shown in gray, because another is as fast and less "
-        "wrong.</p>"
+        f"{len(scene['rows'])} settings are shown in gray, because another setting is better in "
+        "time or error and not worse in the other.</p>"
         f'<div class="wide">{plot.svg([scene])}</div>{table(scene["rows"])}'
         f"{goal_tables.of_scene(scene)}"
         "<h3>Pictures, and where they differ from the reference</h3>"
-        '<p class="note">Brightness of a difference is its square root: 1/255 shows as 1/8, 4/255 '
-        f"as 1/4, 64/255 and more as full.</p>{pictures(scene, folder)}")
+        '<p class="note">The brightness of a difference is proportional to its square root: 1/255 '
+        f"appears as 1/8, 4/255 as 1/4, and 64/255 or more as 1.</p>{pictures(scene, folder)}")
 
 
 def goal_section(scenes):
     if not goals.all_errors(scenes):
         return ""
     return (
-        "<h2>What goals hold and cost</h2><p>Each error E that is asked for by "
-        "<code>--error</code>: the true RMSE against the reference, in parts of E; under it the "
-        "time, as a multiple of that of the fastest fixed setting that holds E, and of that of the "
-        "fewest N x N samples everywhere that do. A fixed setting must be known "
-        "beforehand; an error goal finds it.</p>"
+        "<h2>The results and costs of error goals</h2><p>For each goal E of <code>--error</code>, "
+        "the first line is the true RMSE against the reference, in units of E. The second line is "
+        "the time, divided by the time of the fastest fixed setting that meets E, and by the time "
+        "of the fewest N x N samples per pixel that meet E. Users must find such a setting by "
+        "trial; an error goal finds the samples by itself.</p>"
         f"{goal_tables.of_all(scenes)}")
 
 
@@ -159,11 +160,11 @@ def method(scenes):
         f"<p>clrt {html.escape(scenes[0]['version'])} on {html.escape(device['name'])} "
         f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
         f"threads; {packages}; {datetime.date.today()}.</p>"
-        f'<p class="note">Times are medians of {runs} rounds in which the settings alternate; '
-        "a round's figure is the faster of two frames after a first that is not counted, tracing "
-        "alone. RMSE is of the values as stored, over all three colors. SSIM and FLIP (mean, 67 "
-        "pixels a degree) estimate the visible difference. A factor below 1 means faster than the "
-        f"base ({html.escape(grid.BASE)}, the course's).</p>")
+        f'<p class="note">Times are medians of {runs} rounds in which the settings alternate. In '
+        "each round, the tracing time of the faster of two frames counts, after a first frame that "
+        "does not count. RMSE covers the stored values of all three colors. SSIM and FLIP (mean, "
+        "67 pixels per degree) estimate the visible difference. A factor below 1 means faster than "
+        f"the base ({html.escape(grid.BASE)}, the course's setting).</p>")
 
 
 def write(path, scenes, folder):
@@ -173,8 +174,8 @@ def write(path, scenes, folder):
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width"><title>clrt: time against error</title>'
         f"<style>{STYLE}</style></head><body><h1>Time against error</h1>{method(scenes)}"
-        "<h2>What an error costs</h2><p>The fastest setting within each error, and its time as a "
-        f"multiple of the base's.</p>{prices(scenes)}{goal_section(scenes)}{sections}"
+        "<h2>The cost of an error</h2><p>The fastest setting within each error, and its time "
+        f"divided by the base's.</p>{prices(scenes)}{goal_section(scenes)}{sections}"
         "</body></html>\n",
         encoding="utf-8")
     (folder / "trade.svg").write_text(plot.svg(scenes) + "\n", encoding="utf-8")

@@ -16,10 +16,10 @@ from tradeoff import front, grid, labels  # noqa: E402
 
 COLUMNS = 3
 KINDS = [("uniform", "uniform samples", "#0b62c4", "o"),
-         ("levels", "rays followed less far", "#c2410c", "v"),
+         ("levels", "fewer reflections", "#c2410c", "v"),
          ("fp64", "fp64", "#6b7280", "s"), ("adaptive", "adaptive samples", "#15803d", "D"),
-         ("error", "an error as the goal", "#a21caf", "*"),
-         ("time", "a time as the goal", "#b45309", "P")]
+         ("error", "error goals", "#a21caf", "*"),
+         ("time", "time goals", "#b45309", "P")]
 
 
 def draw_rows(axes, rows):

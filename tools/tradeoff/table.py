@@ -32,7 +32,7 @@ def show(scene):
 
 def rival_text(rival):
     if rival is None:
-        return f"{'no setting holds':29}"
+        return f"{'no setting meets it':29}"
     return (f"{rival['times']:6.2f} x time, {rival['samples_ratio']:5.2f} x samples of "
             f"{rival['setting']:22}")
 
@@ -49,6 +49,6 @@ def show_goals(scenes):
             best = goal["fixed"]
             beside = f"{best['errors']:.2f} x the error of {best['setting']}" if best else "alone"
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} {goal['goal']:g} s: "
-                   f"{goal['seconds_ratio']:.2f} of it taken, RMSE {goal['rmse']:.2e}, {beside}")
+                   f"took {goal['seconds_ratio']:.2f} of it, RMSE {goal['rmse']:.2e}, {beside}")
     if goals.summary(scenes):
         yield goals.summary(scenes)
