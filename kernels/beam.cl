@@ -26,7 +26,7 @@ typedef struct {
     Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
     uint live[PACKETS];   // bits of the lanes that search
-    float reach[PACKETS]; // largest hit distance of those lanes
+    float reach[PACKETS]; // largest hit distance of the live lanes
     Hit hits[PACKETS];
     WideStack stack;
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent

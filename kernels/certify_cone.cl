@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray cone holds two rays: the exact ray on the stored scene, in real arithmetic, and the ray of
-// a tracer with unit roundoff u. If all rays of the cone lead to the same decision, with all errors
-// of the tracer's tests included, no rounding can change that decision.
+// A ray cone holds two rays: the exact ray on the stored scene, and the ray of a tracer with unit
+// roundoff u. If all rays of the cone lead to one decision, with all errors of the tracer's tests
+// included, no rounding can change this decision.
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
 // OWN_ROUNDOFF covers the rounding of this program for either u. The bounds require two things:

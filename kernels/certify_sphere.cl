@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray cone against sphere. sphere.cl computes with sums of two floats. For unit roundoff u, the
 // error of its discriminant radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| +
-// radius + |center|), where f leads from the center to the origin. The error of its foot of the
+// radius + |center|). Here f leads from the center to the origin. The error of its foot of the
 // perpendicular is below 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger effect
 // than either error, and than the error of sphere_power. All other terms of a distance have a
 // relative error below 8u.

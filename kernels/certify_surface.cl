@@ -149,9 +149,9 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
 // ray's line may miss its own triangle. The edge is then nearer than the errors of the point (11u
-// per axis) and of the corners (14u of their distance), divided by the sine of the angle at which
-// the ray leaves. The tracer ignores edges farther than 64u / sine. Near an edge, the start may
-// move by 256u / sine along the surface, on each axis.
+// per axis) and of the corners (14u of their distance), divided by the sine of the ray's angle to
+// the face. The tracer ignores edges farther than 64u / sine. Near an edge, the start may move by
+// 256u / sine along the surface, on each axis.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u)
 {

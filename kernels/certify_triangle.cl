@@ -230,8 +230,8 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 }
 
 // Returns whether a ray that leaves a triangle certainly misses a coincident one. It does if
-// height_over returns zero for the ray's start. hits_neighbor then compares the triangles and finds
-// neither in front of the other: the height of an edge over its own plane is below 6u n.|edge|,
+// height_over returns zero for the ray's start. Then hits_neighbor compares the triangles and finds
+// neither in front of the other. The height of an edge over its own plane is below 6u n.|edge|,
 // less than height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the
 // products' magnitudes. The computed height of the start is the sum of these errors:
 //  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its

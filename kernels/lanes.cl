@@ -4,9 +4,9 @@
 // they are vectors with one ray per lane. Comparisons then return -1 or 0 per lane, and && || ! and
 // ?: select per lane. Both families compile the same source, so they compute the same bits.
 //
-// For vectors, && || and ?: evaluate both sides in all lanes. Code must not rely on a condition to
-// keep a lane from the other side: every lane needs valid indices there, and neither side may have
-// side effects. A scalar branch on any_lane() skips work that no lane needs.
+// For vectors, && || and ?: evaluate both sides in all lanes. Every lane therefore needs valid
+// indices on both sides, and neither side may have side effects. A scalar branch on any_lane()
+// skips work that no lane needs.
 #ifndef CLRT_LANES_CL
 #define CLRT_LANES_CL
 #include "config.h"

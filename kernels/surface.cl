@@ -202,8 +202,8 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
-// the point moves within the plane toward the triangle's middle: by UNIT_ROUNDOFF / sine first,
-// then by 2, 4, up to 256 times as much.
+// the point moves within the plane toward the triangle's middle. The steps are UNIT_ROUNDOFF / sine
+// times 1, 2, 4 and so on to 256.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
                                      const Heading *heading, Real sine, Mask near_edge)
 {
