@@ -17,7 +17,6 @@ typedef Shear WideShear;
 typedef Corners WideCorners;
 typedef Edges WideEdges;
 typedef SurfaceRay WideSurfaceRay;
-typedef Sides WideSides;
 #elif CLRT_WIDE_NODES
 #define Real       float8
 #define Mask       int8

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
 
 typedef float Floats __attribute__((vector_size(4 * LANES)));

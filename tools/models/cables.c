@@ -6,8 +6,6 @@
 #include "base/array.h"
 #include "base/vec.h"
 
-#include <string.h>
-
 #define CABLES   900
 #define SIDES    6 // each cap consists of two quads
 #define SEGMENTS 6
