@@ -8,8 +8,9 @@
 
 #if CLRT_WIDE_NODES
 
-// No ray crosses an entry plane before the smaller of fma(plane, inverse, near) for the lowest and
-// the highest inverse. No ray crosses an exit plane after the larger of fma(plane, inverse, far).
+// All rays enter a plane at or after the smaller of fma(plane, inverse_low, near_low) and
+// fma(plane, inverse_high, near_high). They leave at or before the larger of
+// fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high).
 typedef struct {
     uint negative; // the rays enter by the higher plane
     float inverse_low, inverse_high;
@@ -40,7 +41,7 @@ static inline float highest(Real v)
 }
 
 // The extremes of rays' inverse directions and origins on an axis, lane by lane. Each origin is
-// moved by its slack, and by the slack that nodes have and boxes of single triangles lack.
+// moved by its own slack, and by the slack of nodes, which boxes of single triangles lack.
 typedef struct {
     Real inverse_low, inverse_high, behind, ahead;
 } AxisRange;
@@ -94,7 +95,8 @@ static inline float8 leave_bound(float8 plane, const AxisBounds *bounds)
     return max(low, high);
 }
 
-// Returns the planes of the children's boxes that the rays enter by, or the opposite ones.
+// Returns the planes by which the rays enter the children's boxes. If other is 1, returns the
+// planes by which they leave.
 static inline float8 node_plane(global const BvhWide *node, const Bounds *bounds, uint axis,
                                 uint other)
 {
@@ -116,7 +118,8 @@ static inline int8 children_near(global const BvhWide *node, const Bounds *bound
     return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
 }
 
-// Returns the planes of the triangles' boxes that the rays enter by, or the opposite ones.
+// Returns the planes by which the rays enter the triangles' boxes. If other is 1, returns the
+// planes by which they leave.
 static inline float8 block_plane(global const TriangleBlock *block, const Bounds *bounds, uint axis,
                                  uint other)
 {

@@ -81,8 +81,8 @@ static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions 
     return true;
 }
 
-// Returns the certainty of the pixel's least certain sample. decisions receives the last examined
-// sample's.
+// Returns the certainty of the pixel's least certain sample. decisions receives the decisions of
+// the last examined sample.
 static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decisions *decisions)
 {
     const uint side = tracer->frame->samples;

@@ -7,8 +7,8 @@
 // OWN_ROUNDOFF covers the rounding of this program for either u. The bounds require two things:
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (vector.inc.cl). This holds
-//    if each nonzero sheared coordinate of a corner is at least 2^-51, in the normalized frame. The
-//    kernel does not check this.
+//    if no sheared coordinate of a corner is nonzero and smaller than 2^-51, in the normalized
+//    frame. The kernel does not check this.
 // The bounds follow in the order in which a ray needs them. |.| is the Euclidean length unless
 // noted.
 //
@@ -55,7 +55,7 @@ typedef struct {
     Real3 origin, along, right, up; // all but origin are of length 1 and perpendicular
     Real around;         // bound on the distance of the cone's rays from the origin at their start
     Real spread;         // bound on the tangent of their angle to `along`
-    Real tilt;           // lower bound of the sine between them and the longest axis
+    Real tilt;           // upper bound of the sine of their angle to the longest axis
     Real length;         // of a shadow ray, up to the light; else INFINITY
     Real u;              // unit roundoff of the tracer being checked
     UInt own, own_index; // as in Ray

@@ -45,7 +45,7 @@ static inline Real growth_at(const RayCone *ray, Real far)
     return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
 }
 
-// A zero direction is replaced by one whose deviation is smaller than the rounding.
+// Replaces a zero direction by a small one, whose deviation is below the rounding.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);

@@ -51,7 +51,7 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Records the point's least distance from the edges under sliding.
+// Records a lower bound on the distance between the edges and the point, which may slide.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);

@@ -32,7 +32,7 @@
 #define CLRT_PACKET 0 // a work-item renders a block of pixels
 #endif
 #ifndef CLRT_SIGNATURES
-#define CLRT_SIGNATURES 0 // samples carry a signature of what they saw
+#define CLRT_SIGNATURES 0 // samples have signatures (SampleData)
 #endif
 #ifndef CLRT_FP64
 #define CLRT_FP64 0 // Real is double: one ray per work-item, binary nodes

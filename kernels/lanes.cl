@@ -166,7 +166,7 @@ static inline UInt gather(global const uint *words, UInt place)
     return words[place];
 }
 
-// Returns the float of the scene whose bits are given.
+// Converts the bits of a float in the scene's arrays to a Real.
 static inline Real stored_real(UInt word)
 {
     return as_float(word);

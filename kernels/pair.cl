@@ -14,8 +14,8 @@ static inline Real2 plane_distances(global const BvhPair *node, uint2 plane, Rea
     return fma((Real2)(planes[0], planes[1]), (Real2)(inverse), (Real2)(offset));
 }
 
-// Computes the interval [entry, leave] of the ray inside each child's box. It is empty if the ray
-// misses.
+// Computes the interval [entry, leave] of the ray inside each child's box. The interval is empty if
+// the ray misses the box.
 static inline void intersect_slabs(global const BvhPair *node, const Search *search, Real reach,
                                    Real2 *entry, Real2 *leave)
 {

@@ -19,7 +19,7 @@ static inline TwoFloat two_sum(Real a, Real b)
     return (TwoFloat){sum, (a - (sum - part)) + (b - part)};
 }
 
-// The same sum if |a| >= |b|.
+// Returns the result of two_sum if |a| >= |b|.
 static inline TwoFloat two_sum_ordered(Real a, Real b)
 {
     const Real sum = a + b;
@@ -151,7 +151,7 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 
 // Returns whether plain floats already prove that the line misses the sphere. Their error is below
 // 16 units of rounding of the squares of all lengths involved; 64 are allowed. Most spheres then
-// need no exact test. Without it, the exact tests of three spheres take half of a picture's time.
+// need no exact test. Testing three spheres exactly for all rays takes half of a picture's time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =

@@ -9,7 +9,7 @@ on_terminal() {
 }
 
 # Shows the progress of a command whose output it reads. Lines of ninja, ctest and apt-get
-# (APT::Status-Fd) contain a percentage. Passes lines through that match the pattern $2, if given.
+# (APT::Status-Fd) contain a percentage. Also prints the lines that match the pattern $2, if given.
 show_progress() {
     local name=$1 passed=${2-} percent= line= part status
     while :; do
