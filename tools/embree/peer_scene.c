@@ -11,8 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// The corners of a triangle have the order in which clrt stores them, because their normals have
-// this order.
+// Adds each triangle's corners in clrt's stored order, which is also the order of its normals.
 static bool add_triangles(RTCGeometry geometry, const Triangles *triangles)
 {
     float(*points)[3] =

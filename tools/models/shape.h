@@ -134,26 +134,26 @@ static inline double shape_torus(Vec3 p, Vec3 center, double ring, double tube)
     return sqrt(out * out + d.z * d.z) - tube;
 }
 
-// A tube of that radius along the line where the surfaces of a and b intersect.
+// A tube of this radius along the line where the surfaces of a and b intersect.
 static inline double shape_seam(double a, double b, double radius)
 {
     return sqrt(a * a + b * b) - radius;
 }
 
-// The union of two shapes, with their seam filled to that width.
+// The union of two shapes, with their seam filled to this width.
 static inline double shape_join(double a, double b, double blend)
 {
     const double near = shape_larger(blend - fabs(a - b), 0);
     return shape_smaller(a, b) - near * near / (4 * blend);
 }
 
-// The intersection of two shapes, with the edge rounded to that width.
+// The intersection of two shapes, with the edge rounded to this width.
 static inline double shape_overlap(double a, double b, double blend)
 {
     return -shape_join(-a, -b, blend);
 }
 
-// a without b, with the edge rounded to that width.
+// a without b, with the edge rounded to this width.
 static inline double shape_cut(double a, double b, double blend)
 {
     return shape_overlap(a, -b, blend);
