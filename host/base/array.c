@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grows ARRAYs by doubling, and reports failed allocations through Error.
+// Errors, arrays and memory. Grows ARRAYs by doubling, and reports failed allocations through
+// Error.
 #include "base/array.h"
 
 #include "base/error.h"
@@ -10,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-
-// Formats the first failure into the caller's Error.
 
 bool error_set(Error *error, const char *format, ...)
 {
@@ -33,8 +32,8 @@ bool error_out_of_memory(Error *error, unsigned long long bytes)
 #define ALIGNMENT ((size_t)64)
 
 // Large arrays request huge pages. Rays read a tree's nodes in random order, so with small pages
-// every second read misses the TLB. The page faults of small pages also cost a loader more time
-// than filling the memory.
+// every second read misses the TLB. While a file is loaded, the page faults of small pages also
+// take longer than filling the memory.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <sys/types.h>
 
-// {0}: no child.
+// {0} means no child.
 typedef struct {
     pid_t id;
     int socket; // to the child
@@ -18,7 +18,7 @@ typedef struct {
 typedef void ChildWork(int socket, const void *context);
 
 // Starts a copy of this process that calls work(socket, context) and is killed when this process
-// ends. Its standard input and output are empty. Only main may call child_fork, before other
+// ends. Its standard input and output are /dev/null. Only main may call child_fork, before other
 // threads start. On failure, returns false, and *cause receives the reason without a file name.
 bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
 
@@ -43,26 +43,26 @@ typedef struct {
 typedef enum {
     CHILD_DONE,
     CHILD_LATE,    // reached a time limit, its own or the parent's
-    CHILD_LONG,    // exceeded the limit of its output
+    CHILD_LONG,    // wrote more than ChildLimits allows
     CHILD_LOST,    // the output could not be read
     CHILD_CRASHED, // ended by a signal
-    CHILD_FAILED   // ended with another status than 0
+    CHILD_FAILED   // exited with a nonzero status
 } ChildFate;
 
-// Reads the child's output until it closes the socket, then ends it. The caller frees output, also
-// after a failure. *signal is the signal that ended the child, or 0. error receives a message only
-// if memory runs out.
+// Reads output until the child closes the socket, then ends the child. The caller frees output,
+// also after a failure. *signal is the signal that ended the child, or 0. error receives a message
+// only if memory runs out.
 ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
                         Error *error);
 
 // The following limits are for processes that read possibly hostile files. They cannot be lifted.
 
-// Ends this process when the thread that started it ends, and after this many seconds of processor
-// or wall time. From now on, the process gains no privileges, writes no file and dumps no core.
+// Ends this process when the thread that started it ends, and after `seconds` of processor or wall
+// time. From now on, the process gains no privileges, writes no file and dumps no core.
 void confine_process(unsigned seconds);
 
 // Limits a resource, such as RLIMIT_AS, to `most`, unless the system's limit is lower.
 void confine_resource(int resource, rlim_t most);
 
-// Returns the bytes mapped into this process so far, 0 if the system does not report them.
+// Returns the bytes mapped into this process so far, or 0 if the system does not report them.
 rlim_t confine_mapped_memory(void);

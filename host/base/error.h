@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The first cause of a failure, as one sentence for the user. Faults of the world return false and
-// fill an Error; our own faults assert. If a function that makes, opens or reads a value fails,
-// there is nothing to free, and freeing the value is harmless. Headers name the exceptions.
+// The first cause of a failure, as one sentence for the user. Functions that fail return false and
+// fill an Error. Programming errors assert. If a function cannot make, open or read a value,
+// freeing the value is unnecessary but harmless. Headers name the exceptions.
 #pragma once
 
 #include <stdbool.h>
 
 typedef struct {
-    char text[4096]; // empty without a failure; build logs fit
+    char text[4096]; // empty without a failure; long enough for most build logs
 } Error;
 
 // Records the failure and returns false, so that a caller can `return error_set(...)`. An error

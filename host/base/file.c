@@ -105,7 +105,7 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
     return joined;
 }
 
-// Links to the program are followed: its companion files are beside the file itself.
+// Returns false without /proc. The system resolves links, so the folder is that of the real file.
 static bool own_folder(char folder[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
@@ -115,7 +115,7 @@ static bool own_folder(char folder[PATH_MAX])
     char *slash = strrchr(folder, '/');
     if (slash == NULL)
         return false;
-    slash[slash == folder] = '\0'; // the root remains
+    slash[slash == folder] = '\0'; // keeps the slash of the root folder
     return true;
 }
 

@@ -31,9 +31,9 @@ bool file_has_ending(const char *path, const char *ending);
 // frees the result. Returns NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
-// Fills path with the place of a companion file of the running program: in the program's own
-// folder, as in a build tree, or else in `folder`, relative to it. Returns false if the system does
-// not report the program's folder, as without /proc. There is no fallback: the current folder may
-// hold anybody's files.
+// Fills path with the path of a companion file of the running program. The file is in the program's
+// own folder, as in a build tree, or else in `folder`, which is relative to the program's folder.
+// Returns false if the system does not report the program's folder, as without /proc. The current
+// folder is no fallback, because it may hold anybody's files.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

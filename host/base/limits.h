@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#define COORDINATE_MOST 1e30 // larger values could overflow when squared
+#define COORDINATE_MOST 1e30 // products of several coordinates stay finite in fp64
 #define RADIUS_LEAST    1e-30
 #define RADIUS_MOST     1e30
 #define INTENSITY_MOST  1e30

@@ -10,5 +10,5 @@
 // range of double becomes an infinity, which the caller must reject.
 const char *number_parse(const char *text, const char *end, double *value);
 
-// Parses a decimal integer with an optional sign. Returns NULL also if it exceeds int64_t.
+// Parses a decimal integer with an optional sign. Returns NULL also if the number exceeds int64_t.
 const char *integer_parse(const char *text, const char *end, int64_t *value);

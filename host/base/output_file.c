@@ -25,8 +25,8 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Creates an empty file with an unused name, whose last SUFFIX_SIZE bytes it writes to suffix. The
-// system applies the umask, which cannot be read without changing it for all threads.
+// Creates an empty file with an unused name. Writes the name's last SUFFIX_SIZE bytes to suffix.
+// Unlike mkstemp, open applies the umask, which programs can read only by changing it.
 static bool make_file(char *suffix, const char *name)
 {
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
@@ -43,8 +43,8 @@ static bool make_file(char *suffix, const char *name)
     return false;
 }
 
-// Creates a temporary file in the folder of path, so that it can be renamed, or, unless `beside`,
-// in the system's temporary folder. Returns its path, which the caller frees, or NULL.
+// Creates a temporary file: if `beside`, in the folder of path, so that it can be renamed,
+// otherwise in the system's temporary folder. Returns its path, which the caller frees, or NULL.
 static char *temporary_file(const char *path, bool beside, Error *error)
 {
     const char *slash = strrchr(path, '/');

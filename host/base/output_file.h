@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A file that appears complete or not at all. clrt writes a temporary file beside the final name
-// and then renames it. A file must not replace links, pipes and devices, so clrt copies the
-// finished bytes into them.
+// Output files appear complete or not at all. clrt writes a temporary file beside the final name
+// and then renames it. Renaming would replace links, pipes and devices, so clrt copies the finished
+// bytes into them.
 #pragma once
 
 #include "base/error.h"
@@ -21,8 +21,8 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error);
 // false or the move fails. If the move fails, cause holds the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
-// Calls write with a stream and creates the file from what it writes. write returns false if it
-// fails, and then cause or errno has the reason. The error message names the path.
+// Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns
+// false, and cause or errno has the reason. The error message names the path.
 typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 

@@ -9,11 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-// In version 2, /proc/self/cgroup has one line "0::/path", and each group has a file cpu.max. In
-// version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group has a file
-// for the quota and one for the period. In a container, the path may not exist below the mount,
-// because the mount begins at the container's group. The search therefore reads every parent folder
-// up to the mount.
+// In cgroup version 2, /proc/self/cgroup has one line "0::/path", and each group has a file
+// cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group
+// has a file for the quota and one for the period. In a container, the path may not exist below the
+// mount, because the mount begins at the container's group. The search therefore reads every parent
+// folder up to the mount.
 
 #define PATH_SIZE 4096
 
@@ -30,8 +30,8 @@ static bool read_numbers(const char *folder, const char *name, int count, double
     return found == count;
 }
 
-// Returns the group's quota in processors, rounded up. A quota of "max" or -1 means no limit, for
-// which it returns UINT32_MAX.
+// Returns the group's quota in processors, rounded up. A quota of "max" or -1 means no limit and
+// gives UINT32_MAX.
 static uint32_t group_grant(const char *folder)
 {
     double time[2]; // quota and period
@@ -68,7 +68,7 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Returns the least quota of a version 1 group. Its controller is mounted alone, as "cpu", or
+// Returns the least quota of a version 1 group. The controller is mounted alone, as "cpu", or
 // together with others, as "cpu,cpuacct".
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {

@@ -10,6 +10,6 @@ uint32_t processors_present(void);
 uint32_t processors_usable(void);
 
 // Returns the processor time that a control group's files grant: the least quota of the group and
-// its ancestors, in processors, rounded up; UINT32_MAX without a quota. Handles versions 1 and 2.
-// membership is /proc/self/cgroup and mount is /sys/fs/cgroup, except in tests.
+// its ancestors, in processors, rounded up; UINT32_MAX without a quota. Handles cgroup versions 1
+// and 2. membership is /proc/self/cgroup and mount is /sys/fs/cgroup, except in tests.
 uint32_t cgroup_processors(const char *membership, const char *mount);

@@ -22,7 +22,7 @@ struct ThreadPool {
     atomic_bool closing;
     pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
-    uint32_t worker_count; // the caller's thread does not count
+    uint32_t worker_count; // excludes the caller's thread
     pthread_t workers[];
 };
 

@@ -22,8 +22,8 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
 // Processes elements first to end - 1.
 typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
 
-// Calls `work` for ranges of `part` elements, like thread_pool_run for tasks. The ranges cover
-// elements 0 to count - 1. The last may be shorter.
+// Calls `work` for ranges of `part` elements, as thread_pool_run does for tasks. The ranges cover
+// elements 0 to count - 1. The last range may be shorter.
 void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
                        void *context);
 

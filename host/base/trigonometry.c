@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reduces the angle to at most 45 degrees, which is exact in degrees, or halves it to 11.25. In
-// this range, the first omitted term of the Taylor series is below 2^-55.
+// Sine and cosine reduce the angle to at most 45 degrees, which is exact in degrees. The arctangent
+// halves it to at most 11.25 degrees. The first omitted term of each Taylor series is below 2^-55.
 #include "base/vec.h"
 
 #include <math.h>
@@ -63,7 +63,7 @@ double cosine_of_degrees(double degrees)
     return sine_ahead(degrees, 1);
 }
 
-// The difference and the sum are the opposite and the adjacent side of half the angle.
+// tan(angle / 2) = |a - b| / |a + b|.
 double angle_between(Vec3 a, Vec3 b)
 {
     const Vec3 difference = vec3_sub(a, b), sum = vec3_add(a, b);

@@ -89,9 +89,9 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
 }
 
-// Sine and cosine of degrees by fixed polynomials. The C library's last bits differ between
-// processors with and without fma, and would change the camera.
-// Accurate within 2 ulp; exact at multiples of 90. degrees must be finite and below 1e9.
+// Return the sine and cosine of degrees, which must be finite and below 1e9. Accurate within 2 ulp;
+// exact at multiples of 90. The polynomials are fixed, because the last bits of the C library's
+// sine differ between processors with and without fma, and would change the camera.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 

@@ -4,6 +4,6 @@
 
 #include <stddef.h>
 
-// Returns the word of count words with the smallest edit distance to text. Returns NULL if all are
+// Returns the one of count words with the smallest edit distance to text, or NULL if all words are
 // too distant for a useful suggestion.
 const char *word_nearest(const char *text, size_t length, const char *const *words, size_t count);
