@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// If all triangles around an aim face the origin of a ray toward it, the ray must hit one of them.
-// Only rounding could make it miss. The rounding bounds are generous, so aims with too sharp angles
-// or too small triangles get no ray.
+// If all triangles around an aim of a closed mesh face the ray's origin, the ray must hit one of
+// them. Only rounding could make it miss. The rounding bounds are generous, so aims with too sharp
+// angles or too small triangles get no ray.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -13,7 +13,7 @@
 #define EYES         32
 #define EYE_DISTANCE 3.0 // in radii of the mesh, from its center
 
-// The smallest accepted cosine between the direction to the origin and the normals at the aim.
+// The smallest accepted cosine between a normal at the aim and the direction to the ray's origin.
 #define FACING_FROM_AFAR  0.1
 #define FACING_FROM_CLOSE 0.01
 
@@ -27,7 +27,7 @@
 // 1/2, the fraction makes the aim's coordinates inexact.
 #define EDGE_PART 0.4
 
-// The distance of an aim beyond an open edge, in radii of the mesh. It is far above rounding.
+// The distance of an aim beyond an open edge, in radii of the mesh; far above rounding errors.
 #define BEYOND 0x1p-14
 
 // The members of Aim that are accumulated over the triangles around an aim.
@@ -41,7 +41,7 @@ typedef struct {
     const AimSource *source;
     Aims *aims;
     Star *stars; // by point
-    size_t step; // the maker keeps every step-th aim
+    size_t step; // the builder keeps every step-th aim
     size_t seen;
 } AimBuilder;
 
@@ -80,8 +80,8 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
-// Returns the triangle's angle at a corner. As a weight of normals, it makes their sum independent
-// of how faces are triangulated.
+// Returns the triangle's angle at a corner. If normals are weighted by these angles, their sum does
+// not depend on how faces are triangulated.
 static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> rays toward its edges and points. The target of a ray is called an aim, and the ray must
-// hit a triangle there. The first rays start at eyes, which are a few positions around the mesh.
-// Aims that these rays do not reach get a second ray from nearby.
+// Mesh -> rays toward its edges and points. The target of a ray is called an aim. In a closed mesh,
+// the ray must hit a triangle there. The first rays start at eyes, which are a few positions around
+// the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
 #pragma once
 
 #include "accel/triangles.h"
@@ -46,12 +46,12 @@ typedef struct {
     bool is_inside_out;
 } AimSource;
 
-// Makes an aim at every edge, at every point and just beyond every open edge. If there are more
-// than `most`, keeps every n-th of them.
+// Makes an aim at every edge, at every point and just beyond every open edge. Keeps only every n-th
+// aim if there are more than `most`.
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
-// Store rays, and the index of each ray's aim in targets. Return the number of rays, at most
+// Store rays, and in targets the index of each ray's aim. Return the number of rays, at most
 // aims->count.
 size_t aims_shoot_from_afar(Aims *aims, AimRay *rays, uint32_t *targets);
 size_t aims_shoot_from_close(Aims *aims, AimRay *rays, uint32_t *targets);

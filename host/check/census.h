@@ -13,7 +13,7 @@ typedef struct {
     size_t edge_count;
     MeshFault open;       // edges of one triangle
     MeshFault crowded;    // edges of more than two triangles
-    MeshFault turned;     // edges that both triangles run along in the same direction
+    MeshFault turned;     // edges that both triangles follow in the same direction
     MeshFault pinched;    // points whose triangles form several fans
     MeshFault duplicates; // triangles with the corners of an earlier one, in any order
     bool is_closed;       // the mesh has triangles, and none of the first four faults
@@ -45,8 +45,8 @@ typedef struct {
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
-// Two functions reject triangles without area. They report the first object that fails: its file,
-// its first bad triangle and the count.
+// The next two functions reject triangles without area. They report the first object that fails:
+// its file, its first bad triangle and the count.
 
 // Fails if the reader dropped a triangle.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);
@@ -72,7 +72,7 @@ typedef struct {
     size_t unused_materials;  // defined in the file, but not used
 } Census;
 
-// Counts the parts of a scene. `normalization` must be normalization_of the scene.
+// Counts the parts of a scene. `normalization` must be the scene's.
 bool census_take(Census *census, const Scene *scene, const Normalization *normalization,
                  Error *error);
 void census_free(Census *census);

@@ -146,12 +146,12 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
-// Returns whether no triangle of the object has the fault. Otherwise fills error; text ends the
-// message.
+// Returns whether no triangle of the object has the fault. Otherwise fills error with a message
+// that ends in text.
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {
-    return fault.count == 0 || error_set(error, "%s: triangle %zu, the first of %zu such, %s",
+    return fault.count == 0 || error_set(error, "%s: triangle %zu, the first of %zu, %s",
                                          scene->inputs.data[object->input],
                                          fault.first + object->number_before, fault.count, text);
 }

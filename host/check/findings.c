@@ -13,8 +13,8 @@
 // thirtieth or more, which is visible.
 #define FEW_STEPS 16.0
 
-// Advice names the mesh's offset or the scene's size as the cause if that is this many times the
-// mesh's size.
+// If the mesh's offset or the scene's size is more than this many times the mesh's size, advice
+// names it as the cause.
 #define MUCH 4.0
 
 static const struct {
@@ -26,14 +26,14 @@ static const struct {
                              "vertices with a coordinate that is not finite or past 1e30", "vertex",
                              true},
     [FAULT_BAD_NORMALS] = {"not_finite_normals", "normals that are not finite", "vertex", true},
-    [FAULT_LOST_CORNERS] = {"lost_triangles", "triangles at such a vertex, left out", "triangle",
+    [FAULT_LOST_CORNERS] = {"lost_triangles", "triangles with such a vertex, left out", "triangle",
                             true},
     [FAULT_EQUAL_CORNERS] = {"equal_corners", "triangles with two equal corners, left out",
                              "triangle", true},
-    [FAULT_FLAT] = {"zero_area", "triangles of no area, their corners on a line", "triangle", true},
+    [FAULT_FLAT] = {"zero_area", "triangles without area (corners on a line)", "triangle", true},
     [FAULT_DUPLICATES] = {"duplicate_triangles", "triangles with the corners of another",
                           "triangle", true},
-    [FAULT_LEAKS] = {"leaks", "rays that pass through where triangles meet", "at triangle", true},
+    [FAULT_LEAKS] = {"leaks", "rays that pass between adjacent triangles", "at triangle", true},
     [FAULT_OPEN] = {"open_edges", "edges of a single triangle", "at triangle", false},
     [FAULT_CROWDED] = {"crowded_edges", "edges of more than two triangles", "at triangle", false},
     [FAULT_TURNED] = {"turned_edges", "edges whose triangles face opposite sides", "at triangle",
@@ -104,13 +104,13 @@ static void add_shape(Check *check, size_t object)
     add(check, note("empty_mesh", object, mesh->mesh.triangle_count == 0),
         "the mesh has no triangles");
     add(check, note("inside_out", object, census->closedness.is_inside_out && !mesh->two_sided),
-        "its fronts face inwards: seen from outside it shows its far side");
+        "its fronts face inwards, so only its far side is visible from outside");
     add(check, note("unused_vertices", object, census->unused_vertices),
         "%zu vertices that no triangle uses", census->unused_vertices);
 }
 
-// Adds at most one finding. Steps are the spacing of floats. Tracing cannot restore details that
-// were lost when the file was written.
+// Adds at most one finding. Steps are the spacing of floats. Advice to recenter comes first,
+// because tracing cannot restore details that the file has lost.
 static void add_advice(Check *check, size_t object)
 {
     const Features *features = &check->census.meshes[object].features;
@@ -119,22 +119,22 @@ static void add_advice(Check *check, size_t object)
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)
         add(check, note("advice_recenter", object, 1),
-            "recenter it before it is written: its coordinates, %.3g from the origin, are "
-            "floats, and its shortest edge is %.3g of their steps there",
+            "recenter it before writing the file: its coordinates are floats, and at %.3g from the "
+            "origin its shortest edge is only %.3g steps of float",
             features->offset, features->written_edge.steps);
     else if (features->edge.steps < FEW_STEPS && ratio > MUCH)
         add(check, note("advice_scale", object, 1),
             "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
-            "shortest edge is %.3g steps of float there; draw them apart",
+            "shortest edge is only %.3g steps of float; render them separately",
             ratio, features->edge.steps);
     else if (features->edge.steps < FEW_STEPS)
         add(check, note("advice_thin", object, 1),
-            "its shortest edge, at triangle %zu, is %.3g steps of float: merge vertices "
-            "that lie so close",
+            "its shortest edge, at triangle %zu, is only %.3g steps of float: merge vertices "
+            "this close",
             features->edge.triangle, features->edge.steps);
     else if (features->height.steps < 1)
         add(check, note("advice_thin", object, 1),
-            "triangle %zu is thinner than a step of float (%.3g of one): to float it is a line",
+            "the height of triangle %zu is %.3g steps of float: rounding can make it a line",
             features->height.triangle, features->height.steps);
 }
 
@@ -163,7 +163,7 @@ static void add_scene(Check *check)
     if (missing.kind != NULL)
         add(check, note(missing.kind, FINDING_SCENE, 1), "%s", missing.text);
     const Finding fault = {"scale", FINDING_SCENE, true, check->frame_fault.text[0] != '\0', ""};
-    add(check, fault, "it cannot be drawn: %s", check->frame_fault.text);
+    add(check, fault, "the scene cannot be drawn: %s", check->frame_fault.text);
 }
 
 bool check_find(Check *check, Error *error)

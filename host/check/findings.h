@@ -23,16 +23,16 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     Census census;
-    Device device;      // closed without leaks
+    Device device;      // may be closed if leaks is NULL
     LeakCount *leaks;   // by object; NULL without a device; owned
     Error frame_fault;  // why the scene cannot be drawn; empty if it can
     Error device_fault; // why there is no device
     ARRAY(Finding) findings;
-    bool is_cut; // memory ran out for a finding
+    bool is_cut; // memory ran out, so findings are missing
     double seconds;
 } Check;
 
-// Adds the findings on the measurements.
+// Derives the findings from the measurements. Fails if memory runs out.
 bool check_find(Check *check, Error *error);
 
 size_t check_count_failing(const Check *check);
@@ -42,7 +42,7 @@ void check_report_write_text(const Check *check, FILE *stream);
 // Writes versioned JSON with sorted keys to path ("-": standard output).
 bool check_report_write_json(const Check *check, const char *path, Error *error);
 
-// The faults of a mesh that findings and JSON name.
+// The kinds of faults in a mesh.
 typedef enum {
     FAULT_BAD_POSITIONS,
     FAULT_BAD_NORMALS,

@@ -9,7 +9,7 @@
 
 // FlatScene and rays -> hit distances, computed by the traversal that renders pictures.
 
-// The arrays of flat_arrays that rays need: spheres, nodes and triangles.
+// Rays need three of the arrays that flat_arrays lists: spheres, nodes and triangles.
 #define CASTER_FIRST  2
 #define CASTER_ARRAYS 3
 
@@ -32,11 +32,11 @@ void ray_caster_close(RayCaster *caster);
 bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error);
 void ray_caster_unload(RayCaster *caster);
 
-// Stores the hit distance t of each ray in distances; INFINITY for a miss.
+// Stores the hit distance t of each ray in distances, or INFINITY for a miss.
 bool ray_caster_cast(const RayCaster *caster, const AimRay *rays, size_t count, float *distances,
                      Error *error);
 
-// The most aims of a mesh that get rays.
+// The largest number of aims per mesh that get rays.
 #define LEAKS_AIMS 1048576
 
 typedef struct {

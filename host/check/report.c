@@ -64,7 +64,7 @@ void check_report_write_text(const Check *check, FILE *stream)
     if (check->leaks != NULL)
         fprintf(stream, "  rays were traced on %s\n", check->device.name);
     else if (check->device_fault.text[0] != '\0')
-        fprintf(stream, "  leaks were not looked for: %s\n", check->device_fault.text);
+        fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
     const size_t failing = check_count_failing(check);
     if (failing == 0)
         fputs("fine\n", stream);
@@ -97,7 +97,7 @@ static json_t *leaks_json(const Check *check, size_t object)
                      json_count(LEAKS_AIMS));
 }
 
-// The result of the leak test follows elsewhere.
+// Omits leaks, which "leak_test" contains.
 static json_t *faults_json(const Check *check, size_t object)
 {
     MeshFault counts[FAULT_KINDS];

@@ -36,13 +36,13 @@ FINDINGS = [
     ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides, the first at triangle 0"]),
     ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners, left out, the first triangle 2",
                       "\n1 of 1 findings are faults\n"]),
-    ("line.ply", 1, ["FAULT: 1 triangles of no area, their corners on a line, the first triangle 2"]),
+    ("line.ply", 1, ["FAULT: 1 triangles without area (corners on a line), the first triangle 2"]),
     ("nan.ply", 1, ["FAULT: 1 vertices with a coordinate that is not finite or past 1e30, the first vertex 2",
-                    "FAULT: 2 triangles at such a vertex, left out, the first triangle 0"]),
+                    "FAULT: 2 triangles with such a vertex, left out, the first triangle 0"]),
     ("twice.ply", 1, ["FAULT: 1 triangles with the corners of another, the first triangle 4"]),
-    ("far.ply", 0, ["note: recenter it before it is written"]),
+    ("far.ply", 0, ["note: recenter it before writing the file"]),
     ("mixed.scn", 0, ["note: the scale is too mixed"]),
-    ("apart.scn", 1, ["FAULT: it cannot be drawn: sphere 1 is more than 1e12 times"]),
+    ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1 is more than 1e12 times"]),
     ("scene.scn", 1, ["FAULT: 1 spheres that are the same as another", "note: its fronts face inwards",
                       "note: 1 materials that are defined and not used"]),
 ]
@@ -127,7 +127,7 @@ class Check(Meshes):
     def test_without_a_device_the_rest_is_checked(self):
         done = self.run_clrt("check", "equal.ply", "--json=none.json", **NO_OPENCL)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("leaks were not looked for: ", done.stdout)
+        self.assertIn("leaks were not tested: ", done.stdout)
         found = self.json_of("none.json")
         self.assertIsNone(found["device"])
         self.expect(found["meshes"][0], leak_test=None, closed=True)
@@ -143,7 +143,7 @@ class Check(Meshes):
 class BadGeometry(Meshes):
     def test_drop_is_the_default_and_reported_once_unless_quiet(self):
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "a.pfm")
-        told = "clrt: equal.ply: triangle 2, the first of 2 such, has two equal corners and is left out\n"
+        told = "clrt: equal.ply: triangle 2, the first of 2, has two equal corners and is left out\n"
         self.assertEqual((done.returncode, done.stderr), (0, told))
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "b.pfm", "-q", "--bad-geometry", "drop")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -151,8 +151,8 @@ class BadGeometry(Meshes):
 
     def test_fail_draws_only_what_is_sound(self):
         words = ["-s", "8x8", "--bad-geometry", "fail", "-o"]
-        for name, fault in (("equal", "2 such, has two equal corners"),
-                            ("line", "1 such, has its corners on a line")):
+        for name, fault in (("equal", "2, has two equal corners"),
+                            ("line", "1, has its corners on a line")):
             self.refuses(3, f"{name}.ply: triangle 2, the first of {fault}", f"{name}.ply", *words, "c.pfm")
             self.assertFalse((self.work / "c.pfm").exists())
         self.clrt("closed.ply", *words, "d.pfm")
