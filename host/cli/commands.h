@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands of clrt. Functions return the exit status. They fill error unless they return
-// EXIT_DONE, or report EXIT_FAULTS themselves as check and compare do.
+// EXIT_DONE. check and compare leave error empty if they return EXIT_FAULTS.
 #pragma once
 
 #include "base/file_plan.h"
@@ -33,8 +33,8 @@ ExitCode device_report_write(bool as_json, Error *error);
 // options name a device or fp64.
 ExitCode check_scene(Run *run, Error *error);
 
-// For commands other than check. With --bad-geometry=fail, it rejects triangles without area.
-// Otherwise it prints how many triangles the reader dropped.
+// Checks the scene for commands other than check. With --bad-geometry fail, rejects triangles
+// without area. Otherwise prints the scene's notes and the first mesh with dropped triangles.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
 // clrt compare: reports the differences of two pictures, and draws them if the options name an
@@ -47,7 +47,7 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The files of a run, from the command line, and from the scene once it is read.
+// The files of a run: those on the command line, and those of the scene once it is read.
 
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);

@@ -20,8 +20,7 @@ static bool measure(Comparison *comparison, Error *error)
     if (comparison->limits->given[LIMIT_HITS] && !comparison->difference.has_hits)
         return error_set(
             error,
-            "%s and %s do not both have a channel '%s', so that a limit on hits cannot "
-            "be judged",
+            "%s and %s do not both have a channel '%s', which a limit on hits needs",
             pair->paths[0], pair->paths[1], DIFFERENCE_HITS);
     return true;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads everything before it writes anything, and never overwrites a file that it read.
+// clrt convert reads all files before it writes any, and never overwrites a file that it read.
 #include "cli/commands.h"
 
 #include "base/file.h"
@@ -50,7 +50,7 @@ static void warn_of_losses(const Conversion *conversion)
         has_materials |= scene->objects.data[i].material >= MESH_OWN_MATERIALS;
     if (conversion->options->quiet || (is_mesh && !has_materials))
         return;
-    fprintf(stderr, "clrt: %s: %s left out, which PLY has no place for\n",
+    fprintf(stderr, "clrt: %s: %s left out, because PLY cannot store them\n",
             conversion->options->other_path,
             is_mesh ? "materials are" : "materials, lights and cameras are");
 }
@@ -61,7 +61,7 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
     Error cause = {0};
     const Scene *scene = &conversion->scene;
     if (scene->spheres.count > 0 && scene->mesh_up == UP_AUTO) {
-        error_set(error, "%s: PLY has no place for its %zu spheres: convert it to .scn",
+        error_set(error, "%s: PLY cannot store its %zu spheres: convert it to .scn",
                   conversion->options->scene_path, scene->spheres.count);
         return EXIT_SCENE;
     }
@@ -88,7 +88,7 @@ static bool name_meshes(Conversion *conversion, Error *error)
     if (conversion->mesh_paths == NULL || conversion->mesh_names == NULL)
         return false;
     if (!scn_write_can_name(path + folder))
-        return error_set(error, "%s: a scene cannot name meshes like that", path);
+        return error_set(error, "%s: scene text cannot contain this name: choose another", path);
     for (size_t i = 0; i < count; i++) {
         conversion->mesh_paths[i] = memory_raw(size, 1, error);
         if (conversion->mesh_paths[i] == NULL)

@@ -53,17 +53,17 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Processes that read or write pictures are forks of this process, and print nothing.
+// Only the process that called crash_watch prints. Its forks, which read or write pictures, do not.
 static void handle(int number, siginfo_t *info, void *context)
 {
     char message[160];
     const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
     const bool is_own = is_own_code(context);
-    char *next = stpcpy(message, is_own ? "clrt: an error of clrt's own (SIG"
+    char *next = stpcpy(message, is_own ? "clrt: clrt itself crashed (SIG"
                                         : "clrt: a driver crashed (SIG");
     next = stpcpy(next, sigabbrev_np(number));
     stpcpy(next, is_own ? "): please report it\n"
-                        : "): run clrt again, and with another --device if that is no better\n");
+                        : "): run clrt again; if it crashes again, try another --device\n");
     if (getpid() == watcher && !is_sent && !is_own)
         end(message);
     if (getpid() == watcher && !is_sent)
@@ -75,7 +75,7 @@ static void handle(int number, siginfo_t *info, void *context)
 static void handle_exit(void)
 {
     if (getpid() == watcher)
-        end("clrt: a driver ended the program, as LLVM does where a disk is full\n");
+        end("clrt: a driver ended the program, as LLVM does if a disk is full\n");
 }
 
 #if !CLRT_TIDY_EXIT // sanitizers define this function themselves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --explain-pixel: text output prints each sample at once, and JSON output is written as a whole.
+// --explain-pixel: text is printed sample by sample, and JSON after the last sample.
 #include "cli/commands.h"
 
 #include "explain/explainer.h"

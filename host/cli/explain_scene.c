@@ -40,7 +40,7 @@ static ScenePart tree_part(const Run *run, bool is_needed)
         return part("tree", false, "there are no triangles to find");
     if (run->options->no_bvh)
         return part("tree", false, "--no-bvh: every triangle is tested");
-    return part("tree", false, "%u triangles are tested sooner than found", triangles);
+    return part("tree", false, "testing all %u triangles is faster", triangles);
 }
 
 static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
@@ -54,15 +54,15 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
                          : part("triangles", false, "there are none"),
         tree_part(run, needed.bvh),
         needed.shaded
-            ? part("lights", true, "%u of them on materials that they shade", flat->light_count)
+            ? part("lights", true, "%u of them shade materials in use", flat->light_count)
             : part("lights", false, "all materials in use are silhouettes: no shadow rays"),
         needed.mirrors
             ? part("mirrors", true, "a material in use reflects")
-            : part("mirrors", false, "no material in use reflects: no ray is followed on"),
+            : part("mirrors", false, "no material in use reflects: no reflected rays"),
         needed.statistics ? part("statistics", true, "--stats counts rays and tests")
                           : part("statistics", false, "not requested: no --stats")};
     memcpy(parts, list, sizeof list);
-    // General programs contain all features but the last.
+    // General programs contain all features except statistics.
     for (int i = 0; i < SCENE_PARTS; i++)
         parts[i].is_compiled =
             parts[i].is_needed || (!run->renderer.is_special && i < SCENE_PARTS - 1);
@@ -76,9 +76,9 @@ static const char *scene_family_reason(const Run *run)
     if (request->family > 0)
         return "--kernel requests it";
     if (request->nodes == 1 + NODES_PAIR)
-        return "--nodes pair has no other";
+        return "--nodes pair has no packets";
     if (run->async_device.is_quick)
-        return "packets are not compiled and a picture of this size does not repay that";
+        return "packets are not compiled yet, and compiling takes longer than they would save";
     if (kernel_suits_packets(&run->async_device.device))
         return "it suits CPUs";
     return run->async_device.device.is_cpu ? "it suits this OpenCL implementation"
@@ -90,8 +90,8 @@ static const char *scene_program_reason(const Run *run)
     const bool is_special = run->renderer.is_special;
     if (run->options->specialization != SPECIALIZE_AUTO)
         return is_special ? "--specialize always" : "--specialize never";
-    return is_special ? "it is compiled already, or saves more than compiling costs"
-                      : "a special one is not compiled, and would save less than compiling costs";
+    return is_special ? "the kernels are compiled already, or save more than compiling costs"
+                      : "special kernels are not compiled yet, and would save less than compiling costs";
 }
 
 #define SCHEMA_VERSION 2
@@ -130,7 +130,7 @@ static void write_arrays(const Run *run)
             printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes == 0)
-            printf("%s %s", missing++ == 0 ? "not uploaded, since there are none\n " : "",
+            printf("%s %s", missing++ == 0 ? "not uploaded, because they are empty\n " : "",
                    arrays[i].name);
     printf("%s", missing > 0 ? "\n" : "");
 }
@@ -141,7 +141,7 @@ static void write_text(const Run *run)
     scene_parts_list(run, parts);
     write_kernels(run);
     write_parts(parts, "compiled in\n", true, true);
-    write_parts(parts, "compiled in and idle, since the program is general\n", false, true);
+    write_parts(parts, "compiled in but idle, because the program is general\n", false, true);
     write_parts(parts, "left out\n", false, false);
     write_arrays(run);
 }

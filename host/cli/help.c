@@ -68,7 +68,7 @@ static void write_usage(FILE *stream)
 {
     fputs("Usage: clrt SCENE [options]             show it in a window\n"
           "       clrt SCENE -o FILE [options]     draw it to a file\n"
-          "       clrt --warm [SCENE] [options]    compile the kernels ahead\n",
+          "       clrt --warm [SCENE] [options]    compile the kernels in advance\n",
           stream);
     for (size_t i = 0; i < command_count; i++)
         fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Limits PoCL's threads to count. If count is 0, the limit is the process's processors and its
-// control group's quota, which PoCL ignores. The user's environment variables take precedence
-// unless count is given. PoCL 3.1 and 6.0 read different variables.
+// Limits PoCL's threads to count. If count is 0, the limit is processors_usable(), because PoCL
+// ignores the control group's quota. The user's environment variables take precedence unless count
+// is given. PoCL 3.1 and 6.0 read different variables.
 static void limit_threads(uint32_t count)
 {
     char text[16];

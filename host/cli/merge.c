@@ -20,9 +20,8 @@ typedef struct {
     Layers layers;
     Provenance provenance; // the first part's, with the devices of all parts
     StoredTiles first;     // of the first part
-    const char **paths;    // paths[i] names part i, or is NULL if the part is missing; the array is
-    // owned
-    bool joins; // the result is an EXR file, whose tiles are copied; otherwise decoded
+    const char **paths;    // by part, NULL for a missing part; the array is owned
+    bool joins; // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
     Error unopened;  // the reason why a part cannot be opened
     bool is_damaged; // a part cannot be used
@@ -35,22 +34,22 @@ static bool is_picture(const Merging *merging, const StoredTiles *tiles)
            a->tile_width == b->tile_width && a->tile_height == b->tile_height;
 }
 
-// Returns the property in which the part differs from the first one; NULL if they match.
+// Returns the property in which the part differs from the first part, or NULL if they match.
 static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
                                const StoredImage *image)
 {
     static const struct {
         StoredText kind;
         const char *name;
-    } equal[] = {{STORED_VERSION, "version of clrt"},
-                 {STORED_MESH_HASH, "mesh"},
-                 {STORED_SCENE_HASH, "scene"}};
+    } equal[] = {{STORED_VERSION, "another version of clrt"},
+                 {STORED_MESH_HASH, "another mesh"},
+                 {STORED_SCENE_HASH, "another scene"}};
     for (size_t i = 0; i < sizeof equal / sizeof equal[0]; i++)
         if (strcmp(merging->provenance.texts[equal[i].kind], image->texts[equal[i].kind]) != 0)
             return equal[i].name;
     if (!is_picture(merging, tiles))
-        return "set of settings";
-    return stored_tiles_has(image, &merging->layers) ? NULL : "set of channels";
+        return "other settings";
+    return stored_tiles_has(image, &merging->layers) ? NULL : "other channels";
 }
 
 // Adds the part's device and driver unless another part has the same.
@@ -64,7 +63,8 @@ static void note_device(Merging *merging, const StoredImage *image)
     }
 }
 
-// EXR files are joined without decoding them if their tiles are those of a whole picture.
+// Parts are joined without decoding if the output is an EXR file, whose tile size the parts share,
+// and if no hash of the pixels is needed.
 static bool can_join(const Options *options, const ExrFile *file)
 {
     return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&
@@ -90,7 +90,7 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
            layers_make(&merging->layers, image->width, image->height, error);
 }
 
-// Records the part's tiles or decodes them. With a stream, copies them to it.
+// Without a stream, records or decodes the part's tiles. With a stream, copies the tiles to it.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                        FILE *stream, Error *error)
 {
@@ -114,28 +114,28 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
         return false;
     const char *mismatch = mismatch_of(merging, tiles, image);
     if (mismatch != NULL)
-        return error_set(error, "%s: is of another %s than %s", path, mismatch,
+        return error_set(error, "%s: has %s than %s", path, mismatch,
                          merging->options->part_paths[0]);
     const char **place = &merging->paths[tiles->settings.part];
     if (*place != NULL)
-        return error_set(error, "%s: is part %u of %u, which %s is already", path,
+        return error_set(error, "%s: is part %u of %u, as is %s", path,
                          tiles->settings.part + 1, tiles->settings.parts, *place);
     *place = path;
     note_device(merging, image);
     return true;
 }
 
-// Reads the settings of a part, which an ExrFile's header contains.
+// Reads the settings of a part from the header of its file.
 static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *path, Error *error)
 {
     return (stored_tiles_read(tiles, &file->head) &&
             tiles->settings.tile_width == file->tile_width &&
             tiles->settings.tile_height == file->tile_height) ||
-           error_set(error, "%s: is no part of a picture that --part drew", path);
+           error_set(error, "%s: is not a part drawn with --part", path);
 }
 
-// Without a stream, reads the part. A part that cannot be opened is missing, and the other parts
-// show its number. With a stream, copies the part's tiles to it.
+// Without a stream, checks the part and records or decodes its tiles. A part that cannot be opened
+// counts as missing. With a stream, copies the part's tiles to it.
 static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
@@ -156,7 +156,7 @@ static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *
     return ok;
 }
 
-// Lists the missing parts, in the syntax of a job array.
+// Fails if parts are missing. The message lists them in the syntax of a job array, such as 1,3.
 static bool check_missing(const Merging *merging, Error *error)
 {
     char list[1024] = "";
@@ -191,7 +191,7 @@ typedef struct {
     Error *error; // about a part
 } Joining;
 
-// Leaves errno 0 if a part cannot be used.
+// If a part cannot be used, sets errno to 0.
 static bool write_joined(void *context, FILE *stream, Error *cause)
 {
     Joining *joining = context;

@@ -8,7 +8,7 @@
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
-// A picture in progress; frames use one Picture in turn. {0} is a valid empty value.
+// A picture in progress. The frames of a run use one Picture, one after another.
 typedef struct {
     Run *run;         // the scene, the renderer and the report
     const char *path; // of the output file
@@ -17,10 +17,10 @@ typedef struct {
     Framebuffer film;       // the frames of an animated file, below each other; empty without one
     Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
-    uint32_t *samples;      // samples per pixel, for the layers; NULL if all pixels have the same
+    uint32_t *samples;      // of each pixel, for the layers; NULL if all pixels have equally many
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
-    int stopped_by;         // a signal; 0 if the picture is complete
+    int stopped_by;         // the signal that stopped the picture, or 0
     double moment;          // the end of the previous frame, or the start of the run
 } Picture;
 
@@ -34,23 +34,23 @@ void picture_warn_of_few_tiles(const Run *run);
 void picture_print_setup(const Run *run);
 void picture_print_beginning(const Picture *picture);
 
-// On a terminal, prints the file's name, the picture's size and the seconds since picture->moment,
-// and sets the moment to the current time.
+// Prints the file's name, the picture's size and the seconds since picture->moment on a terminal.
+// Sets the moment to the current time.
 void picture_print_end(Picture *picture);
 
 // Fill error for a picture that misses its goal or is stopped, and return the exit status.
 ExitCode picture_fail_goal(const Run *run, Error *error);
 ExitCode picture_fail_stopped(const Picture *picture, Error *error);
 
-// Adds the channel of each pixel's error, which is the largest difference of its colors from the
-// reference, after the other channels. Does nothing unless the options request a reference and the
-// file's format has channels.
+// Appends the channel of each pixel's error: the largest difference of its colors from the
+// reference. Does nothing without a reference, without channels in the file's format, or if --aov
+// already lists the channel.
 void reference_name_layer(const Options *options, Layers *layers);
 
-// Renders the view again in fp64, with many other samples, into picture->reference. Measures the
-// difference and fills the error channel. The reference's rays reach the level of the scene or of
-// the settings, whichever is higher. Measures nothing if a signal stops the picture or the
-// reference.
+// Renders the view again with many other samples and the accuracy of fp64, into picture->reference.
+// Measures the difference and fills the error channel. The reference's rays reach the level of the
+// scene or of the settings, whichever is higher. Measures nothing if a signal stops the picture or
+// the reference.
 bool reference_measure(Picture *picture, Error *error);
 
 // Writes the reference in the format of the path's ending.
@@ -67,7 +67,7 @@ bool certain_picture_make(Picture *picture, const CameraData *camera, Error *err
 
 // Reports of a run's costs and results, as text and as JSON.
 
-// Returns the builder's name in --bvh, or "none" without a tree.
+// Returns the name of the tree's builder as in --bvh, or "none" without a tree.
 const char *report_tree_name(const Run *run);
 
 // Returns the number of triangles that the scene's reader dropped.

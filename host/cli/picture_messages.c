@@ -8,11 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-// With a value of --error above this, the user may have meant percent.
+// If --error is larger than this, the user may have meant percent.
 #define LARGE_ERROR 0.1
 
-// The number of tiles from which on the parts of a picture take about equal time
-// (docs/long-jobs.md).
+// Parts of at least this many tiles take about equal time (docs/long-jobs.md).
 #define PART_TILES 128
 
 void picture_warn_of_goal(const Options *options)
@@ -31,7 +30,7 @@ void picture_warn_of_few_tiles(const Run *run)
     if (run->settings.parts > most && !run->options->quiet)
         fprintf(stderr,
                 "clrt: a part of fewer than %d tiles may take much longer than the others: "
-                "%llu tiles suffice for N=%llu\n",
+                "for %llu tiles, give at most N=%llu\n",
                 PART_TILES, tiles, most);
 }
 
@@ -64,7 +63,7 @@ void picture_print_beginning(const Picture *picture)
     if (frames_are_many(&run->options->frames))
         fprintf(stderr, "picture: %s\n", picture->path);
     if (run->options->resume)
-        fprintf(stderr, "resumed: %llu of %llu tiles are there\n",
+        fprintf(stderr, "resumed: %llu of %llu tiles were finished before\n",
                 (unsigned long long)run->settings.ready_tiles,
                 (unsigned long long)tile_count(&run->settings));
 }
@@ -96,7 +95,7 @@ ExitCode picture_fail_stopped(const Picture *picture, Error *error)
     const RenderProgress *progress = &run->renderer.progress;
     const char *path = picture->path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
     if (run->report.complete)
-        error_set(error, "stopped: %s is whole", name);
+        error_set(error, "stopped: %s is complete", name);
     else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
         error_set(error, "stopped: %s is incomplete", name);
     else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The handlers stay installed while clrt writes the picture, so a single signal never loses traced
-// tiles. Before the first tile, a signal ends the process, as compilation cannot be interrupted.
+// tiles. Before the first tile, a signal ends the process, because compilation cannot be
+// interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>
@@ -19,8 +20,8 @@ static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";
     const bool speaks = getpid() == watcher;
-    const ssize_t told = speaks ? write(STDERR_FILENO, sentence, sizeof sentence - 1) : 0;
-    (void)told; // the process ends even if the message cannot be written
+    const ssize_t written = speaks ? write(STDERR_FILENO, sentence, sizeof sentence - 1) : 0;
+    (void)written; // the process ends even if the message cannot be written
     _exit(128 + number);
 }
 

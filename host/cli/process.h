@@ -4,8 +4,7 @@
 
 #include "render/renderer.h"
 
-// Observes a picture's tracing: prints progress on standard error, and stops on the signals of
-// cli/process.h.
+// Observes a picture's tracing: prints progress on standard error, and stops it after a signal.
 typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten
@@ -23,25 +22,25 @@ bool progress_on_terminal(void);
 // of the last build.
 void progress_show_compiling(bool begins);
 
-// A RenderObserver's tile_done; context must point to a Progress.
+// A RenderObserver's tile_done; context must point to a Progress. Returns false after a signal.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
 // Clears the rewritten line. Returns the signal that requested the stop, or 0.
 int progress_end(Progress *progress);
 
 // The signals that stop rendering. Before the first tile there is nothing to write, so a signal
-// ends the process. Afterwards the first signal requests that finished tiles are written, and the
-// second ends the process at once.
+// ends the process. Afterwards, clrt writes the finished tiles at the first signal. A second signal
+// ends the process at once.
 
 // Installs handlers for SIGINT and SIGTERM, unless they are ignored, for the life of the process.
 // Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its
 // number.
 void stop_watch(void);
 
-// Call before rendering the first tile. The first signal is then only reported by stop_signal.
+// Call this before rendering the first tile. The first signal then only sets stop_signal's result.
 void stop_wait_for_tiles(void);
 
-// Returns the signal that requested the stop, 0 if none did.
+// Returns the signal that requested the stop, or 0.
 int stop_signal(void);
 
 // Crashes of drivers and libraries: one message and EXIT_DEVICE instead of a signal.
@@ -53,6 +52,6 @@ void crash_watch(void);
 
 // Stacks large enough for compilers, regardless of `ulimit -s`.
 //
-// Calls work(context) and returns after it. If the stack limit is below the usual one, work runs on
-// a new thread, and threads that drivers start also get larger stacks.
+// Calls work(context) and waits for its end. If the stack limit is below 8 MiB, work runs on a new
+// thread, and threads that drivers start also get larger stacks.
 void stack_run(void *(*work)(void *context), void *context);

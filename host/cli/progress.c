@@ -25,7 +25,8 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-static atomic_uint running_builds, series; // series counts the times that a first build began
+// series counts the builds that began while no other build was running.
+static atomic_uint running_builds, series;
 
 // Rewrites the line every second until the last build of the series ends.
 static void *show_seconds(void *own)

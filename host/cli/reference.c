@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Each pass draws one sample per pixel, with the same sub-pixel shift for all pixels. The kernels
 // need no change, because the camera is shifted. Even and odd passes make two pictures, whose
-// difference measures the reference's own error. Their shifts follow Roberts's R2 sequence, an
-// additive recurrence by powers of the plastic number. The two sequences have different starts, so
-// their errors are independent. No shift lies on the N x N grid of --aa.
+// difference measures the reference's own error. The shifts follow Roberts's R2 sequence, an
+// additive recurrence by powers of the plastic number. Even and odd passes start at different
+// shifts, so their errors are independent. No shift lies on the N x N grid of --aa.
 //
 // The reference is the picture in fp64, but most passes are in fp32, which is 6 to 9 times faster.
-// Some passes are drawn in both, and their mean difference is added to the mean of the passes in
-// fp32. The expected value of that sum is the picture in fp64 (Giles, Multilevel Monte Carlo Path
-// Simulation, 2008). The difference is nearly always zero, so few passes find it.
+// Some passes are drawn in both precisions. Their mean difference is added to the mean of all fp32
+// passes, so the sum's expected value is the picture in fp64 (Giles, Multilevel Monte Carlo Path
+// Simulation, 2008). The difference is nearly always zero, so few passes suffice to estimate it.
 #include "cli/picture.h"
 
 #include "base/clock.h"
@@ -81,7 +81,7 @@ static bool open_run(PassRun *pass, Precision precision, const Run *original, Er
     return run_prepare(run, error) == EXIT_DONE;
 }
 
-// Prints one progress for all passes together.
+// Prints the progress of all passes together.
 static bool tile_done(void *context, const RenderProgress *progress)
 {
     Reference *reference = context;
@@ -93,7 +93,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return !reference->stopped;
 }
 
-// Adds a pass, multiplied by the weight, to its half.
+// Draws a pass and adds it, multiplied by weight, to the picture of its half.
 static bool add_pass(Reference *reference, Run *run, const Viewpoint *viewpoint, double weight,
                      Error *error)
 {
@@ -137,7 +137,8 @@ static bool draw_passes(Reference *reference, Picture *picture, Error *error)
     return ok;
 }
 
-// Stores the mean of the two halves. Returns the RMSE of the mean, estimated from their difference.
+// Stores the mean of the two halves. Returns the RMSE of the mean, estimated from the halves'
+// difference.
 static double join_halves(const Reference *reference, Framebuffer *mean)
 {
     const size_t pixels = (size_t)mean->width * mean->height;

@@ -51,15 +51,15 @@ void report_write_text(const Run *run, FILE *stream)
     const Report *report = &run->report;
     if (run->options->resume)
         fprintf(stream,
-                "%" PRIu64 " of %" PRIu64 " tiles were there: time and counts are of the others\n",
+                "%" PRIu64 " of %" PRIu64 " tiles were finished before: time and counts cover the others\n",
                 run->settings.ready_tiles, tile_count(&run->settings));
     fprintf(stream, "%.3f seconds\n", report->frame_seconds[0]);
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
             samples_per_pixel(run));
     if (report->estimate > 0)
         fprintf(stream,
-                "error: about %.2g %%, at most %.2g %% with 95 %% confidence, of which at most "
-                "%.2g %% for %u levels\n",
+                "error: about %.2g %%, at most %.2g %% with 95 %% confidence, including at most "
+                "%.2g %% because of %u levels\n",
                 100 * report->estimate, 100 * report->bound, 100 * report->truncation,
                 run->settings.max_level);
     fprintf(stream,
@@ -92,7 +92,7 @@ void report_write_error(const Run *run, FILE *stream)
         difference->rmse, 100 * difference->rmse, difference->maximum, difference->maximum_x,
         difference->maximum_y, 100 * (double)difference->off_by_1 / pixels,
         100 * (double)difference->off_by_4 / pixels);
-    fprintf(stream, "reference: fp64, %u samples a pixel, RMSE %.2g by itself, %.2f s\n",
+    fprintf(stream, "reference: fp64, %u samples a pixel, own RMSE %.2g, %.2f s\n",
             result->samples, result->own_error, result->seconds);
 }
 

@@ -37,16 +37,16 @@ typedef struct {
     double seconds;
 } CertaintyResult;
 
-// The results of a run that reports contain besides the members of Run.
+// The results of a run, for reports, besides the members of Run.
 typedef struct {
     uint32_t view; // from 1
     double turned; // the turntable's angle in degrees
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
     double estimate;   // of the RMSE, including truncation by --error; 0 without a goal
-    double bound;      // the RMSE is lower with 95 % confidence
+    double bound;      // upper bound of the RMSE with 95 % confidence
     bool goal_missed;  // the goal of --error or --time
-    double truncation; // the largest color error caused by max_level
+    double truncation; // bound on the color error caused by max_level
     uint64_t pixels;   // drawn by this process
     uint64_t samples;  // total of these pixels
     bool complete;
@@ -87,7 +87,8 @@ ExitCode run_start(Run *run, Error *error);
 // layout of nodes.
 bool run_await_device(Run *run, Error *error);
 
-// Waits for the thread of run_begin and closes the device.
+// Waits for the thread of run_begin. Closes the device only with CLRT_TIDY_EXIT, because drivers
+// are slow to close.
 void run_close_device(Run *run);
 
 // Builds the tree and flattens the scene into arrays.
@@ -96,8 +97,8 @@ bool run_build_scene(Run *run, Error *error);
 // Calls run_await_device and run_build_scene, and opens the renderer. Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);
 
-// Frees the results of all stages.
+// Frees the results of all stages; the renderer only with CLRT_TIDY_EXIT.
 void run_free(Run *run);
 
-// Reads the scene on the command line, a file or standard input, with the contract of scn_load.
+// Reads the scene that the options name, a file or standard input, as scn_load does.
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error);

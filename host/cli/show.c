@@ -58,7 +58,7 @@ ExitCode show_scene(Run *run, Error *error)
                                      .statistics = options->statistics,
                                      .verbose = options->verbose,
                                      .patience = PATIENCE};
-    // Checked first, because a missing scene must be reported even without a display.
+    // This check comes first, because a missing scene must be reported even without a display.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;
     return codes[viewer_run(&settings, error)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Channels describe only the ray through a pixel's center. If the channels agree, the samples
-// decide. If both pictures have the same samples, the difference is rounding, which can also change
-// what a sample hits. Otherwise, every difference above rounding counts as coverage.
+// Channels describe only the ray through a pixel's center. If the channels agree, the pixel's
+// samples determine the cause. If both pictures have the same samples, the cause is rounding, which
+// can also change a sample's hit. Otherwise, every difference above rounding counts as coverage.
 #include "compare/difference.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncat
                                               "reflection", "coverage", "rounding"};
 const char *const cause_meanings[CAUSE_KINDS] = {
     "another primitive is hit first", "other lights reach it",
-    "the limit ends its reflections", "its reflections differ",
+    "--max-level ends its reflections", "its reflections differ",
     "it has other samples",           "the same samples: rounding, if the scene is the same"};
 
 // The channels that show causes.
@@ -27,7 +27,7 @@ typedef struct {
     int level;              // value of --max-level; -1 if not recorded
 } Side;
 
-// Returns the integer after `name` in the settings, JSON without blanks; -1 if it is missing.
+// Returns the integer after `name` in the settings, which are JSON without blanks; -1 if none.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
@@ -66,7 +66,7 @@ static bool differ(const Side sides[2], size_t pixel, int channel)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
-// Returns whether the shorter path ended at its --max-level, and the other picture's is higher.
+// Returns whether the shorter path ended at its --max-level, and the other --max-level is higher.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {value_at(&sides[0], pixel, BOUNCES),
@@ -76,7 +76,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Compares the setting that determines the sample positions. Returns whether it is equal.
+// Returns whether the setting that determines the sample positions is equal.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];

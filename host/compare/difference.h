@@ -20,7 +20,7 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // first position in reading order
+    uint32_t maximum_x, maximum_y, maximum_color; // of the maximum; the first in reading order
     uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255 and 4/255
     bool has_hits;                                // both files have the channel of first hits
     uint64_t wrong_hits;                          // pixels with different first hits
@@ -46,9 +46,9 @@ double difference_psnr(const Difference *difference);
 // Returns the difference of one color: the second picture's value minus the first's.
 double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
 
-// Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is the
-// square root of its difference over 64/255, at most 1. All pictures have this scale, so that users
-// can compare them.
+// Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
+// sqrt(difference / (64/255)), at most 1. All pictures have this scale, so that users can compare
+// them.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);
 
@@ -70,7 +70,7 @@ typedef struct {
 // Adds the limits in text. Returns false if the text is invalid; cause then holds the reason.
 bool limits_parse(Limits *limits, const char *text, Error *cause);
 
-// As users write them.
+// The names of limits in --fail and in reports.
 extern const char *const limit_names[LIMIT_KINDS];
 
 // Returns the measured value that the limit applies to; NAN if the files lack the required channel.
@@ -79,7 +79,7 @@ double limit_measured(LimitKind kind, const Difference *difference);
 // Returns whether the measured value is within the limit. A missing value is not within any limit.
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);
 
-// Writes the result of a comparison as text and as JSON.
+// The cause of a pixel's difference.
 typedef enum {
     CAUSE_PRIMITIVE,  // the rays through the center hit different primitives
     CAUSE_SHADOW,     // different lights reach the hit point
@@ -96,7 +96,7 @@ typedef struct {
     uint64_t pixels[CAUSE_KINDS]; // pixels that differ at all, by cause
 } Causes;
 
-// Splits the error of a pair that image_pair_check has accepted.
+// Splits the error of a pair by cause. image_pair_check must have accepted the pair.
 void causes_find(Causes *causes, const ImagePair *pair);
 
 // The causes' names and meanings, as reports print them.

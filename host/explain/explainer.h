@@ -59,7 +59,7 @@ typedef struct {
     uint64_t sums[3];       // of ExplainedSample::steps over the pixel's samples
 } Explainer;
 
-// Inputs that must outlive the Explainer.
+// The inputs of explainer_open. renderer, scene and normalization must outlive the Explainer.
 typedef struct {
     const RendererSetup *setup;
     const Renderer *renderer;
@@ -71,16 +71,16 @@ typedef struct {
 bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error);
 void explainer_close(Explainer *explainer);
 
-// Traces a sample of a pixel into *sample, which stays valid until the next call. index goes from 0
-// to the number of samples less 1.
+// Traces a sample of a pixel into *sample, which stays valid until the next call. Callers trace all
+// samples in order: index goes from 0 to the number of samples less 1.
 bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
                      ExplainedSample *sample, Error *error);
 
-// Stores the color of the pixel whose samples were all traced.
+// Stores the color of the pixel after all its samples are traced.
 void explainer_mix(const Explainer *explainer, float color[3]);
 
-// A primitive's name for users: a sphere has its number in the file, and a triangle has its mesh
-// and its number there.
+// A primitive's name for users: a sphere has its number in the scene, and a triangle has a mesh
+// file and its number in that file.
 typedef struct {
     bool is_sphere;
     size_t number;    // spheres from 1, triangles from 0
@@ -89,8 +89,8 @@ typedef struct {
 
 PrimitiveName name_primitive(const Scene *scene, uint32_t id);
 
-// Returns the name that a define statement gave the material, or the course's number. The scene
-// owns the string, or it is static.
+// Returns the name that a define statement gave the material, or the course's number. The string
+// belongs to the scene or is static.
 const char *name_material(const Scene *scene, uint32_t material);
 
 typedef struct {

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-// Brief reports omit rays of less weight, because they hardly change a color of 8 bits.
+// Brief reports omit rays of less weight, because such rays hardly change a color of 8 bits.
 #define BRIEF_WEIGHT (1 / 255.0)
 
 static int digits_of(const ExplainReport *report)

@@ -52,8 +52,8 @@ typedef struct {
     int output;
 } TileJoin;
 
-// Reads a tile behind its head. Returns false if the tile is damaged or longer than in the first
-// pass.
+// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged or has
+// another size than in the first pass.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;
@@ -68,7 +68,7 @@ static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile,
                        const unsigned char *bytes)
 {
     const size_t size = sizeof(ExrTileHead) + tile->packed_size;
-    errno = ENOSPC;
+    errno = ENOSPC; // for a short write, which sets no errno
     if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
         return true;
     work->join->write_error = errno;

@@ -22,8 +22,8 @@ bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error);
 
-// Writes the header of the picture, which has the size in place, and the table of tiles. Call it
-// after the first pass. On failure, errno has the reason.
+// Writes the header of the picture and the table of tiles, after the first pass. `place` holds the
+// picture's size. On failure, errno has the reason.
 bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
                          FILE *stream);
 

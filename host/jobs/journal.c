@@ -52,7 +52,7 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
         return error_set(error, "%s: is no journal of clrt", journal->path);
     return memcmp(head.key, key, sizeof head.key) == 0 ||
            error_set(error,
-                     "%s: is of another scene, other settings or another version of clrt: remove "
+                     "%s: has another scene, other settings or another version of clrt: remove "
                      "it to begin again",
                      journal->path);
 }
@@ -65,7 +65,8 @@ static bool is_regular(const Journal *journal)
     return fstat(fileno(journal->stream), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// Locks fail with another error on file systems without locks. There, journal_claim suffices.
+// Locks fail with another error on file systems without locks. There, journal_claim is the only
+// protection.
 static bool take_lock(Journal *journal, FILE *stream, Error *error)
 {
     journal->is_busy = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -125,7 +126,7 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Fills the new file and locks it before it gets the journal's name.
+// Fills and locks the new file, which does not have the journal's name yet.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A journal is a file of checksummed records. A long job appends its results to it. A later run
+// A journal is a file of checksummed records. A long job appends its results, and a later run
 // resumes from them. Reading stops at the first damaged record, and journal_claim drops the rest.
 #pragma once
 

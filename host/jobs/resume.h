@@ -20,7 +20,8 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Opens the earlier picture unless a journal exists.
+// Opens the earlier EXR file unless a journal exists. Fails if the output exists and is not a
+// regular file.
 bool resume_look(Resume *resume, const Options *options, Error *error);
 
 // Opens the journal and copies the finished tiles into framebuffer. Stores the number of finished

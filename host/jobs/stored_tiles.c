@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Without its entries on tiles, a picture file's settings text identifies the whole picture.
+// The settings text of a picture file, without its entries on tiles, identifies the whole picture.
 #include "jobs/stored_tiles.h"
 
 #include "base/processors.h"
@@ -72,8 +72,7 @@ bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image)
     return true;
 }
 
-// Removes the tile entries from the settings.
-static void strip(json_t *json)
+static void remove_tile_entries(json_t *json)
 {
     json_object_del(json, "tile");
     json_object_del(json, "tiles_done");
@@ -106,8 +105,8 @@ bool stored_tiles_done(const StoredImage *image, const char *settings_text,
     json_t *own = json_loads(settings_text, 0, NULL);
     bool ok = stored != NULL && own != NULL && count_done(image, stored, settings, tiles);
     if (ok) {
-        strip(stored);
-        strip(own);
+        remove_tile_entries(stored);
+        remove_tile_entries(own);
         ok = json_equal(stored, own) != 0;
     }
     json_decref(stored);

@@ -55,10 +55,10 @@ bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;
-    bool is_whole; // of the size of the whole picture, even for a part (tile_frame_size)
+    bool is_whole; // have the whole picture's size, even for a part (tile_frame_size)
 } TileTarget;
 
-// Copies tiles 0 to count - 1 of the file, which must have the settings' tile size, and colors and
+// Copies tiles 0 to count - 1 of the file. The file must have the settings' tile size, colors, and
 // the channels of target->layers.
 bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
                        const TileTarget *target, Error *error);

@@ -19,7 +19,7 @@ REFUSALS = [
     (2, "--fail is for clrt compare", [SCENE, "-o", "a.png", "--fail", "rmse=1"]),
     (2, LIMITS, [*BOTH, "--fail", "mse=1"]),
     (2, "the picture and the report cannot both go to standard output", [*BOTH, "-o", "-"]),
-    (3, "a.pfm and b.pfm do not both have a channel 'primitive', so that a limit on hits cannot be judged",
+    (3, "a.pfm and b.pfm do not both have a channel 'primitive', which a limit on hits needs",
      [*BOTH, "--fail", "hits=0"]),
     (3, "a.pfm has 4 x 1 pixels and long.pfm has 5 x 1", ["compare", "a.pfm", "long.pfm"]),
     (3, "none.pfm: cannot be read: No such file or directory", ["compare", "a.pfm", "none.pfm"]),

@@ -83,14 +83,14 @@ class Scenes(Convert):
     def test_the_meshes_of_a_scene_become_one_where_they_are(self):
         self.write(a_ply=models.ply(POINTS, TRIANGLES),
                    a_scn="mesh a.ply scale 0.1\nmesh a.ply rotate 1 1 1 30\n")
-        losses = "materials, lights and cameras are left out, which PLY has no place for"
+        losses = "materials, lights and cameras are left out, because PLY cannot store them"
         self.converts("a.scn", "b.ply", says=f"clrt: b.ply: {losses}\n")
         self.write(b_scn="mesh b.ply\n")
         self.expect_same_pictures("a.scn", "b.scn", 2)
 
     def test_spheres_do_not_become_a_mesh(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        self.refuses(3, "a.scn: PLY has no place for its 1 spheres: convert it to .scn",
+        self.refuses(3, "a.scn: PLY cannot store its 1 spheres: convert it to .scn",
                      "convert", "a.scn", "b.ply")
         self.assertFalse((self.work / "b.ply").exists())
 
@@ -142,7 +142,7 @@ class Models(Convert):
                    a_mtl="newmtl red\nKd 0.7 0.1 0.3\nKs .3 .3 .3\nNs 33.3\nnewmtl dull blue\nKd 0 0 .7\n")
         self.converts("a.obj", "b.scn")
         self.expect_same_pictures("a.obj", "b.scn", 2)
-        losses = "materials are left out, which PLY has no place for"
+        losses = "materials are left out, because PLY cannot store them"
         self.converts("a.obj", "b.ply", says=f"clrt: b.ply: {losses}\n")
 
     def test_changed_files_are_converted_or_refused_in_one_sentence(self):

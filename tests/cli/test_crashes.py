@@ -32,7 +32,7 @@ class Crashes(CacheWork):
 
     @unittest.skipUnless(platform.machine() == "x86_64", "elsewhere every crash is a driver's")
     def test_a_crash_of_its_own_is_told_and_ends_it_by_the_signal(self):
-        told = "clrt: an error of clrt's own (SIGSEGV): please report it\n"
+        told = "clrt: clrt itself crashed (SIGSEGV): please report it\n"
         self.assertEqual(self.crash("own"), (-signal.SIGSEGV, told, None))
 
     def test_a_driver_that_ends_the_program_is_told(self):

@@ -93,7 +93,7 @@ class Crop(Work):
         for crop in ("1,2,3", "1,2,3,4,5", "4,0,4,9", "0,9,9,3", "-1,0,9,9", "0,0,1.5,1", "a,0,9,9", ""):
             self.refuses(2, "--crop wants X0,Y0,X1,Y1, pixels from the upper left corner or parts of the sides "
                          f"from 0 to 1, not '{crop}'", *WHOLE, "-o", "a.pfm", "--crop", crop)
-        self.refuses(3, "the crop 0,0,62,43 leaves the picture of 61 x 43 pixels",
+        self.refuses(3, "the crop 0,0,62,43 exceeds the picture of 61 x 43 pixels",
                      *WHOLE, "-o", "a.pfm", "--crop", "0,0,62,43")
         self.refuses(3, "no pixel of the picture of 61 x 43 is in the crop",
                      *WHOLE, "-o", "a.pfm", "--crop", "0.1,0,0.101,1")

@@ -197,7 +197,7 @@ class Scenes(Explain):
     def test_special_kernels_have_what_the_scene_has(self):
         found = self.expect_parts(["ball.scn", "--specialize", "always"],
                                   spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
-                                  mirrors=(False, False, "no material in use reflects: no ray is followed on"))
+                                  mirrors=(False, False, "no material in use reflects: no reflected rays"))
         self.assertEqual(found["program"], {"special": True, "reason": "--specialize always"})
 
     def test_general_kernels_have_all_but_counters_that_nobody_requests(self):
@@ -209,7 +209,7 @@ class Scenes(Explain):
     def test_silhouettes_are_not_lit_and_few_triangles_get_no_tree(self):
         self.expect_parts(["flat.scn", "--specialize", "always"],
                           lights=(False, False, "all materials in use are silhouettes: no shadow rays"),
-                          tree=(False, False, "10 triangles are tested sooner than found"))
+                          tree=(False, False, "testing all 10 triangles is faster"))
 
     def test_requested_trees_and_kernels_are_there(self):
         words = ["flat.scn", "--bvh", "sah", "--kernel", "ray", "--nodes", "pair"]

@@ -110,7 +110,7 @@ class Parts(SharedWork):
         self.expect_whole(names, *scene, "sah")
         for other in ["--bvh", "midpoint"], ["--nodes", "pair"]:
             mixed = [names[0], *self.draw("other", *scene, "sah", *other, of=2, parts=[2])]
-            self.refuses_parts("other2.exr: is of another set of settings than count1.exr", *mixed)
+            self.refuses_parts("other2.exr: has other settings than count1.exr", *mixed)
 
     def test_each_part_draws_its_tiles_alone(self):
         whole, rays = read_exr(self.work / "small.exr")[1], 0
@@ -129,8 +129,8 @@ class Parts(SharedWork):
                                (["-s", "1024x1024", "--part", "1/2"], 0), (["-s", "64x64", "--part", "1/1"], 0),
                                (["-s", "64x64", "--part", "2/2", "-q"], 0)):
             tiles = 256 if "1024x1024" in words else 1
-            note = (f"clrt: a part of fewer than 128 tiles may take much longer than the others: {tiles} "
-                    f"tiles suffice for N={advised}\n")
+            note = (f"clrt: a part of fewer than 128 tiles may take much longer than the others: for "
+                    f"{tiles} tiles, give at most N={advised}\n")
             done = self.run_clrt(SCENE, *words, "-o", "few.exr")
             self.assertEqual((done.returncode, done.stderr), (0, note if advised else ""), words)
 
@@ -172,26 +172,26 @@ class Parts(SharedWork):
         self.write(own_scn=scene + "\n", mesh_scn=scene.replace("plateau", "cube"))
         # The settings are compared as a whole. test_provenance.py has what they contain.
         for words, of, thing in (
-            (SMALL + ["--aa"], 3, "set of settings"), (SMALL + ["--tile", "8x16"], 3, "set of settings"),
-            (SMALL + ["--crop", "0,0,40,40"], 3, "set of settings"), (SMALL, 2, "set of settings"),
-            (["own.scn", *SMALL[1:]], 3, "scene"), (["mesh.scn", *SMALL[1:]], 3, "mesh"),
-            (SMALL + ["--aov", "depth"], 3, "set of channels"),
+            (SMALL + ["--aa"], 3, "other settings"), (SMALL + ["--tile", "8x16"], 3, "other settings"),
+            (SMALL + ["--crop", "0,0,40,40"], 3, "other settings"), (SMALL, 2, "other settings"),
+            (["own.scn", *SMALL[1:]], 3, "another scene"), (["mesh.scn", *SMALL[1:]], 3, "another mesh"),
+            (SMALL + ["--aov", "depth"], 3, "other channels"),
         ):
             self.clrt(*words, "--part", f"2/{of}", "-o", "other.exr")
-            self.refuses_parts(f"other.exr: is of another {thing} than third1.exr", self.thirds[0], "other.exr")
+            self.refuses_parts(f"other.exr: has {thing} than third1.exr", self.thirds[0], "other.exr")
 
     def test_missing_and_doubled_parts_are_refused(self):
         one, _, three = self.thirds
         self.refuses_parts("part 2 of 3 is missing", one, three)
         self.refuses_parts("parts 1,3 of 3 are missing: no.exr: cannot be read: No such file or directory",
                            "no.exr", self.thirds[1])
-        self.refuses_parts(f"{one}: is part 1 of 3, which {one} is already", one, one)
+        self.refuses_parts(f"{one}: is part 1 of 3, as is {one}", one, one)
 
     def test_what_is_no_part_is_refused(self):
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
         self.write(text_exr="no picture")
-        self.refuses_parts("small.exr: is no part of a picture that --part drew", "small.exr")
-        self.refuses_parts("bare.exr: is no part of a picture that --part drew", "bare.exr")
+        self.refuses_parts("small.exr: is not a part drawn with --part", "small.exr")
+        self.refuses_parts("bare.exr: is not a part drawn with --part", "bare.exr")
         self.refuses_parts("text.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "text.exr")
 
     def test_damaged_parts_are_refused_with_their_number(self):
@@ -224,7 +224,7 @@ class Parts(SharedWork):
                           (b'"part":[1,3]', b'"part":[0,3]'), (b'"height":43', b'"height":-3')):
             self.assertIn(true, honest)
             self.write(lie_exr=honest.replace(true, lie))
-            self.refuses_parts("lie.exr: is no part of a picture that --part drew", "lie.exr")
+            self.refuses_parts("lie.exr: is not a part drawn with --part", "lie.exr")
 
     def test_channels_need_a_file_that_holds_them(self):
         names = self.draw("channel", *SMALL, *CHANNELS, of=1)
@@ -240,7 +240,7 @@ class Parts(SharedWork):
             (["-o", "a.exr", "--error", "1%"],
              "--part does not go with --aa-adaptive, --error and --time, which refine the picture as a "
              "whole: give --aa"),
-            (["-o", "a.exr", "--reference"], "--reference is of whole pictures: leave out --part"),
+            (["-o", "a.exr", "--reference"], "--reference measures whole pictures: leave out --part"),
             (["-o", "a.exr", "--no-metadata"], "--part needs the metadata: leave out --no-metadata"),
         ):
             self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)

@@ -25,7 +25,7 @@ TILES = WIDTH // TILE * HEIGHT // TILE
 LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tile", f"{TILE}x{TILE}", "-j", "1"]
 ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tile", "2000x2000", "-j", "1"]
 SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
-OTHER = "is of another scene, other settings or another version of clrt: remove it to begin again"
+OTHER = "has another scene, other settings or another version of clrt: remove it to begin again"
 
 
 class Resume(Work):
@@ -131,7 +131,7 @@ class Kills(Resume):
         self.clrt(*SMALL, "-o", NAME)
         talk = self.run_clrt(*SMALL, "-o", NAME, "--resume", "--stats").stderr.splitlines()
         found = 24 if HAS_EXR else 0
-        self.assertEqual(talk[0], f"{found} of 24 tiles were there: time and counts are of the others")
+        self.assertEqual(talk[0], f"{found} of 24 tiles were finished before: time and counts cover the others")
         self.assertIn(f"{0 if HAS_EXR else 2623} samples, ", talk[2])
 
     def test_any_format_goes_on(self):

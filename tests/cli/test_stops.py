@@ -123,7 +123,7 @@ class Stops(Work):
         process.send_signal(signal.SIGINT)
         talk = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
-        self.assertRegex(talk, r"^clrt: stopped: (\d+ of 100000 pictures are drawn|a\.\d+\.\w+ is whole)\n$")
+        self.assertRegex(talk, r"^clrt: stopped: (\d+ of 100000 pictures are drawn|a\.\d+\.\w+ is complete)\n$")
 
 
 if __name__ == "__main__":

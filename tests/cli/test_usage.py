@@ -76,7 +76,7 @@ class Combinations(Work):
             self.refuses(ways, *PICTURE, aa, "--aa-adaptive")
             self.refuses(ways, *PICTURE, aa, "--time", "1")
         for count in "2", "1":
-            sentence = "--repeat times whole pictures: leave out --resume"
+            sentence = "--repeat measures whole pictures: leave out --resume"
             self.refuses(sentence, *PICTURE, "--resume", "--repeat", count)
         for view in "2", "1":
             sentence = "--frames names the views: leave out --view"

@@ -82,7 +82,7 @@ class Farm(unittest.TestCase):
 
     def found(self, task):
         """Returns how many tiles each run of the task found."""
-        return [int(number) for number in re.findall(r"^(\d+) of 32 tiles were there", self.log(task), re.M)]
+        return [int(number) for number in re.findall(r"^(\d+) of 32 tiles were finished before", self.log(task), re.M)]
 
     def expect_whole(self):
         try:

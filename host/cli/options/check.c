@@ -25,13 +25,13 @@ static const Conflict conflicts[] = {
      "whole: "
      "give --aa"},
     {{"part"}, {"no-metadata"}, "--part needs the metadata: leave out --no-metadata"},
-    {{"resume"}, {"repeat"}, "--repeat times whole pictures: leave out --resume"},
+    {{"resume"}, {"repeat"}, "--repeat measures whole pictures: leave out --resume"},
     {{"frames", "turntable"},
      {"expect-hash"},
-     "--frames and --turntable draw many pictures, and --expect-hash is of one"},
+     "--frames and --turntable draw many pictures, and --expect-hash checks one"},
 };
 
-// Returns the first name on the command line, or NULL. Skips the name `but`.
+// Returns the first of these options on the command line, or NULL. Skips the option `but`.
 static const char *first_given(const Options *options, const char *const names[NAMES_MOST],
                                const char *but)
 {
@@ -87,7 +87,7 @@ static bool check_window(Options *options, Error *error)
 }
 #endif
 
-// The way to films that clrt does not write; their name follows.
+// Advice on film formats that clrt does not write. The name of the film follows.
 #define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
 static bool check_format(Options *options, Error *error)
@@ -108,7 +108,7 @@ static bool check_format(Options *options, Error *error)
                             "another format");
 }
 
-// A rule that the options break or keep.
+// A rule on combinations of options.
 typedef struct {
     bool is_broken;
     const char *sentence; // a format; %s is the file's format
@@ -140,16 +140,16 @@ static bool check_file(const Options *options, Error *error)
         {options->parts > 0 && !takes_layers,
          "--part needs an EXR file (-o FILE.exr), which clrt merge reads"},
         {options->parts > 0 && options->reference,
-         "--reference is of whole pictures: leave out --part"},
+         "--reference measures whole pictures: leave out --part"},
         {options->resume && is_adaptive,
          "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as "
          "a whole: give --aa"},
         {options->resume && strcmp(options->output_path, "-") == 0,
          "--resume needs a file: give -o FILE"},
-        {is_certain && is_adaptive, "--aov certainty is of the samples of --aa: leave out "
+        {is_certain && is_adaptive, "--aov certainty certifies the samples of --aa: leave out "
                                     "--aa-adaptive, --error and --time"},
         {is_certain && options->kernel.precision != PRECISION_FP32,
-         "--aov certainty is of pictures in fp32: leave out --precision fp64"},
+         "--aov certainty certifies pictures in fp32: leave out --precision fp64"},
     };
     return CHECK_RULES(rules);
 }
@@ -161,8 +161,8 @@ static bool check_frames(Options *options, Error *error)
     const Frames *frames = &options->frames;
     const Rule rules[] = {
         {strcmp(options->output_path, "-") == 0, MANY "standard output takes one: give -o FILE"},
-        {options->statistics_path != NULL, MANY "--stats=FILE is of one"},
-        {options->reference_path != NULL, MANY "--reference=FILE is of one"},
+        {options->statistics_path != NULL, MANY "--stats=FILE describes one"},
+        {options->reference_path != NULL, MANY "--reference=FILE holds one"},
         {options->resume && frames->is_film,
          MANY "--resume wants a file for each: give another format"},
         {frames->turntable == 0 && option_is_given(options, "view"),
@@ -191,7 +191,7 @@ static void choose_precision(Options *options)
         kernel->precision = PRECISION_FP64;
 }
 
-// At most one output goes to standard output.
+// Fails if several outputs go to standard output.
 static bool check_streams(const Options *options, Error *error)
 {
     const bool picture = strcmp(options->output_path, "-") == 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which pixels and which pictures a run draws. A pixel of a crop has the same bits as in the whole
-// picture. File numbers follow the convention of programs that convert films.
+// Selects the pixels and the pictures that a run draws. A pixel of a crop has the same bits as in
+// the whole picture. File numbers follow the convention of programs that convert films.
 #include "cli/options/options.h"
 
 #include "base/array.h"
@@ -131,7 +131,7 @@ bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error)
     const uint32_t left = edge_of(crop, 0, width), top = edge_of(crop, 1, height),
                    right = edge_of(crop, 2, width), bottom = edge_of(crop, 3, height);
     if (right > width || bottom > height)
-        return error_set(error, "the crop %u,%u,%u,%u leaves the picture of %u x %u pixels", left,
+        return error_set(error, "the crop %u,%u,%u,%u exceeds the picture of %u x %u pixels", left,
                          top, right, bottom, width, height);
     if (left == right || top == bottom)
         return error_set(error, "no pixel of the picture of %u x %u is in the crop", width, height);

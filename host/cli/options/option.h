@@ -23,7 +23,7 @@ typedef enum {
     OPTION_GROUPS
 } OptionGroup;
 
-// How changing a setting may affect the picture's pixels.
+// The possible effect of a setting on the pixels.
 typedef enum {
     CLASS_NONE,        // selects a different picture, or has no effect on pixels
     CLASS_EXACT,       // all values produce the same bits
@@ -87,13 +87,13 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
 bool options_check_conflicts(const Options *options, Error *error);
 
 // Determines whether the picture goes to a file or to the window, and the file's format. Rejects
-// options that apply only to the other.
+// options for the other one.
 bool options_check_purpose(Options *options, Error *error);
 
-// The same for clrt compare, whose picture is optional.
+// Does what options_check_purpose does, for clrt compare, whose picture is optional.
 bool options_check_compare(Options *options, Error *error);
 
-// The same for clrt merge, which always writes a file.
+// Does what options_check_purpose does, for clrt merge, which always writes a file.
 bool options_check_merge(Options *options, Error *error);
 
 // Setters of options whose values fit none of the kinds.
@@ -130,7 +130,7 @@ typedef struct {
 } Command;
 
 extern const Command command_table[];
-extern const size_t command_count; // without those that an option selects
+extern const size_t command_count; // excludes the commands that an option selects
 
 // Returns the command called word, or NULL.
 const Command *command_named(const char *word);
@@ -138,7 +138,7 @@ const Command *command_named(const char *word);
 // Returns the command that an option such as --explain selects, or NULL.
 const Command *command_of_action(Action action);
 
-// Returns whether the command accepts the option. If command is NULL, clrt renders.
+// Returns whether the command accepts the option. NULL stands for rendering.
 bool command_takes(const Command *command, const Option *option);
 
 // Writes the commands that accept the option, for example "clrt check or clrt compare".

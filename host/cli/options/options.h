@@ -37,7 +37,7 @@ typedef struct {
     uint32_t first, last, step; // last is 0 without --frames
     uint32_t turntable;         // steps per full turn; 0: frames are views
     bool is_film;               // one animated file instead of numbered files
-    Share share;                // of the frames above, until frames_complete
+    Share share;                // of these frames; frames_complete applies and clears it
     bool skips_finished;        // skip frames whose files exist, and write only whole frames
 } Frames;
 
@@ -63,7 +63,7 @@ uint32_t frames_at(const Frames *frames, uint32_t place);
 // Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);
 
-// --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any of them has a dot.
+// --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any number has a dot.
 typedef struct {
     bool is_given;
     bool in_parts;     // fractions of the sides, each from 0 to 1
@@ -155,10 +155,10 @@ typedef struct {
     uint32_t width, height;  // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
-    bool resume;          // one picture; frames have their own flag
+    bool resume;          // for one picture; frames have skips_finished
     Frames frames;
     int64_t max_level; // negative: the scene's
-    bool fits_level;   // use the smallest max_level whose error no file of the format shows
+    bool fits_level;   // use the smallest max_level whose error is invisible in a file of the format
     bool no_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one

@@ -31,7 +31,7 @@ static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
     *shorts = '\0';
 }
 
-// Names of other programs for options of clrt.
+// Option names of other programs, with the options of clrt.
 static const struct {
     const char *name, *option;
 } synonyms[] = {
@@ -129,7 +129,7 @@ static bool read_scene(Options *options, int count, char **arguments, Error *err
            (options->action != ACTION_RENDER || options_check_purpose(options, error));
 }
 
-// Rejects a word after an option, as in "--aa 4", that is a valid value of the option and no file.
+// Rejects a valid value after a space, as in "--aa 4", unless a file has this name.
 static bool check_loose_value(const Option *option, const char *word, Error *error)
 {
     Options scratch;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Parses shares. The share "auto" is the task number in a variable of the environment.
 #include "cli/options/options.h"
 
 #include "base/number.h"
@@ -7,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The first variable that is set counts. Slurm sets SLURM_PROCID in the tasks of arrays, too, so
-// ranks come last.
+// clrt reads the first variable that is set. Ranks come last, because Slurm sets SLURM_PROCID in
+// the tasks of arrays too.
 static const struct {
     const char *name;
-    int64_t first;
+    int64_t first; // the number of the first task
 } variables[] = {
     {"SLURM_ARRAY_TASK_ID", 1},
     {"AWS_BATCH_JOB_ARRAY_INDEX", 0},

@@ -46,7 +46,7 @@ const Option option_table[] = {
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(up), GROUP_PICTURE, CLASS_NONE, FOR_TRACING | FOR_CONVERT,
-     "axis of a mesh file that points up, without a scene (default: auto, by format and shape)"},
+     "axis that points up in a mesh file without a scene (default: auto, by format and shape)"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -96,7 +96,7 @@ const Option option_table[] = {
      "takes I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
-     "incomplete EXR file; of many pictures, skip those whose files exist"},
+     "incomplete EXR file; for many pictures, skip those whose files exist"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
@@ -105,7 +105,7 @@ const Option option_table[] = {
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
      "threads of a CPU device (default: all that the process may use)"},
     {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE,
-     "compile the kernels ahead, also those for SCENE if it is named; draw nothing"},
+     "compile the kernels in advance, and those for SCENE if it is named; draw nothing"},
 
     {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE, FOR_PICTURE | FOR_EXPLAIN,
      "count rays and tests; write them as JSON to FILE (- is standard output); in the window, "
