@@ -59,8 +59,8 @@ static void handle(int number, siginfo_t *info, void *context)
     char message[160];
     const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
     const bool is_own = is_own_code(context);
-    char *next = stpcpy(message, is_own ? "clrt: clrt itself crashed (SIG"
-                                        : "clrt: a driver crashed (SIG");
+    char *next =
+        stpcpy(message, is_own ? "clrt: clrt itself crashed (SIG" : "clrt: a driver crashed (SIG");
     next = stpcpy(next, sigabbrev_np(number));
     stpcpy(next, is_own ? "): please report it\n"
                         : "): run clrt again; if it crashes again, try another --device\n");

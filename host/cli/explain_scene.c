@@ -56,9 +56,8 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
         needed.shaded
             ? part("lights", true, "%u of them shade materials in use", flat->light_count)
             : part("lights", false, "all materials in use are silhouettes: no shadow rays"),
-        needed.mirrors
-            ? part("mirrors", true, "a material in use reflects")
-            : part("mirrors", false, "no material in use reflects: no reflected rays"),
+        needed.mirrors ? part("mirrors", true, "a material in use reflects")
+                       : part("mirrors", false, "no material in use reflects: no reflected rays"),
         needed.statistics ? part("statistics", true, "--stats counts rays and tests")
                           : part("statistics", false, "not requested: no --stats")};
     memcpy(parts, list, sizeof list);
@@ -90,8 +89,9 @@ static const char *scene_program_reason(const Run *run)
     const bool is_special = run->renderer.is_special;
     if (run->options->specialization != SPECIALIZE_AUTO)
         return is_special ? "--specialize always" : "--specialize never";
-    return is_special ? "the kernels are compiled already, or save more than compiling costs"
-                      : "special kernels are not compiled yet, and would save less than compiling costs";
+    return is_special
+               ? "the kernels are compiled already, or save more than compiling costs"
+               : "special kernels are not compiled yet, and would save less than compiling costs";
 }
 
 #define SCHEMA_VERSION 2

@@ -21,7 +21,7 @@ typedef struct {
     Provenance provenance; // the first part's, with the devices of all parts
     StoredTiles first;     // of the first part
     const char **paths;    // by part, NULL for a missing part; the array is owned
-    bool joins; // copies compressed tiles into an EXR file instead of decoding them
+    bool joins;            // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
     Error unopened;  // the reason why a part cannot be opened
     bool is_damaged; // a part cannot be used
@@ -118,8 +118,8 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
                          merging->options->part_paths[0]);
     const char **place = &merging->paths[tiles->settings.part];
     if (*place != NULL)
-        return error_set(error, "%s: is part %u of %u, as is %s", path,
-                         tiles->settings.part + 1, tiles->settings.parts, *place);
+        return error_set(error, "%s: is part %u of %u, as is %s", path, tiles->settings.part + 1,
+                         tiles->settings.parts, *place);
     *place = path;
     note_device(merging, image);
     return true;

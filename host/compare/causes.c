@@ -14,9 +14,12 @@
 const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
                                               "reflection", "coverage", "rounding"};
 const char *const cause_meanings[CAUSE_KINDS] = {
-    "another primitive is hit first", "other lights reach it",
-    "--max-level ends its reflections", "its reflections differ",
-    "it has other samples",           "the same samples: rounding, if the scene is the same"};
+    "another primitive is hit first",
+    "other lights reach it",
+    "--max-level ends its reflections",
+    "its reflections differ",
+    "it has other samples",
+    "the same samples: rounding, if the scene is the same"};
 
 // The channels that show causes.
 enum { PRIMITIVE, SHADOW, BOUNCES, SAMPLES, CHANNELS };

@@ -49,7 +49,7 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
                cannot(journal, "written", error);
     }
     if (memcmp(head.magic, MAGIC, sizeof head.magic) != 0)
-        return error_set(error, "%s: is no journal of clrt", journal->path);
+        return error_set(error, "%s: is not a journal of clrt", journal->path);
     return memcmp(head.key, key, sizeof head.key) == 0 ||
            error_set(error,
                      "%s: has another scene, other settings or another version of clrt: remove "
@@ -95,7 +95,7 @@ bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Err
     *journal = (Journal){.path = path, .stream = fopen(path, "ab+e")};
     if (journal->stream == NULL)
         return cannot(journal, "opened", error);
-    bool ok = is_regular(journal) || error_set(error, "%s: is no journal of clrt", path);
+    bool ok = is_regular(journal) || error_set(error, "%s: is not a journal of clrt", path);
     ok = ok && take_lock(journal, journal->stream, error);
     rewind(journal->stream);
     ok = ok && check_head(journal, key, error);

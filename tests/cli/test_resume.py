@@ -254,11 +254,11 @@ class Refusals(Resume):
             self.refuses(3, f"{NAME}.part: {OTHER}", *words, "-o", NAME, "--resume")
             self.assertTrue(self.journal.read_bytes() == journal)
         self.journal.write_bytes(b"something else, of some length")
-        self.refuses(3, f"{NAME}.part: is no journal of clrt", *LONG, "-o", NAME, "--resume")
+        self.refuses(3, f"{NAME}.part: is not a journal of clrt", *LONG, "-o", NAME, "--resume")
 
     def test_a_pipe_in_the_journals_place_is_refused(self):
         os.mkfifo(self.journal)
-        self.refuses(3, f"{NAME}.part: is no journal of clrt", *SMALL, "-o", NAME, "--resume")
+        self.refuses(3, f"{NAME}.part: is not a journal of clrt", *SMALL, "-o", NAME, "--resume")
 
     @needs_exr
     def test_an_exr_that_was_drawn_otherwise_is_refused(self):

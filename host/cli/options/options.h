@@ -158,7 +158,7 @@ typedef struct {
     bool resume;          // for one picture; frames have skips_finished
     Frames frames;
     int64_t max_level; // negative: the scene's
-    bool fits_level;   // use the smallest max_level whose error is invisible in a file of the format
+    bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
     bool no_bvh;
     BvhBuilder builder;
     const char *device;         // NULL: the best one
