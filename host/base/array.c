@@ -1,32 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Errors, arrays and memory. Grows ARRAYs by doubling, and reports failed allocations through
-// Error.
+// Grows ARRAYs by doubling, and reports failed allocations through Error.
 #include "base/array.h"
 
-#include "base/error.h"
-
-#include <stdarg.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-
-bool error_set(Error *error, const char *format, ...)
-{
-    if (error->text[0] == '\0') {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error->text, sizeof error->text, format, arguments);
-        va_end(arguments);
-    }
-    return false;
-}
-
-bool error_out_of_memory(Error *error, unsigned long long bytes)
-{
-    return error_set(error, "out of memory: %llu bytes could not be allocated", bytes);
-}
 
 // Devices that read host arrays in place need this alignment for their widest vectors.
 #define ALIGNMENT ((size_t)64)

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Formats the first failure and ignores the others.
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+bool error_set(Error *error, const char *format, ...)
+{
+    if (error->text[0] == '\0') {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->text, sizeof error->text, format, arguments);
+        va_end(arguments);
+    }
+    return false;
+}
+
+bool error_out_of_memory(Error *error, unsigned long long bytes)
+{
+    return error_set(error, "out of memory: %llu bytes could not be allocated", bytes);
+}
