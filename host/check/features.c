@@ -30,16 +30,10 @@ static Shape scaled_shape(const Shape *shape, double scale)
                     vec3_scale(shape->corners[2], scale)}};
 }
 
+// Returns whether the corners lie on one line, up to the rounding of fp64.
 static bool is_flat(const Shape *shape)
 {
     return vec3_extent(doubled_area(shape)) == 0;
-}
-
-// Returns whether the triangle's corners lie on one line, up to the rounding of fp64.
-static bool features_is_flat(const Mesh *mesh, size_t triangle)
-{
-    const Shape shape = shape_of(mesh, triangle);
-    return is_flat(&shape);
 }
 
 // Returns the spacing of floats at the shape's largest coordinate.
@@ -140,9 +134,11 @@ Features features_of(const Mesh *mesh, const Normalization *normalization)
 static MeshFault flat_triangles(const Mesh *mesh)
 {
     MeshFault flat = {0};
-    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
-        if (features_is_flat(mesh, triangle))
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+        const Shape shape = shape_of(mesh, triangle);
+        if (is_flat(&shape))
             mesh_fault_add(&flat, triangle);
+    }
     return flat;
 }
 
