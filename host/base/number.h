@@ -2,7 +2,6 @@
 // Parses numbers in text, correctly rounded and independent of the locale.
 #pragma once
 
-#include <stdbool.h>
 #include <stdint.h>
 
 // Parses one decimal number (sign, digits, point, exponent; no hex, no "inf", no "nan") at text,

@@ -8,7 +8,6 @@
 
 #include <assert.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define EYES         32
 #define EYE_DISTANCE 3.0 // in radii of the mesh, from its center

@@ -7,7 +7,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 // If an edge is shorter than this number of float steps, rounding can change its length by a
 // thirtieth or more, which is visible.

@@ -11,7 +11,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static bool count_leaks(Check *check, const Options *options, RayCaster *caster, Error *error)
 {

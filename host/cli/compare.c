@@ -8,8 +8,6 @@
 #include "image/image_file.h"
 #include "image/stored_image.h"
 
-#include <string.h>
-
 static bool measure(Comparison *comparison, Error *error)
 {
     ImagePair *pair = &comparison->pair;
@@ -18,10 +16,9 @@ static bool measure(Comparison *comparison, Error *error)
     difference_measure(&comparison->difference, pair);
     causes_find(&comparison->causes, pair);
     if (comparison->limits->given[LIMIT_HITS] && !comparison->difference.has_hits)
-        return error_set(
-            error,
-            "%s and %s do not both have a channel '%s', which a limit on hits needs",
-            pair->paths[0], pair->paths[1], DIFFERENCE_HITS);
+        return error_set(error,
+                         "%s and %s do not both have a channel '%s', which a limit on hits needs",
+                         pair->paths[0], pair->paths[1], DIFFERENCE_HITS);
     return true;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
+#include "cli/process.h"
 #include "image/image_file.h"
 #include "scene/camera.h"
 

@@ -5,13 +5,13 @@
 
 #include "accel/flat.h"
 #include "base/clock.h"
+#include "cli/process.h"
 #include "device/device.h"
 #include "refine/adaptive.h"
 #include "refine/ladder.h"
 #include "render/certifier.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 // Returns the truncation error that counts toward --error. It is 0 if --max-level sets the number

@@ -7,7 +7,6 @@
 #include "render/renderer.h"
 
 #include <inttypes.h>
-#include <string.h>
 #include <sys/resource.h>
 
 #define SCHEMA_VERSION 1
@@ -51,7 +50,8 @@ void report_write_text(const Run *run, FILE *stream)
     const Report *report = &run->report;
     if (run->options->resume)
         fprintf(stream,
-                "%" PRIu64 " of %" PRIu64 " tiles were finished before: time and counts cover the others\n",
+                "%" PRIu64 " of %" PRIu64
+                " tiles were finished before: time and counts cover the others\n",
                 run->settings.ready_tiles, tile_count(&run->settings));
     fprintf(stream, "%.3f seconds\n", report->frame_seconds[0]);
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
@@ -92,8 +92,8 @@ void report_write_error(const Run *run, FILE *stream)
         difference->rmse, 100 * difference->rmse, difference->maximum, difference->maximum_x,
         difference->maximum_y, 100 * (double)difference->off_by_1 / pixels,
         100 * (double)difference->off_by_4 / pixels);
-    fprintf(stream, "reference: fp64, %u samples a pixel, own RMSE %.2g, %.2f s\n",
-            result->samples, result->own_error, result->seconds);
+    fprintf(stream, "reference: fp64, %u samples a pixel, own RMSE %.2g, %.2f s\n", result->samples,
+            result->own_error, result->seconds);
 }
 
 static json_t *rays_json(const Run *run)

@@ -8,7 +8,6 @@
 #include "cli/options/option.h"
 #include "device/device.h"
 #include "image/image_file.h"
-#include "scene/camera.h"
 #include "scene/mesh_load.h"
 #include "scene/scene.h"
 #include "scene/scn.h"

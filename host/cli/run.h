@@ -6,7 +6,6 @@
 
 #include "accel/flat.h"
 #include "cli/options/options.h"
-#include "cli/process.h"
 #include "mesh/ply.h"
 
 #include <pthread.h>

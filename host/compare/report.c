@@ -5,7 +5,6 @@
 #include "image/json_file.h"
 
 #include <inttypes.h>
-#include <math.h>
 
 #define SCHEMA_VERSION 1
 
